@@ -1,0 +1,29 @@
+"""The commands of the command line, one file each. A new one is a file and a line of COMMANDS."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from .bench import bench
+from .compare import compare
+from .extract import extract
+from .info import info
+from .params import params
+from .record import record
+from .score import score
+from .sweep import sweep
+from .tune import tune
+from .view import view
+
+COMMANDS: dict[str, Callable[..., None]] = {
+    "view": view,
+    "extract": extract,
+    "info": info,
+    "params": params,
+    "record": record,
+    "score": score,
+    "sweep": sweep,
+    "tune": tune,
+    "compare": compare,
+    "bench": bench,
+}

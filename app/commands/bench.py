@@ -1,0 +1,46 @@
+"""`lineseg bench`: what a frame costs on this machine."""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+from json import dumps
+from pathlib import Path
+
+from tyro.conf import Positional
+
+from lineseg.readers import TextOptions
+
+from .progress import open_with_progress
+
+
+def bench(
+    file: Positional[Path | None] = None,
+    *,
+    json: bool = False,
+    topic: str | None = None,
+) -> None:
+    """Time the extraction, beside the least that the method can do.
+
+    Args:
+        file: recording to take; without it, the samples.
+        json: write JSON instead of a table.
+        topic: laser topic to take; the first without.
+    """
+    from lineseg.bench import bench as measure
+    from lineseg.bench import table
+    from lineseg.survey import cores
+
+    from ..places import data_folder
+
+    samples = data_folder("sample_scans")
+    files = [samples / "hallway.npz", samples / "laboratory.npz"] if file is None else [file]
+    reports = []
+    for path in files:
+        recording = open_with_progress(path, topic, TextOptions())
+        timings = measure(recording)
+        facts = {"file": recording.name, "frames": len(recording), "beams": recording.beams, "cores": cores()}
+        reports.append(facts | {"timings": [asdict(timing) for timing in timings]})
+        if not json:
+            print(f"{recording.name}, {recording.beams[1]} beams\n{table(timings)}", flush=True)
+    if json:
+        print(dumps(reports, indent=2))

@@ -1,0 +1,119 @@
+"""`lineseg compare`: every method on the same frames."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+from tyro.conf import Positional, arg
+
+from lineseg.readers import TextOptions
+from lineseg.scan import Recording
+
+from .progress import open_with_progress, progress_bar
+
+if TYPE_CHECKING:
+    from lineseg.compare import Comparison
+
+SAMPLES = ("hallway", "laboratory")
+
+
+def compare(
+    files: Positional[tuple[str, ...]] = (),
+    *,
+    methods: tuple[str, ...] = (),
+    budget: int = 150,
+    frames: int = 60,
+    out: Annotated[Path | None, arg(aliases=["-o"])] = None,
+    figures: Path | None = None,
+    topic: str | None = None,
+) -> None:
+    """Compare methods as the paper's tables do: TR, FR, completeness, endpoint errors, time.
+
+    Every method is tuned on one half of the frames by the same number of evaluations, and judged on the other, beside
+    its defaults. Without truth methods are only timed. Ctrl-C stops, and what is done is written.
+
+    Args:
+        files: recordings, or names of samples and simulated worlds; all of these without.
+        methods: names of methods; all without.
+        budget: settings that are tried for each method; 0 for the defaults alone.
+        frames: take so many frames of each recording, half of them to tune on.
+        out: file to write, .md, .csv or .json; Markdown on standard output without.
+        figures: folder for two pictures of each recording: times over the frames, and one frame by every method.
+        topic: laser topic to take; the first without.
+    """
+    from lineseg.compare import TABLE_WRITERS, Comparison
+    from lineseg.compare.figures import write_figures
+    from lineseg.simulate.worlds import WORLDS
+
+    if out is not None and out.suffix.lower() not in TABLE_WRITERS:
+        raise ValueError(f"{out}: a comparison is written as {', '.join(TABLE_WRITERS)}.")
+    if out is not None and not out.absolute().parent.is_dir():
+        raise FileNotFoundError(f"{out}: the folder {out.parent} does not exist.")
+    if figures is not None and not figures.is_dir():
+        raise FileNotFoundError(f"{figures}: there is no such folder.")
+    recordings = [_recording(name, topic) for name in files or (*SAMPLES, *WORLDS)]
+    comparisons = [Comparison(recording, methods or None, budget, frames) for recording in recordings]
+    _run(comparisons)
+    rows = [row for comparison in comparisons for row in comparison.rows]
+    for comparison in comparisons:
+        if figures is not None and comparison.rows:
+            write_figures(comparison.rows, comparison.recording, comparison.halves.judged, figures)
+    text = TABLE_WRITERS[".md" if out is None else out.suffix.lower()](rows)
+    if out is None:
+        sys.stdout.write(text)
+    else:
+        out.write_text(text, encoding="utf-8")
+
+
+def _run(comparisons: Sequence[Comparison]) -> None:
+    """Until all is done, or Ctrl-C."""
+    total = sum(comparison.steps for comparison in comparisons)
+    done = 0
+    with progress_bar("compare", "step") as advance:
+        try:
+            for comparison in comparisons:
+                for step, _ in enumerate(comparison.run(), 1):
+                    done += 1
+                    advance(done, total)
+                    if step == len(comparison.methods):
+                        _tell(comparison)
+        except KeyboardInterrupt:
+            if not any(comparison.rows for comparison in comparisons):
+                raise
+            print("lineseg: stopped; this is what is done.", file=sys.stderr)
+
+
+def _tell(comparison: Comparison) -> None:
+    """Above the progress bar: how a recording is divided, and who leads so far."""
+    from tqdm import tqdm
+
+    from lineseg.compare.tables import ranked
+
+    training, judged = (len(half) for half in comparison.halves)
+    text = f"{comparison.recording.name}: {training} frames to tune on, {judged} to judge by"
+    if comparison.truth:
+        best = ranked(comparison.rows)[0]
+        text += f"; with the defaults {best.label} leads, {best.score:.3f}"
+    tqdm.write(text, file=sys.stderr)
+
+
+def _recording(name: str, topic: str | None) -> Recording:
+    """A file, or the sample or the world of this name."""
+    from lineseg.simulate.worlds import WORLDS
+
+    from ..places import data_folder
+
+    path = Path(name)
+    if name in SAMPLES and not path.exists():
+        path = data_folder("sample_scans") / f"{name}.npz"
+    if name in WORLDS and not path.exists():
+        return WORLDS[name].recording(name)
+    if not path.exists():
+        known = ", ".join((*SAMPLES, *WORLDS))
+        raise FileNotFoundError(
+            f"{name}: there is no such file, nor a sample or world of that name; there are {known}."
+        )
+    return open_with_progress(path, topic, TextOptions())

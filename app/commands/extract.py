@@ -1,0 +1,57 @@
+"""`lineseg extract`: segments to a file."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Annotated
+
+from tyro.conf import OmitArgPrefixes, Positional, arg
+
+from lineseg.covariance import Noise
+from lineseg.readers import TextOptions
+from lineseg.writers import SEGMENT_WRITERS, write_segments
+
+from .progress import counted, open_with_progress
+from .thresholds import Choice
+
+
+def extract(
+    file: Positional[Path],
+    choice: OmitArgPrefixes[Choice],
+    text: OmitArgPrefixes[TextOptions],
+    *,
+    out: Annotated[Path | None, arg(aliases=["-o"])] = None,
+    topic: str | None = None,
+    range_noise: float | None = None,
+    bearing_noise: float | None = None,
+) -> None:
+    """Write the segments of a recording as JSON lines, CSV or GeoJSON.
+
+    Args:
+        file: recording to read.
+        choice: method and thresholds; what is not given is taken from --params, or is the default.
+        text: what a plain text file does not say about itself.
+        out: file to write, .jsonl, .csv or .geojson; JSON lines on standard output without.
+        topic: laser topic to take; the first without.
+        range_noise: standard deviation of a range [m]; with it, or with --bearing-noise, every segment is written with
+            its (rho, theta) and their covariance.
+        bearing_noise: standard deviation of a bearing [rad].
+    """
+    chosen = choice.thresholds
+    noise = None
+    if range_noise is not None or bearing_noise is not None:
+        noise = Noise(range_noise or 0.0, bearing_noise or 0.0)
+    if out is not None and out.suffix.lower().removeprefix(".") not in SEGMENT_WRITERS:
+        raise ValueError(f"{out}: segments are written as {', '.join(f'.{format}' for format in SEGMENT_WRITERS)}.")
+    if out is not None and not out.absolute().parent.is_dir():
+        raise FileNotFoundError(f"{out}: the folder {out.parent} does not exist.")
+    recording = open_with_progress(file, topic, text)
+    from lineseg import extract as extract_segments
+
+    scans = counted(enumerate(recording), len(recording), "extract")
+    rows = ((frame, scan, extract_segments(scan, chosen)) for frame, scan in scans)
+    if out is None:
+        write_segments(sys.stdout, "jsonl", rows, noise)
+    else:
+        write_segments(out, None, rows, noise)

@@ -1,0 +1,46 @@
+"""`lineseg info`: what a recording holds."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+from tyro.conf import OmitArgPrefixes, Positional
+
+from lineseg.readers import TextOptions
+from lineseg.scan import Recording
+
+from .progress import open_with_progress
+
+
+def info(file: Positional[Path], text: OmitArgPrefixes[TextOptions], *, topic: str | None = None) -> None:
+    """Say what a recording holds.
+
+    Args:
+        file: recording to read.
+        text: what a plain text file does not say about itself.
+        topic: laser topic to take; the first without.
+    """
+    for name, value in _facts(open_with_progress(file, topic, text)):
+        print(f"{name:<14}{value}")
+
+
+def _facts(recording: Recording) -> Iterator[tuple[str, object]]:
+    yield "file", recording.name
+    yield "format", recording.format
+    for topic in recording.topics:
+        yield "topic", f"{topic.name} ({topic.scans} scans){' *' if topic.name == recording.topic else ''}"
+    yield "scans", len(recording)
+    least, most = recording.beams
+    yield "beams", least if least == most else f"{least} to {most}"
+    views = np.array([np.rad2deg(np.ptp(scan.bearings)) for scan in recording if len(scan)] or [0.0])
+    yield "field of view", f"{np.median(views):.2f}°"
+    steps = [np.rad2deg(np.abs(np.diff(scan.bearings)).mean()) for scan in recording if len(scan) > 1] or [0.0]
+    yield "beam spacing", f"{np.median(steps):.4f}°"
+    valid = sum(int(np.count_nonzero(scan.valid)) for scan in recording)
+    yield "invalid beams", f"{1 - valid / max(len(recording.ranges), 1):.2%}"
+    longest = [scan.ranges[scan.valid].max() for scan in recording if scan.valid.any()]
+    yield "longest range", f"{max(longest, default=0.0):.3f} m"
+    if recording.stamps.any():
+        yield "duration", f"{np.ptp(recording.stamps):.3f} s"

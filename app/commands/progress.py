@@ -1,0 +1,76 @@
+"""Long work on a terminal: a progress bar, and Ctrl-C that ends it."""
+
+from __future__ import annotations
+
+import signal
+import sys
+import threading
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from types import FrameType
+from typing import Any, TypeVar
+
+from lineseg.readers import TextOptions, open_recording
+from lineseg.scan import Recording
+
+T = TypeVar("T")
+_interrupted = threading.Event()
+
+
+@contextmanager
+def interruptible() -> Iterator[None]:
+    """Ctrl-C raises KeyboardInterrupt; where a finaliser swallows that, the next step of the progress bar raises it.
+
+    Compilation runs finalisers all the time, and Python only prints what they raise.
+    """
+
+    def interrupt(number: int, frame: FrameType | None) -> None:
+        _interrupted.set()
+        raise KeyboardInterrupt
+
+    def unraisable(lost: Any) -> None:
+        if not issubclass(lost.exc_type, KeyboardInterrupt):
+            former_hook(lost)
+
+    _interrupted.clear()
+    if signal.getsignal(signal.SIGINT) is not signal.default_int_handler:
+        # Somebody else's handler, or a background job that ignores Ctrl-C.
+        yield
+        return
+    former_hook, sys.unraisablehook = sys.unraisablehook, unraisable
+    signal.signal(signal.SIGINT, interrupt)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+        sys.unraisablehook = former_hook
+
+
+@contextmanager
+def progress_bar(what: str, unit: str) -> Iterator[Callable[[int, int], None]]:
+    """A progress bar on stderr, on a terminal only; it shows when there is something to wait for."""
+    from tqdm import tqdm
+
+    with tqdm(desc=what, unit=unit, unit_scale=True, leave=False, disable=None, delay=0.5) as bar:
+
+        def advance(done: int, total: int) -> None:
+            if _interrupted.is_set():
+                raise KeyboardInterrupt
+            bar.total = total or None
+            bar.update(done - bar.n)
+
+        yield advance
+
+
+def counted(items: Iterable[T], total: int, what: str) -> Iterator[T]:
+    """The items, counted by a progress bar."""
+    with progress_bar(what, "scan") as advance:
+        for done, item in enumerate(items):
+            advance(done, total)
+            yield item
+
+
+def open_with_progress(file: Path, topic: str | None, text: TextOptions) -> Recording:
+    with progress_bar("read", "B") as advance:
+        return open_recording(file, topic, advance, text)

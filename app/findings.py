@@ -1,0 +1,149 @@
+"""What a method found in one frame, with the numbers the page shows about it."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lineseg import EXTRACTORS, Decision, Extraction, Recording, Scan, Thresholds, Trace
+from lineseg.knobs import Knob
+from lineseg.region_growing.log import CHECKS
+from lineseg.tracing import GrowthTrace
+
+BINS = 24
+
+
+@dataclass(frozen=True)
+class Histogram:
+    """How often the quantity that a threshold cuts had which value; `passed` and `failed` have the same bins."""
+
+    low: float
+    high: float
+    log: bool
+    passed: tuple[int, ...]
+    failed: tuple[int, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Findings:
+    """One frame under one method and its thresholds. extraction_us: time of the extraction without its trace."""
+
+    scan: Scan
+    extraction: Extraction
+    trace: Trace
+    extraction_us: float
+
+    @cached_property
+    def seeds(self) -> dict[int, tuple[int, int]]:
+        """First and last beam of the window each candidate grew from; none where a method has no seeds."""
+        if "seed found" not in self.trace.vocabulary.names:
+            return {}
+        found = (self.trace[int(index)] for index in self.trace.indices("seed found"))
+        return {decision.candidate: (decision.first, decision.last) for decision in found}
+
+    @cached_property
+    def drops(self) -> tuple[Decision, ...]:
+        """The decisions that dropped a line."""
+        return tuple(self.trace[int(index)] for index in self.trace.jump("drop"))
+
+    def ends(self, decision: Decision) -> NDArray[np.float64]:
+        """(2, 2): the outermost points of its span [m]; a program that takes dropouts for points may end it at one."""
+        beams = self.trace.beams(decision.first, decision.last)
+        return self.scan.xy[beams[[0, -1]]] if len(beams) else np.zeros((2, 2))
+
+    @cached_property
+    def marks(self) -> dict[str, list[int]]:
+        """Decision indices at which replay may halt."""
+        marks = {name: self.trace.jump(name).tolist() for name in ("seed", "line", "drop", "merge")}
+        return marks | {"phase": self.trace.starts("phase").tolist()}
+
+    @cached_property
+    def histograms(self) -> dict[str, Histogram]:
+        return histograms(self)
+
+
+def findings(recording: Recording, frame: int, method: str, params: Thresholds) -> Findings:
+    """Run the method on one frame."""
+    scan = recording[frame]
+    extractor = EXTRACTORS[method]
+    # The faster of two, because other threads may take the processor away in between.
+    elapsed = min(_seconds(lambda: extractor.extract(scan, params)) for _ in range(2))
+    trace = extractor.trace(scan, params)
+    return Findings(scan, trace.extraction, trace, elapsed * 1e6)
+
+
+def _seconds(work: Callable[[], object]) -> float:
+    begun = time.perf_counter()
+    work()
+    return time.perf_counter() - begun
+
+
+def histograms(found: Findings) -> dict[str, Histogram]:
+    """For ε and δ every distance that was compared with it; for P_min and L_min every line that was grown."""
+    measured = _lines_measured(found)
+    if isinstance(found.trace, GrowthTrace):
+        measured |= _distances_measured(found, found.trace)
+    knobs = {name: knob for name, _, knob in found.trace.params.knobs() if name in measured}
+
+    def of(knob: Knob, passed: NDArray | list, failed: NDArray | list) -> Histogram:
+        return histogram(np.asarray(passed, float), np.asarray(failed, float), knob.low, knob.high, knob.log)
+
+    return {name: of(knob, *measured[name]) for name, knob in knobs.items()}
+
+
+def _lines_measured(found: Findings) -> dict[str, tuple[Any, Any]]:
+    """(kept, dropped) of the numbers of points and of the lengths of all lines."""
+    segments, dropped = found.extraction.segments, found.extraction.dropped
+    return {
+        "min_points": ([s.points for s in segments], [d.points for d in dropped if d.check == "min_points"]),
+        "min_length": ([s.length for s in segments], [d.length for d in dropped if d.check == "min_length"]),
+    }
+
+
+def _distances_measured(found: Findings, trace: GrowthTrace) -> dict[str, tuple[Any, Any]]:
+    """(accepted, refused) of the distances to the line and to the predicted point."""
+    to_line, to_predicted = _seed_distances(found)
+    growth = trace.log[trace.indices("point added")]["value"]
+    return {
+        "epsilon": (np.concatenate((to_line, growth)), _refused(trace, "epsilon")),
+        "delta": (to_predicted, _refused(trace, "delta")),
+    }
+
+
+def histogram(passed: NDArray, failed: NDArray, low: float, high: float, log: bool) -> Histogram:
+    """Counts between low and high, even in the logarithm if `log`; what lies beyond falls into the outermost bins."""
+    scale: Callable[[Any], Any] = np.log if log else np.asarray
+    tiny = low * 1e-6 if log else -np.inf
+
+    def counts(values: NDArray) -> tuple[int, ...]:
+        kept = values[~np.isnan(values)]
+        place = (scale(np.clip(kept, max(tiny, low), high)) - scale(low)) / (scale(high) - scale(low))
+        bins = np.minimum((place * BINS).astype(int), BINS - 1)
+        return tuple(np.bincount(bins, minlength=BINS).tolist())
+
+    return Histogram(low, high, log, counts(passed), counts(failed))
+
+
+def _seed_distances(found: Findings) -> tuple[NDArray, NDArray]:
+    """Distances to the line, and to the predicted point, of all points of the seeds that were found."""
+    rows = found.trace.log[found.trace.indices("seed found")]
+    if not len(rows):
+        return np.empty(0), np.empty(0)
+    beams = [found.trace.beams(first, last) for first, last in found.seeds.values()]
+    a, b, c = (np.repeat(rows[name], [len(window) for window in beams]) for name in "abc")
+    inside = np.concatenate(beams)
+    xy, bearings, ranges = found.scan.xy[inside], found.scan.bearings[inside], found.scan.ranges[inside]
+    with np.errstate(divide="ignore"):
+        predicted = -c / (a * np.cos(bearings) + b * np.sin(bearings))
+    return np.abs(a * xy[:, 0] + b * xy[:, 1] + c), np.abs(ranges - predicted)
+
+
+def _refused(trace: GrowthTrace, check: str) -> NDArray:
+    rows = trace.log[np.concatenate((trace.indices("seed rejected"), trace.indices("growth stopped")))]
+    return rows["value"][rows["check"] == CHECKS.index(check)]

@@ -1,0 +1,118 @@
+"""The Foxglove WebSocket protocol: channels with an encoding each; JSON for control, binary messages for data."""
+
+from __future__ import annotations
+
+import json
+import struct
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from websockets.sync.connection import Connection
+from websockets.typing import Subprotocol
+
+from lineseg.readers.laser_scan import TYPES, LaserScan, decode_cdr, decode_json, decode_ros1
+from lineseg.segment import Extraction
+
+from .markers import MARKER_ARRAY, MARKER_ENCODERS
+
+if TYPE_CHECKING:
+    from .robot import Told
+
+SUBPROTOCOLS = [Subprotocol("foxglove.sdk.v1"), Subprotocol("foxglove.websocket.v1")]
+MESSAGE_DATA = 1
+HEADER = struct.Struct("<BIQ")
+SUBSCRIPTION = 1
+
+DECODERS: dict[str, Callable[[bytes], LaserScan]] = {
+    "cdr": decode_cdr,
+    "ros1": decode_ros1,
+    "json": lambda data: decode_json(json.loads(data)),
+}
+
+
+class Foxglove:
+    """One side of a connection. Channels come and go; the first that fits is taken, and waited for."""
+
+    name = "Foxglove WebSocket"
+
+    def __init__(self, socket: Connection) -> None:
+        self._socket = socket
+        self._channels: dict[int, dict[str, Any]] = {}
+        self._chosen: int | None = None
+        self._server: dict[str, Any] = {}
+        self._advertised: dict[str, int] = {}
+
+    def scans(self, topic: str | None, told: Told) -> None:
+        for data in self._socket:
+            if isinstance(data, str):
+                self._hear(json.loads(data), topic, told)
+            elif self._chosen is not None and len(data) > HEADER.size:
+                opcode, subscription, _ = HEADER.unpack_from(data)
+                if (opcode, subscription) == (MESSAGE_DATA, SUBSCRIPTION):
+                    decode = DECODERS[self._channels[self._chosen]["encoding"]]
+                    told.hand(lambda decode=decode, data=data: decode(data[HEADER.size :]))
+
+    def publish(self, topic: str, extraction: Extraction, scan: LaserScan) -> None:
+        if "clientPublish" not in self._server.get("capabilities", []):
+            raise ValueError("the robot takes no messages: its Foxglove server has no clientPublish")
+        supported = self._server.get("supportedEncodings") or []
+        encoding = next((name for name in MARKER_ENCODERS if name in supported), None)
+        if encoding is None:
+            taken = ", ".join(supported) or "nothing"
+            raise ValueError(f"the robot takes messages as {taken}; {', '.join(MARKER_ENCODERS)} can be sent")
+        if topic not in self._advertised:
+            id = self._advertised[topic] = len(self._advertised) + 1
+            channel = {"id": id, "topic": topic, "encoding": encoding, "schemaName": MARKER_ARRAY}
+            self._send(op="advertise", channels=[channel])
+        payload = MARKER_ENCODERS[encoding](extraction, scan)
+        self._socket.send(struct.pack("<BI", MESSAGE_DATA, self._advertised[topic]) + payload)
+
+    def _hear(self, message: dict[str, Any], topic: str | None, told: Told) -> None:
+        match message.get("op"):
+            case "serverInfo":
+                self._server = message
+            case "advertise":
+                self._channels |= {channel["id"]: channel for channel in message["channels"]}
+            case "unadvertise":
+                for id in message["channelIds"]:
+                    self._channels.pop(id, None)
+                if self._chosen is not None and self._chosen not in self._channels:
+                    self._send(op="unsubscribe", subscriptionIds=[SUBSCRIPTION])
+                    self._chosen = None
+            case "status" if message.get("level") == 2:
+                told.waits(f"the robot says: {message.get('message')}")
+                return
+        if self._chosen is None:
+            self._choose(topic, told)
+
+    def _choose(self, topic: str | None, told: Told) -> None:
+        for id, channel in self._channels.items():
+            if topic in (None, channel["topic"]) and _is_laser(channel):
+                self._chosen = id
+                told.topic_is(channel["topic"])
+                told.waits(f"subscribed to {channel['topic']}; waiting for its first scan")
+                self._send(op="subscribe", subscriptions=[{"id": SUBSCRIPTION, "channelId": id}])
+                return
+        told.waits(self._why_none(topic))
+
+    def _why_none(self, topic: str | None) -> str:
+        named = [channel for channel in self._channels.values() if channel["topic"] == topic]
+        if named:
+            return f"{_shown(named[0])}; a sensor_msgs/LaserScan as {', '.join(DECODERS)} is needed"
+        there = ", ".join(_shown(channel) for channel in list(self._channels.values())[:8])
+        missing = f"has no topic {topic}" if topic else "has no sensor_msgs/LaserScan topic"
+        return f"the robot {missing} yet; it has {there or 'no topic at all'}"
+
+    def _send(self, **message: Any) -> None:
+        self._socket.send(json.dumps(message))
+
+
+def _is_laser(channel: dict[str, Any]) -> bool:
+    """JSON has no fixed names of types: there the last part of the name counts."""
+    schema, encoding = str(channel["schemaName"]), channel["encoding"]
+    named = schema in TYPES or (encoding == "json" and schema.split("/")[-1] == "LaserScan")
+    return named and encoding in DECODERS
+
+
+def _shown(channel: dict[str, Any]) -> str:
+    return f"{channel['topic']} is {channel['schemaName'] or 'of no type'} as {channel['encoding']}"

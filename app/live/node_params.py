@@ -1,0 +1,114 @@
+"""Thresholds as parameters of a running node, over rosbridge, each read back."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+from urllib.parse import urlsplit
+
+from websockets.exceptions import WebSocketException
+from websockets.sync.client import connect
+
+from lineseg import Params
+
+from . import check_address
+from .robot import LARGEST_MESSAGE, OPEN_SECONDS, why_not
+from .rosbridge import RobotError, RosBridge
+
+# rcl_interfaces/msg/ParameterType
+NOT_SET, INTEGER, DOUBLE = 0, 2, 3
+VALUE_FIELDS = {1: "bool_value", INTEGER: "integer_value", DOUBLE: "double_value", 4: "string_value"}
+
+
+@dataclass(frozen=True)
+class Sent:
+    """One parameter: under which name, what was sent, what the robot has now (None if nothing), and what it said.
+
+    taken: whether the robot has the value that was sent.
+    """
+
+    name: str
+    threshold: str
+    value: int | float
+    now: Any
+    taken: bool
+    reason: str
+
+
+def send_params(url: str, node: str, params: Params, ros: int = 2, extensions: bool = False) -> list[Sent]:
+    """Set the thresholds of `node` and read them back; what a robot refuses stands in the result in its own words.
+
+    extensions: also those that the authors' program does not know. A robot that cannot be reached is an OSError, one
+    that has no such node a RobotError.
+    """
+    check_address(url)
+    place = urlsplit(url).netloc
+    try:
+        with connect(url, open_timeout=OPEN_SECONDS, max_size=LARGEST_MESSAGE, proxy=None) as socket:
+            bridge = RosBridge(socket)
+            values = dict(_values(params, extensions))
+            return (_set_ros1 if ros == 1 else _set_ros2)(bridge, node, values)
+    except RobotError as error:
+        raise RobotError(f"{place} says: {error}") from None
+    except (OSError, WebSocketException) as error:
+        raise OSError(why_not(place, error)) from None
+
+
+def _values(params: Params, extensions: bool) -> Iterator[tuple[str, tuple[str, int | float]]]:
+    for field, _, knob in params.knobs():
+        if extensions or not knob.extension:
+            yield knob.ros or field, (field, getattr(params, field))
+
+
+def _set_ros2(bridge: RosBridge, node: str, values: dict[str, tuple[str, int | float]]) -> list[Sent]:
+    """rcl_interfaces/srv/SetParameters, then GetParameters."""
+    parameters = [{"name": name, "value": _value_of(value)} for name, (_, value) in values.items()]
+    results = bridge.call(f"{node}/set_parameters", {"parameters": parameters}).get("results", [])
+    now = bridge.call(f"{node}/get_parameters", {"names": list(values)}).get("values", [])
+    if len(results) != len(values) or len(now) != len(values):
+        raise RobotError(f"{len(results)} results and {len(now)} values for {len(values)} parameters")
+    reasons = ["" if result.get("successful") else str(result.get("reason") or "refused") for result in results]
+    return _sent(values, [_plain(value) for value in now], reasons)
+
+
+def _set_ros1(bridge: RosBridge, node: str, values: dict[str, tuple[str, int | float]]) -> list[Sent]:
+    """The parameter server by rosapi; a node reads it when it starts."""
+    now, reasons = [], []
+    for name, (_, value) in values.items():
+        reason = ""
+        try:
+            bridge.call("/rosapi/set_param", {"name": f"{node}/{name}", "value": json.dumps(value)})
+        except RobotError as error:
+            reason = str(error)
+        reasons.append(reason)
+        now.append(_json(bridge.call("/rosapi/get_param", {"name": f"{node}/{name}", "default": ""}).get("value")))
+    return _sent(values, now, reasons)
+
+
+def _sent(values: dict[str, tuple[str, int | float]], now: list[Any], reasons: list[str]) -> list[Sent]:
+    rows = zip(values.items(), now, reasons, strict=True)
+    return [
+        Sent(name, field, value, there, there == value and not reason, reason)
+        for (name, (field, value)), there, reason in rows
+    ]
+
+
+def _value_of(value: int | float) -> dict[str, Any]:
+    if isinstance(value, int):
+        return {"type": INTEGER, "integer_value": value}
+    return {"type": DOUBLE, "double_value": value}
+
+
+def _plain(value: Any) -> Any:
+    """A rcl_interfaces/msg/ParameterValue as what it holds; None where it is not set."""
+    field = VALUE_FIELDS.get(value.get("type", NOT_SET)) if isinstance(value, dict) else None
+    return value.get(field) if field else None
+
+
+def _json(text: Any) -> Any:
+    try:
+        return json.loads(text)
+    except (TypeError, ValueError):
+        return text or None

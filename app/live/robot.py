@@ -1,0 +1,179 @@
+"""A robot at the other end of a WebSocket: connected again whenever it is lost."""
+
+from __future__ import annotations
+
+import logging
+import random
+import threading
+from collections.abc import Callable
+from typing import Protocol
+from urllib.parse import urlsplit
+
+from websockets.exceptions import ConnectionClosed, InvalidHandshake, WebSocketException
+from websockets.sync.client import connect
+from websockets.sync.connection import Connection
+
+from lineseg import EXTRACTORS, Scan
+from lineseg.readers.laser_scan import LaserScan
+from lineseg.segment import Extraction
+
+from .foxglove import SUBPROTOCOLS, Foxglove
+from .ring import Ring
+from .rosbridge import RosBridge
+from .source import Publishing, Source
+
+log = logging.getLogger(__name__)
+FIRST_PAUSE, LONGEST_PAUSE = 0.5, 15.0
+OPEN_SECONDS = 5.0
+LARGEST_MESSAGE = 4 * 1024 * 1024
+
+
+class Bridge(Protocol):
+    """What a protocol does on an open connection."""
+
+    name: str
+
+    def scans(self, topic: str | None, told: Told) -> None:
+        """Hand over each scan of the topic until the connection ends; ValueError where there can be none."""
+        ...
+
+    def publish(self, topic: str, extraction: Extraction, scan: LaserScan) -> None:
+        """Send segments as a MarkerArray; ValueError where the robot takes none."""
+        ...
+
+
+class Told(Protocol):
+    """Who hears of a bridge's messages."""
+
+    def topic_is(self, topic: str) -> None: ...
+    def waits(self, why: str) -> None: ...
+    def hand(self, decode: Callable[[], LaserScan]) -> None: ...
+
+
+class Robot(Source):
+    """Takes scans in a thread of its own. Which protocol it is, the robot says: Foxglove picks its subprotocol."""
+
+    def __init__(self, id: str, url: str, ring: Ring, arrived: Callable[[], None], topic: str | None = None) -> None:
+        self._url, self._topic = url, topic
+        self._place = urlsplit(url).netloc
+        super().__init__(id, f"{self._place} {topic or ''}".strip(), ring, arrived)
+        self.ring.topic = topic or ""
+        self._bridge: Bridge | None = None
+        self._socket: Connection | None = None
+        self._pause = FIRST_PAUSE
+        self._closing = threading.Event()
+        self._thread = threading.Thread(target=self._run, name=f"robot {self._place}", daemon=True)
+        self.say("connecting", f"connecting to {self._place}")
+
+    def start(self) -> None:
+        self._thread.start()
+
+    def close(self) -> None:
+        """Hang up; blocks until the thread is gone."""
+        self._closing.set()
+        socket = self._socket
+        if socket is not None:
+            socket.close()
+        if self._thread.is_alive():
+            self._thread.join(timeout=OPEN_SECONDS + 1)
+
+    @property
+    def publishable(self) -> bool:
+        return True
+
+    def publish(self, owner: str, publishing: Publishing | None) -> None:
+        now = self.publishing
+        if now is not None and now.owner != owner:
+            if publishing is not None:
+                raise ValueError(f"another tab publishes its segments to {self._place} already")
+            return
+        self.publish_trouble = ""
+        self.publishing = publishing
+
+    # --- the thread ---------------------------------------------------------------------------------------------------
+
+    def _run(self) -> None:
+        while not self._closing.is_set():
+            why = self._converse()
+            if self._closing.is_set():
+                return
+            pause = self._pause * random.uniform(0.8, 1.2)
+            self._pause = min(2 * self._pause, LONGEST_PAUSE)
+            self.say("lost", f"{why}; trying again in {pause:.1f} s")
+            self._closing.wait(pause)
+
+    def _converse(self) -> str:
+        """Connect and take scans until that ends; why it did."""
+        try:
+            with connect(
+                self._url,
+                subprotocols=SUBPROTOCOLS,
+                open_timeout=OPEN_SECONDS,
+                max_size=LARGEST_MESSAGE,
+                proxy=None,
+            ) as socket:
+                self._socket = socket
+                named = (socket.subprotocol or "").startswith("foxglove.")
+                self._bridge = Foxglove(socket) if named else RosBridge(socket)
+                self.say("open", f"connected to {self._place} by {self._bridge.name}; waiting for scans")
+                self._bridge.scans(self._topic, self)
+        except (OSError, WebSocketException, ValueError) as error:
+            return why_not(self._place, error)
+        except Exception as error:
+            log.exception("%s sent what cannot be understood", self._place)
+            return f"{self._place} sent what cannot be understood ({type(error).__name__}: {error})"
+        finally:
+            self._socket = self._bridge = None
+        return f"{self._place} hung up"
+
+    def topic_is(self, topic: str) -> None:
+        self.ring.topic = topic
+        self.label = f"{self._place} {topic}"
+
+    def waits(self, why: str) -> None:
+        self.say("open", why)
+
+    def hand(self, decode: Callable[[], LaserScan]) -> None:
+        """Take one scan. A message that is none is told, and the next may be one."""
+        try:
+            scan = decode()
+            self.take(scan)
+        except Exception as error:
+            self.refuse(f"a message of {self.ring.topic} is no scan: {error}")
+            return
+        self._pause = FIRST_PAUSE
+        if self._message or self._connection != "open":
+            self.say("open", "")
+        self._publish(scan)
+
+    def _publish(self, received: LaserScan) -> None:
+        to, bridge = self.publishing, self._bridge
+        if to is None or bridge is None:
+            return
+        scan = Scan.regular(
+            received.ranges,
+            received.angle_min,
+            received.angle_increment,
+            range_min=received.range_min,
+            range_max=received.range_max,
+        )
+        try:
+            bridge.publish(to.topic, EXTRACTORS[to.method].extract(scan, to.params), received)
+            self.published += 1
+        except ValueError as error:
+            self.publishing, self.publish_trouble = None, str(error)
+
+
+def why_not(place: str, error: Exception) -> str:
+    """Why a connection failed or ended, in words that name the place."""
+    if isinstance(error, TimeoutError):
+        return f"{place} does not answer"
+    if isinstance(error, ConnectionRefusedError):
+        return f"nothing listens at {place}"
+    if isinstance(error, ConnectionClosed):
+        return f"{place} hung up"
+    if isinstance(error, InvalidHandshake):
+        return f"{place} speaks no WebSocket that can be used ({error})"
+    if isinstance(error, OSError):
+        return f"{place} cannot be reached ({error.strerror or error})"
+    return str(error)

@@ -1,0 +1,121 @@
+"""The rosbridge protocol, version 2: JSON objects with an `op` over a WebSocket. ROS 1 and ROS 2."""
+
+from __future__ import annotations
+
+import itertools
+import json
+import time
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+from websockets.sync.connection import Connection
+
+from lineseg.readers.laser_scan import TYPES, LaserScan, decode_json
+from lineseg.segment import Extraction
+
+from .markers import MARKER_ARRAY, marker_array
+
+if TYPE_CHECKING:
+    from .robot import Told
+
+# Both versions of ROS know a type by its short name.
+LASER_SCAN = "sensor_msgs/LaserScan"
+CALL_SECONDS = 5.0
+
+
+class RobotError(ValueError):
+    """What the robot answered instead of doing it, in its own words."""
+
+
+class RosBridge:
+    """One side of a connection. `call` may be used as long as `scans` is not running."""
+
+    name = "rosbridge"
+
+    def __init__(self, socket: Connection) -> None:
+        self._socket = socket
+        self._ids = (f"lineseg:{n}" for n in itertools.count(1))
+        self._advertised: set[str] = set()
+        self._ros1 = False
+
+    def call(self, service: str, args: Mapping[str, Any], seconds: float = CALL_SECONDS) -> dict[str, Any]:
+        """The values that a service answers; RobotError with the robot's words if it fails, TimeoutError if silent."""
+        id = next(self._ids)
+        self._send(op="call_service", id=id, service=service, args=dict(args))
+        late = time.monotonic() + seconds
+        while True:
+            message = _object(self._socket.recv(timeout=max(late - time.monotonic(), 0)))
+            if message.get("op") == "service_response" and message.get("id") == id:
+                break
+            if _is_trouble(message) and message.get("id") in (id, None):
+                raise RobotError(str(message.get("msg")))
+        values = message.get("values")
+        if message.get("result") is False:
+            raise RobotError(values if isinstance(values, str) and values else f"{service} failed without a reason")
+        return values if isinstance(values, dict) else {}
+
+    def scans(self, topic: str | None, told: Told) -> None:
+        topic = self._laser_topic(topic)
+        told.topic_is(topic)
+        self._send(op="subscribe", id=next(self._ids), topic=topic, type=LASER_SCAN, queue_length=1)
+        told.waits(f"subscribed to {topic}; waiting for its first scan")
+        for data in self._socket:
+            message = _object(data)
+            if message.get("op") == "publish" and message.get("topic") == topic:
+                told.hand(lambda message=message: self._decoded(message.get("msg")))
+            elif _is_trouble(message):
+                raise RobotError(f"{topic}: {message.get('msg')}")
+
+    def _decoded(self, message: Any) -> LaserScan:
+        scan = decode_json(message)
+        self._ros1 = "secs" in message.get("header", {}).get("stamp", {})
+        return scan
+
+    def publish(self, topic: str, extraction: Extraction, scan: LaserScan) -> None:
+        if topic not in self._advertised:
+            self._send(op="advertise", topic=topic, type=MARKER_ARRAY)
+            self._advertised.add(topic)
+        self._send(op="publish", topic=topic, msg=marker_array(extraction, scan, self._ros1))
+
+    def _laser_topic(self, wanted: str | None) -> str:
+        """The topic to take, checked with rosapi; where that does not run, as it was wanted."""
+        try:
+            values = self.call("/rosapi/topics", {})
+        except (RobotError, TimeoutError) as error:
+            if wanted is None:
+                said = str(error) or "no answer"
+                raise ValueError(f"the robot does not list its topics ({said}); name one: --topic /scan") from None
+            return wanted
+        topics = dict(zip(values.get("topics", []), values.get("types", []), strict=False))
+        lasers = [name for name, type in topics.items() if type in TYPES]
+        if wanted is None:
+            if not lasers:
+                raise ValueError(f"the robot has no sensor_msgs/LaserScan topic; it has {_listed(topics)}")
+            return lasers[0]
+        if wanted in lasers:
+            return wanted
+        if wanted in topics:
+            others = f"; there is {', '.join(lasers)}" if lasers else ""
+            raise ValueError(f"{wanted} is {topics[wanted]}; a sensor_msgs/LaserScan is needed{others}")
+        raise ValueError(f"the robot has no topic {wanted}; of laser scans it has {', '.join(lasers) or 'none'}")
+
+    def _send(self, **message: Any) -> None:
+        self._socket.send(json.dumps(message))
+
+
+def _object(data: str | bytes) -> dict[str, Any]:
+    """A message, or an empty one for what is no JSON object."""
+    try:
+        message = json.loads(data)
+    except (ValueError, RecursionError):
+        return {}
+    return message if isinstance(message, dict) else {}
+
+
+def _is_trouble(message: Mapping[str, Any]) -> bool:
+    return message.get("op") == "status" and message.get("level") == "error"
+
+
+def _listed(topics: Mapping[str, str]) -> str:
+    shown = [f"{name} ({type.replace('/msg/', '/')})" for name, type in list(topics.items())[:8]]
+    return ", ".join(shown) + ("…" if len(topics) > 8 else "") or "no topic at all"

@@ -1,0 +1,61 @@
+"""Colours of everything that is drawn, on a light and on a dark ground."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lineseg.colours import SEGMENTS as SEGMENTS
+from lineseg.colours import segment_colours as segment_colours
+
+Colour = tuple[int, int, int]
+Colours = NDArray[np.uint8]
+
+
+@dataclass(frozen=True)
+class Theme:
+    """Colours of everything that is not a segment."""
+
+    point: Colour
+    invalid: Colour
+    strong: Colour
+    faint: Colour
+    grid: Colour
+    axis: Colour
+    truth: Colour
+    laser: Colour
+    accepted: Colour
+    refused: Colour
+    candidate: Colour
+    pinned: Colour
+    changed: Colour
+    matched: Colour
+    missed: Colour
+    false: Colour
+
+
+LIGHT = Theme(
+    point=(140, 145, 152), invalid=(178, 183, 190), strong=(20, 22, 26), faint=(150, 155, 162),
+    grid=(232, 234, 237), axis=(205, 208, 213), truth=(170, 170, 60), laser=(20, 22, 26),
+    accepted=(0, 136, 85), refused=(204, 51, 17), candidate=(238, 51, 119),
+    pinned=(208, 213, 221), changed=(178, 102, 210),
+    matched=(0, 119, 187), missed=(20, 22, 26), false=(238, 119, 51),
+)  # fmt: skip
+DARK = Theme(
+    point=(128, 134, 142), invalid=(92, 98, 107), strong=(245, 246, 248), faint=(120, 126, 134),
+    grid=(56, 60, 67), axis=(92, 98, 107), truth=(150, 150, 60), laser=(235, 237, 240),
+    accepted=(60, 200, 140), refused=(255, 110, 80), candidate=(255, 110, 170),
+    pinned=(70, 76, 86), changed=(150, 88, 190),
+    matched=(51, 160, 238), missed=(245, 246, 248), false=(255, 140, 70),
+)  # fmt: skip
+
+
+def linear(colours: Colours) -> Colours:
+    """From sRGB to linear light; viser takes the colours of line vertices as linear."""
+    return _LINEAR[colours]
+
+
+_SRGB = np.arange(256) / 255
+_LINEAR = np.round(255 * np.where(_SRGB <= 0.04045, _SRGB / 12.92, ((_SRGB + 0.055) / 1.055) ** 2.4)).astype(np.uint8)

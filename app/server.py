@@ -1,0 +1,231 @@
+"""The server: one port for the page, its WebSocket, and the scenes of all tabs."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import errno
+import mimetypes
+import secrets
+import socket
+import threading
+import webbrowser
+from collections.abc import AsyncIterator, Callable
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+import uvicorn
+from fastapi import FastAPI, Request
+from fastapi.exceptions import RequestValidationError
+from fastapi.responses import JSONResponse, Response
+from starlette.exceptions import HTTPException
+from starlette.staticfiles import StaticFiles
+from starlette.types import Scope
+
+from .api import add_api
+from .export import add_export
+from .guard import Guard, is_loopback
+from .inspection import add_inspection
+from .label_files import LabelFiles
+from .labels import add_labels
+from .library import Library
+from .live import Address, Live
+from .live.back import add_back
+from .live.push import add_push
+from .places import data_folder, user_folder
+from .recent import Recent
+from .rerun_tab import add_rerun
+from .session import Watch
+from .sessions import SessionLimits, Sessions
+from .sweep_table import add_sweep_table
+from .tab import add_sockets
+from .tuning import add_tuning
+from .uploads import Uploads
+from .viser_relay import LARGEST_MESSAGE
+from .warm_up import WarmUp
+
+SHUTDOWN_SECONDS = 3
+
+
+@dataclass(frozen=True)
+class Settings:
+    """How to serve.
+
+    files: recordings to offer, the first is shown; topic: of the first. robots: their scans are shown as they come;
+    of each the newest `keep` are kept. host: any but the loopback needs a token, and
+    gets one if there is none. names: further names this machine has for others. upload_limit, upload_total: [bytes].
+    data_folder: where recent files are remembered, and labels that cannot be beside their recording; the user's own
+    without. watch: is told what is drawn in any tab.
+    """
+
+    files: tuple[Path, ...] = ()
+    topic: str | None = None
+    robots: tuple[Address, ...] = ()
+    keep: int = 3000
+    host: str = "127.0.0.1"
+    port: int = 8765
+    token: str | None = None
+    open_browser: bool = True
+    names: tuple[str, ...] = ()
+    upload_limit: int = 2_000_000_000
+    upload_total: int = 8_000_000_000
+    upload_number: int = 20
+    sessions: SessionLimits = field(default_factory=SessionLimits)
+    data_folder: Path | None = None
+    watch: Watch | None = None
+
+
+def create_app(settings: Settings) -> FastAPI:
+    """The application; whoever serves it on more than the loopback must give it a token."""
+    if not is_loopback(settings.host) and not settings.token:
+        raise ValueError(f"host is {settings.host!r}, which others can reach; such a server needs a token")
+    uploads = Uploads(settings.upload_limit, settings.upload_number, settings.upload_total)
+    live = Live(settings.robots, settings.keep)
+    library = Library(settings.files, Recent(settings.data_folder), uploads, live)
+    warm_up = WarmUp()
+    files = LabelFiles(library, user_folder(settings.data_folder))
+    sessions = Sessions(library, files, warm_up, settings.sessions, settings.watch)
+
+    @contextlib.asynccontextmanager
+    async def lifespan(app: FastAPI) -> AsyncIterator[None]:
+        warm_up.start()
+        live.start()
+        reaper = asyncio.create_task(sessions.reap())
+        try:
+            yield
+        finally:
+            reaper.cancel()
+            await sessions.close_all()
+            await asyncio.to_thread(live.close)
+            uploads.close()
+            rerun.close()
+
+    app = FastAPI(lifespan=lifespan, openapi_url=None, docs_url=None, redoc_url=None)
+    app.add_middleware(Guard, host=settings.host, token=settings.token, names=settings.names)
+    app.add_exception_handler(HTTPException, _sentence)
+    app.add_exception_handler(RequestValidationError, _complaint)
+    add_api(app, library, sessions)
+    add_export(app, library, sessions)
+    add_inspection(app, sessions, files)
+    add_labels(app, library, files)
+    add_sockets(app, library, sessions, settings.topic)
+    add_sweep_table(app)
+    add_tuning(app, sessions, user_folder(settings.data_folder) / "studies")
+    add_push(app, library)
+    add_back(app, library, sessions)
+    rerun = add_rerun(app, library, sessions)
+    static = data_folder("static")
+    app.mount("/static", Static(directory=static))
+    app.add_route("/", lambda request: Static(directory=static).file_response_of("index.html", request.scope))
+    return app
+
+
+def serve(settings: Settings, announce: Callable[[str], None] = lambda address: None) -> None:
+    """Serve until interrupted. announce: called with the address to open, once the server answers there.
+
+    A busy port is an OSError that says what to do.
+    """
+    if not is_loopback(settings.host) and not settings.token:
+        settings = replace(settings, token=secrets.token_urlsafe(16))
+    listener = listen(settings.host, settings.port)
+    address = address_of(settings, listener.getsockname()[1])
+
+    def ready() -> None:
+        announce(address)
+        if settings.open_browser:
+            threading.Thread(target=webbrowser.open, args=(address,), daemon=True).start()
+
+    with listener:
+        server_of(create_app(settings), ready).run(sockets=[listener])
+
+
+class Server(uvicorn.Server):
+    """A uvicorn server that says when it listens."""
+
+    def __init__(self, config: uvicorn.Config, ready: Callable[[], None]) -> None:
+        super().__init__(config)
+        self._ready = ready
+
+    async def startup(self, sockets: list[socket.socket] | None = None) -> None:
+        await super().startup(sockets)
+        if self.started:
+            self._ready()
+
+
+def server_of(app: FastAPI, ready: Callable[[], None] = lambda: None) -> Server:
+    config = uvicorn.Config(
+        app,
+        log_level="warning",
+        access_log=False,
+        server_header=False,
+        ws_max_size=LARGEST_MESSAGE,
+        ws_per_message_deflate=False,
+        timeout_graceful_shutdown=SHUTDOWN_SECONDS,
+    )
+    return Server(config, ready)
+
+
+def listen(host: str, port: int) -> socket.socket:
+    """A listening socket; port 0 takes a free one."""
+    try:
+        family = socket.getaddrinfo(host or None, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE)[0][0]
+    except OSError:
+        raise OSError(f"host is {host!r}, which is no address of this machine") from None
+    # With the protocol named, asyncio switches Nagle's algorithm off; else a second message waits 40 ms for the first.
+    listener = socket.socket(family, socket.SOCK_STREAM, socket.IPPROTO_TCP)
+    try:
+        listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+        listener.bind((host, port))
+        listener.listen(128)
+    except OSError as error:
+        listener.close()
+        raise OSError(_why_not(error, host, port)) from None
+    return listener
+
+
+def address_of(settings: Settings, port: int) -> str:
+    """The address to open in a browser on this machine."""
+    host = "localhost" if settings.host in ("", "0.0.0.0", "::", "*") else settings.host
+    shown = f"[{host}]" if ":" in host else host
+    return f"http://{shown}:{port}/" + (f"?token={settings.token}" if settings.token else "")
+
+
+def _why_not(error: OSError, host: str, port: int) -> str:
+    if error.errno == errno.EADDRINUSE:
+        return f"port {port} of {host} is taken, perhaps by another lineseg; give another --port, or 0 for any free one"
+    if error.errno == errno.EACCES:
+        return f"port {port} may not be used by you; give a --port above 1023, or 0 for any free one"
+    return f"{host}, port {port}: {error.strerror}"
+
+
+class Static(StaticFiles):
+    """Files as they are written, asked for again each time; an unchanged one is answered by its ETag."""
+
+    def file_response_of(self, path: str, scope: Scope) -> Response:
+        full, status = self.lookup_path(path)
+        if status is None:
+            raise HTTPException(404, f"{path} is missing in this installation")
+        return self.file_response(full, status, scope)
+
+    def file_response(self, *args, **kwargs) -> Response:
+        response = super().file_response(*args, **kwargs)
+        response.headers["Cache-Control"] = "no-cache"
+        return response
+
+
+async def _sentence(request: Request, error: Exception) -> Response:
+    assert isinstance(error, HTTPException)
+    return JSONResponse({"message": error.detail}, status_code=error.status_code, headers=error.headers)
+
+
+async def _complaint(request: Request, error: Exception) -> Response:
+    """The first thing that is wrong with the body of a request."""
+    assert isinstance(error, RequestValidationError)
+    first = error.errors()[0]
+    place = ".".join(str(part) for part in first["loc"][1:]) or "the request"
+    return JSONResponse({"message": f"{place}: {first['msg'][:1].lower()}{first['msg'][1:]}"}, status_code=422)
+
+
+# Some systems have no type, or a wrong one, for these.
+mimetypes.add_type("text/javascript", ".js")
+mimetypes.add_type("image/svg+xml", ".svg")

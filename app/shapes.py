@@ -1,0 +1,75 @@
+"""What a picture is made of: points and line segments in the plane z = 0."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .palette import Colour, Colours
+
+Bounds = tuple[float, float, float, float]
+
+
+def united(one: Bounds, other: Bounds) -> Bounds:
+    """The smallest box around both."""
+    return min(one[0], other[0]), min(one[1], other[1]), max(one[2], other[2]), max(one[3], other[3])
+
+
+@dataclass(frozen=True, eq=False)
+class Points:
+    """xyz: (n, 3) float32 [m]; colours: (n, 3) sRGB."""
+
+    xyz: NDArray[np.float32]
+    colours: Colours
+
+
+@dataclass(frozen=True, eq=False)
+class Lines:
+    """xyz: (n, 2, 3) float32 [m]; colours: (n, 3) sRGB, one for each line."""
+
+    xyz: NDArray[np.float32]
+    colours: Colours
+
+
+def points_at(xy: ArrayLike, colours: Colours | Colour) -> Points:
+    """Points at (n, 2), all of one colour or each of its own; points that are not finite are left out."""
+    flat = np.asarray(xy, dtype=float).reshape(-1, 2)
+    finite = np.isfinite(flat).all(axis=1)
+    return Points(_raised(flat[finite]), _each(colours, len(flat))[finite])
+
+
+def lines_between(starts: ArrayLike, ends: ArrayLike, colours: Colours | Colour) -> Lines:
+    """Lines from (n, 2) to (n, 2); lines that are not finite are left out."""
+    both = np.stack((np.asarray(starts, float).reshape(-1, 2), np.asarray(ends, float).reshape(-1, 2)), axis=1)
+    finite = np.isfinite(both).all(axis=(1, 2))
+    return Lines(_raised(both[finite]), _each(colours, len(both))[finite])
+
+
+def joined(*parts: Lines) -> Lines:
+    return Lines(np.concatenate([part.xyz for part in parts]), np.concatenate([part.colours for part in parts]))
+
+
+def dashed(starts: NDArray, ends: NDArray, dash: float, colour: Colour, most: int = 4000) -> Lines:
+    """The same lines with gaps as long as the dashes; dashes grow where there would be too many."""
+    lengths = np.linalg.norm(ends - starts, axis=1)
+    dash = max(dash, float(lengths.sum()) / (2 * most))
+    pieces_from, pieces_to = [], []
+    for start, end, length in zip(starts, ends, lengths, strict=True):
+        cuts = np.arange(0.0, length, 2 * dash)
+        along = (end - start) / max(length, 1e-12)
+        pieces_from.append(start + cuts[:, None] * along)
+        pieces_to.append(start + np.minimum(cuts + dash, length)[:, None] * along)
+    if not pieces_from:
+        return lines_between(np.empty((0, 2)), np.empty((0, 2)), colour)
+    return lines_between(np.concatenate(pieces_from), np.concatenate(pieces_to), colour)
+
+
+def _raised(xy: NDArray) -> NDArray[np.float32]:
+    """(…, 2) → (…, 3) with z = 0."""
+    return np.concatenate((xy, np.zeros((*xy.shape[:-1], 1))), axis=-1).astype(np.float32)
+
+
+def _each(colours: Colours | Colour, n: int) -> Colours:
+    return np.broadcast_to(np.asarray(colours, dtype=np.uint8), (n, 3)).copy()

@@ -1,0 +1,59 @@
+"""A frame's trace as the page steps through it: columns, sent once, from which the page tells every decision."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lineseg.tracing import GrowthTrace
+
+from .findings import Findings
+
+# Beyond this a page would be busy for seconds with what nobody steps through.
+MOST_DECISIONS = 50_000
+LINE_DIGITS = 8
+METRE_DIGITS = 6
+
+
+def columns_of(found: Findings) -> dict[str, Any]:
+    """The first MOST_DECISIONS decisions as columns, one entry each, and the points they speak of.
+
+    kinds, checks, phases: names of the numbers in the columns kind, check, phase. first, last, beam: beams, −1 none.
+    jumps: which kinds each jump leads to. text: what each decision says, null where the page says it in its own words.
+    points: how many points lie from first to last. lines: indices at which the search for the next seed begins.
+    x, y: of every beam [m], null where it has no return.
+    """
+    trace, scan = found.trace, found.scan
+    vocabulary = trace.vocabulary
+    rows = trace.log[:MOST_DECISIONS]
+    beams = {name: trace.as_beams(rows[name]).tolist() for name in ("first", "last", "beam")}
+    numbers = {name: rows[name].tolist() for name in ("kind", "check", "direction", "candidate", "partner")}
+    lines = {name: _rounded(rows[name], LINE_DIGITS) for name in ("a", "b", "c", "a2", "b2", "c2")}
+    starts = trace.starts("line")
+    return {
+        "kinds": vocabulary.names,
+        "checks": vocabulary.checks,
+        "phases": vocabulary.phases,
+        "jumps": vocabulary.jumps,
+        "total": len(trace),
+        "circle": scan.full_circle,
+        **numbers,
+        **beams,
+        "phase": trace.phases[:MOST_DECISIONS].tolist(),
+        "points": np.maximum(rows["last"] - rows["first"] + 1, 0).tolist(),
+        **lines,
+        "value": _rounded(rows["value"], METRE_DIGITS),
+        "limit": _rounded(rows["limit"], METRE_DIGITS),
+        "text": None if isinstance(trace, GrowthTrace) else [trace[index].text for index in range(len(rows))],
+        "lines": starts[starts < len(rows)].tolist(),
+        "x": _rounded(np.where(scan.valid, scan.xy[:, 0], np.nan), METRE_DIGITS),
+        "y": _rounded(np.where(scan.valid, scan.xy[:, 1], np.nan), METRE_DIGITS),
+    }
+
+
+def _rounded(values: NDArray, digits: int) -> list[float | None]:
+    """JSON has no NaN and no infinity."""
+    rounded = np.round(np.asarray(values, float), digits)
+    return [value if finite else None for value, finite in zip(rounded.tolist(), np.isfinite(rounded), strict=True)]

@@ -1,0 +1,50 @@
+"""The table of a sweep, for the map of the page."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from fastapi import FastAPI, Request
+from starlette.concurrency import run_in_threadpool
+from starlette.exceptions import HTTPException
+
+from lineseg.finite import finite_or_none
+from lineseg.sweep import MEASURES
+from lineseg.sweep.table import Table, read_table
+
+from .body import body_of
+
+LARGEST = 64 * 1024 * 1024
+
+
+def add_sweep_table(app: FastAPI) -> None:
+    """The route /api/sweep-table, which turns a file into what the map is drawn from; nothing of it is kept."""
+
+    @app.post("/api/sweep-table")
+    async def sweep_table(request: Request, name: str = "sweep.csv") -> dict[str, Any]:
+        content = await body_of(request, LARGEST, "the table of a sweep has")
+        try:
+            return columns_of(await run_in_threadpool(read_table, content, name[:120]))
+        except ValueError as error:
+            raise HTTPException(400, str(error)) from None
+
+
+def columns_of(table: Table) -> dict[str, Any]:
+    """axes: the values of each swept threshold; file: of each row its place in files; columns: of each row."""
+    files, file = np.unique(table.files, return_inverse=True)
+    known = [name for name in MEASURES if np.isfinite(table.numbers[name]).any()]
+    axes = table.axes
+    if len(axes) < 2:
+        swept = ", ".join(axes) or "none"
+        raise ValueError(f"a map needs two thresholds that were swept; in this table: {swept}")
+    return {
+        "files": files.tolist(),
+        "axes": {name: values.tolist() for name, values in axes.items()},
+        "measures": known,
+        "file": file.tolist(),
+        "columns": {
+            name: [finite_or_none(value) for value in table.numbers[name].tolist()]
+            for name in (*axes, "frames", *known)
+        },
+    }

@@ -1,0 +1,133 @@
+"""Files that were dropped on the page, in a temporary folder that goes with the server."""
+
+from __future__ import annotations
+
+import secrets
+import shutil
+import tempfile
+import threading
+import unicodedata
+from collections.abc import AsyncIterator
+from dataclasses import dataclass
+from pathlib import Path
+
+LONGEST_NAME = 120
+
+
+class TooLargeError(ValueError):
+    """An upload beyond the limit."""
+
+
+class TooManyError(ValueError):
+    """More uploads at once than the server takes."""
+
+
+@dataclass(frozen=True)
+class Upload:
+    id: str
+    name: str
+    path: Path
+    size: int
+
+
+class Uploads:
+    """At most `number` files of `limit` bytes each, `total` bytes together; the oldest make room for new ones."""
+
+    def __init__(self, limit: int, number: int, total: int, at_once: int = 4) -> None:
+        self.limit = limit
+        self._number = number
+        self._total = max(total, limit)
+        self._at_once = at_once
+        self._arriving = 0
+        self._kept: dict[str, Upload] = {}
+        self._folder: Path | None = None
+        self._lock = threading.Lock()
+
+    def __getitem__(self, id: str) -> Upload:
+        with self._lock:
+            return self._kept[id]
+
+    def all(self) -> list[Upload]:
+        with self._lock:
+            return list(self._kept.values())
+
+    async def receive(self, name: str, announced: int | None, chunks: AsyncIterator[bytes]) -> Upload:
+        """Stream one file to disk; of a refused file nothing stays."""
+        if announced is not None and announced > self.limit:
+            raise TooLargeError(self._too_large(name))
+        with self._lock:
+            if self._arriving >= self._at_once:
+                raise TooManyError(f"{self._arriving} files are being uploaded; wait for one of them to finish")
+            self._arriving += 1
+        id = secrets.token_urlsafe(9)
+        path = self._place() / id / safe_name(name)
+        path.parent.mkdir()
+        try:
+            size = await self._write(path, name, chunks)
+        except BaseException:
+            shutil.rmtree(path.parent, ignore_errors=True)
+            raise
+        finally:
+            with self._lock:
+                self._arriving -= 1
+        upload = Upload(id, path.name, path, size)
+        self._keep(upload)
+        return upload
+
+    def discard(self, id: str) -> None:
+        with self._lock:
+            upload = self._kept.pop(id, None)
+        if upload is not None:
+            shutil.rmtree(upload.path.parent, ignore_errors=True)
+
+    def close(self) -> None:
+        """Remove every upload and the folder."""
+        with self._lock:
+            folder, self._folder = self._folder, None
+            self._kept.clear()
+        if folder is not None:
+            shutil.rmtree(folder, ignore_errors=True)
+
+    async def _write(self, path: Path, name: str, chunks: AsyncIterator[bytes]) -> int:
+        size = 0
+        with path.open("xb") as stream:
+            async for chunk in chunks:
+                size += len(chunk)
+                if size > self.limit:
+                    raise TooLargeError(self._too_large(name))
+                stream.write(chunk)
+        if size == 0:
+            raise ValueError(f"{safe_name(name)} is empty")
+        return size
+
+    def _keep(self, upload: Upload) -> None:
+        with self._lock:
+            self._kept[upload.id] = upload
+            outdated = []
+            while len(self._kept) > self._number or sum(kept.size for kept in self._kept.values()) > self._total:
+                outdated.append(self._kept.pop(next(iter(self._kept))))
+        for old in outdated:
+            shutil.rmtree(old.path.parent, ignore_errors=True)
+
+    def _place(self) -> Path:
+        with self._lock:
+            if self._folder is None:
+                self._folder = Path(tempfile.mkdtemp(prefix="lineseg-"))
+            return self._folder
+
+    def _too_large(self, name: str) -> str:
+        return (
+            f"{safe_name(name)} is larger than {self.limit / 1e6:g} MB, the most an upload may have; "
+            "open it from the command line instead"
+        )
+
+
+def safe_name(name: str) -> str:
+    """`name` without folders, control characters and leading dots, short enough for any file system."""
+    last = name.replace("\\", "/").rsplit("/", 1)[-1]
+    clean = "".join(char for char in last if unicodedata.category(char)[0] != "C" and char not in '<>:"|?*')
+    clean = clean.strip().lstrip(".")
+    if len(clean.encode()) > LONGEST_NAME:
+        suffix = "".join(Path(clean).suffixes[-2:])[-20:]
+        clean = clean.encode()[: LONGEST_NAME - len(suffix.encode())].decode(errors="ignore") + suffix
+    return clean or "recording"

@@ -1,0 +1,250 @@
+"""A Picture in viser: one server a session, its nodes updated in place."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any, Literal
+
+import numpy as np
+import rich
+import viser
+
+from lineseg import Knob, Params, Thresholds
+
+from .palette import linear
+from .picture import Picture
+from .shapes import Bounds, Lines, Points
+
+PLAN_FOV = math.radians(10)
+NEAR, FAR = 0.5, 20_000.0
+PICK_PIXELS = 20.0
+
+# name: (size on the screen [pixels]; viser draws it about twice as wide, shape)
+CLOUDS: dict[str, tuple[float, Literal["circle", "diamond"]]] = {
+    "points": (2.2, "circle"),
+    "seeds": (3.2, "diamond"),
+    "endpoints": (4.5, "circle"),
+    "window": (4.0, "circle"),
+    "predicted": (5.0, "diamond"),
+    "candidate": (5.5, "circle"),
+    "selected": (6.5, "diamond"),
+}
+# name: width on the screen [pixels]
+LINES = {
+    "grid": 1.0,
+    "pinned": 9.0,
+    "invalid": 1.0,
+    "truth": 3.0,
+    "dropped": 1.5,
+    "segments": 3.0,
+    "missed": 7.0,
+    "matched": 3.0,
+    "false": 5.0,
+    "normals": 1.5,
+    "laser": 2.0,
+    "growing": 3.5,
+    "band": 1.5,
+    "ray": 1.5,
+    "selected ray": 1.5,
+}
+
+# Higher nodes hide lower ones; as seen by the plan camera 20 mm of height move nothing.
+LEVEL = 0.02
+HEIGHTS = {name: LEVEL * level for level, name in enumerate([
+    "grid", "pinned", "invalid", "truth", "laser", "ray", "selected ray", "dropped", "band", "missed", "points",
+    "segments", "matched", "false", "normals", "growing", "seeds", "endpoints", "window", "predicted",
+    "candidate", "selected",
+])}  # fmt: skip
+
+Change = Callable[[dict[str, Any]], None]
+Pick = Callable[[tuple[float, float], float], None]
+
+
+class LocalServer(viser.ViserServer):
+    """A viser server that only this machine can reach and that never opens a share tunnel."""
+
+    def __init__(self) -> None:
+        # viser announces itself on stdout, which belongs to the command line.
+        rich.get_console().quiet = True
+        super().__init__(host="127.0.0.1", port=0, label="lineseg", verbose=False)
+
+    def request_share_url(self, verbose: bool = True) -> str | None:
+        return None
+
+
+class ViserScene:
+    """Draws Pictures; clicks and viser's own sliders come back as changes of the View.
+
+    change: called with a patch of the View. pick: called with the point of the plane z = 0
+    that was clicked, and a radius around it [m].
+    Both are called in viser's threads. Starting takes a moment and blocks: do it in a thread.
+    """
+
+    def __init__(self, change: Change, pick: Pick) -> None:
+        self._server = LocalServer()
+        self._metres_per_pixel = 0.02
+        self._dark: bool | None = None
+        self._bounds: Bounds | None = None
+        nodes = self._server.scene
+        no_points, no_lines = np.zeros((1, 3), np.float32), np.zeros((1, 2, 3), np.float32)
+        self._clouds = {
+            name: nodes.add_point_cloud(
+                _path(name), no_points, no_points.astype(np.uint8),
+                point_size=size * self._metres_per_pixel, point_shape=shape,
+                precision="float32", point_shading="flat", position=(0.0, 0.0, HEIGHTS[name]), visible=False,
+            )
+            for name, (size, shape) in CLOUDS.items()
+        }  # fmt: skip
+        self._lines = {
+            name: nodes.add_line_segments(
+                _path(name), no_lines, no_lines.astype(np.uint8),
+                thickness=width, thickness_units="screen", position=(0.0, 0.0, HEIGHTS[name]), visible=False,
+            )
+            for name, width in LINES.items()
+        }  # fmt: skip
+        nodes.world_axes.visible = False
+        self._keep_shaders()
+        self._change = change
+        self._params_type: type[Thresholds] | None = None
+        self._sliders: dict[str, Any] = {}
+        self._set_sliders(Params())
+        self._listen_to_clicks(pick)
+        self._server.on_client_connect(self._follow_camera)
+
+    @property
+    def port(self) -> int:
+        return self._server.get_port()
+
+    def draw(self, picture: Picture, params: Thresholds, dark: bool) -> None:
+        """Give viser the picture; what is as before is not sent again. It leaves within 16 ms, or with `flush`."""
+        with self._server.atomic():
+            self._set_theme(dark)
+            self._set_bounds(picture.bounds)
+            for name, handle in self._clouds.items():
+                _show_points(handle, picture.points.get(name))
+            for name, handle in self._lines.items():
+                _show_lines(handle, picture.lines.get(name))
+            self._set_sliders(params)
+
+    def flush(self) -> None:
+        """Send what was drawn now."""
+        self._server.flush()
+
+    def stop(self) -> None:
+        self._server.stop()
+
+    def _keep_shaders(self) -> None:
+        """Two clouds of invisible size that never change.
+
+        viser makes a new material whenever the colours of a cloud change; when the last one goes, its shader goes too
+        and is compiled anew, which stalls a browser for 10 to 300 ms. One point has another shader than several.
+        """
+        for count in (1, 2):
+            black = np.zeros((count, 3), dtype=np.uint8)
+            self._server.scene.add_point_cloud(
+                f"/shader_{count}", np.zeros((count, 3), np.float32), black, point_size=1e-9, precision="float32",
+                point_shading="flat",
+            )  # fmt: skip
+
+    def _set_theme(self, dark: bool) -> None:
+        if dark != self._dark:
+            self._dark = dark
+            self._server.gui.configure_theme(dark_mode=dark, show_logo=False, show_share_button=False)
+
+    def _set_bounds(self, bounds: Bounds) -> None:
+        """Where the camera of a view opened alone begins: above the middle, high enough to see everything."""
+        if bounds == self._bounds:
+            return
+        self._bounds = bounds
+        x1, y1, x2, y2 = bounds
+        middle = ((x1 + x2) / 2, (y1 + y2) / 2, 0.0)
+        height = 1.1 * max(x2 - x1, y2 - y1, 1.0) / 2 / math.tan(PLAN_FOV / 2)
+        camera = self._server.initial_camera
+        camera.fov, camera.near, camera.far = PLAN_FOV, NEAR, FAR
+        camera.up = (0.0, 1.0, 0.0)
+        camera.look_at = middle
+        camera.position = (middle[0], middle[1], height)
+
+    def _set_sliders(self, params: Thresholds) -> None:
+        """viser's own sliders, for its view opened alone; the page hides them."""
+        if type(params) is not self._params_type:
+            self._params_type = type(params)
+            for widget in self._sliders.values():
+                widget.remove()
+            self._sliders = {name: self._slider(name, kind, knob, params) for name, kind, knob in params.knobs()}
+        for name, kind, knob in params.knobs():
+            value = kind(_within(getattr(params, name), knob.low, knob.high))
+            if self._sliders[name].value != value:
+                self._sliders[name].value = value
+
+    def _slider(self, name: str, kind: type, knob: Knob, params: Thresholds) -> Any:
+        """The slider of a threshold, or the checkbox of a switch."""
+        label = f"{knob.symbol} [{knob.unit}]" if knob.unit else knob.symbol
+        value = kind(_within(getattr(params, name), knob.low, knob.high))
+        if kind is bool:
+            widget = self._server.gui.add_checkbox(label, initial_value=value, hint=knob.help)
+        else:
+            low, high, step = kind(knob.low), kind(knob.high), kind(knob.step)
+            widget = self._server.gui.add_slider(
+                label, min=low, max=high, step=step, initial_value=value, hint=knob.help
+            )
+
+        def moved(event: viser.GuiEvent) -> None:
+            # Without a client it is our own assignment coming back.
+            if event.client is not None:
+                self._change({"params": {name: event.target.value}})
+
+        widget.on_update(moved)
+        return widget
+
+    def _listen_to_clicks(self, pick: Pick) -> None:
+        @self._server.scene.on_click()
+        def _(event: viser.SceneClickEvent) -> None:
+            x, y, z = event.ray_origin
+            dx, dy, dz = event.ray_direction
+            if abs(dz) > 1e-9 and z / -dz > 0:
+                pick((x - dx * z / dz, y - dy * z / dz), PICK_PIXELS * self._metres_per_pixel)
+
+    def _follow_camera(self, client: viser.ClientHandle) -> None:
+        """Keep points at their size on the screen, whatever the zoom."""
+
+        @client.camera.on_update
+        def _(camera: viser.CameraHandle) -> None:
+            distance = float(np.linalg.norm(camera.position - camera.look_at))
+            metres = 2 * distance * math.tan(camera.fov / 2) / max(camera.image_height, 1)
+            # In steps of 12 %, so that a zoom is not a message a frame.
+            rounded = math.exp(round(math.log(max(metres, 1e-5)) / 0.12) * 0.12)
+            if rounded == self._metres_per_pixel:
+                return
+            self._metres_per_pixel = rounded
+            with self._server.atomic():
+                for name, handle in self._clouds.items():
+                    handle.point_size = CLOUDS[name][0] * rounded
+
+
+def _path(name: str) -> str:
+    return "/" + name.replace(" ", "_")
+
+
+def _show_points(handle: viser.PointCloudHandle, points: Points | None) -> None:
+    if points is not None and len(points.xyz):
+        handle.points = points.xyz
+        handle.colors = points.colours
+    _set_visible(handle, points is not None and len(points.xyz) > 0)
+
+
+def _show_lines(handle: viser.LineSegmentsHandle, lines: Lines | None) -> None:
+    if lines is not None and len(lines.xyz):
+        handle.points = lines.xyz
+        handle.colors = np.repeat(linear(lines.colours)[:, None, :], 2, axis=1)
+    _set_visible(handle, lines is not None and len(lines.xyz) > 0)
+
+
+def _set_visible(handle: viser.SceneNodeHandle, visible: bool) -> None:
+    if handle.visible != visible:
+        handle.visible = visible
+
+
+def _within(value: float, low: float, high: float) -> float:
+    return min(max(value, low), high)

@@ -1,0 +1,88 @@
+"""Line segments from 2D laser scans by seeded region growing (Gao, Zhang, Fang, Yuan 2018)."""
+
+from .covariance import Noise, covariance, covariances
+from .decisions import Decision, Explanation, Trace, TracedLine
+from .difference import Difference, difference, differences
+from .extractors import EXTRACTORS, Extractor, extract, trace
+from .knobs import Knob, Thresholds
+from .label_file import ConflictError, label_file, read_labels, save_labels
+from .labels import FrameLabels, TrueLine
+from .misses import Miss, misses
+from .pack import write_pack
+from .params import Params
+from .readers import Cancelled, TextOptions, open_recording, save_npz
+from .readers.pack import read_pack
+from .scan import PackAbout, Recording, Scan, Topic
+from .score import SCORES
+from .segment import Dropped, Extraction, Segment
+from .stability import with_stability
+from .survey import Survey, survey
+from .suspicion import WEIGHTS, doubts, suspicion, worst_first
+from .truth import Agreement, Matching, agreement, agreements, match, true_ends, true_lines
+from .what_if import WhatIf, what_if
+from .why import Remark, why
+from .writers import figure_svg, params_text, read_params, write_segments
+
+__all__ = [
+    "EXTRACTORS",
+    "SCORES",
+    "WEIGHTS",
+    "Agreement",
+    "Cancelled",
+    "ConflictError",
+    "Decision",
+    "Difference",
+    "Dropped",
+    "Explanation",
+    "Extraction",
+    "Extractor",
+    "FrameLabels",
+    "Knob",
+    "Matching",
+    "Miss",
+    "Noise",
+    "PackAbout",
+    "Params",
+    "Recording",
+    "Remark",
+    "Scan",
+    "Segment",
+    "Survey",
+    "TextOptions",
+    "Thresholds",
+    "Topic",
+    "Trace",
+    "TracedLine",
+    "TrueLine",
+    "WhatIf",
+    "agreement",
+    "agreements",
+    "covariance",
+    "covariances",
+    "difference",
+    "differences",
+    "doubts",
+    "extract",
+    "figure_svg",
+    "label_file",
+    "match",
+    "misses",
+    "open_recording",
+    "params_text",
+    "read_labels",
+    "read_pack",
+    "read_params",
+    "save_labels",
+    "save_npz",
+    "survey",
+    "suspicion",
+    "trace",
+    "true_ends",
+    "true_lines",
+    "what_if",
+    "why",
+    "with_stability",
+    "worst_first",
+    "write_pack",
+    "write_segments",
+]

@@ -1,0 +1,115 @@
+"""Line tracking, the incremental method: a line follows the points until one is too far off.
+
+Siadat, Kaske, Klausmann, Dufaut, Husson: *An optimized segmentation method for a 2D laser-scanner applied to mobile
+robot navigation*, 3rd IFAC Symposium on Intelligent Components and Instruments for Control Applications, 1997;
+"Incremental" in Nguyen, Gächter, Martinelli, Tomatis, Siegwart: *A comparison of line extraction algorithms using 2D
+range data for indoor mobile robotics*, Autonomous Robots 23, 2007.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated
+
+import numpy as np
+
+from ..decisions import Kind
+from ..kernel import entry_kernel
+from ..knobs import Knob, Thresholds
+from ..total_least_squares import add, is_nearer, moments_of
+from .found import Found, Method, vocabulary
+from .knobs import EPSILON, MAX_GAP, MIN_LENGTH, MIN_POINTS
+from .sequence import Sequence, fit, opened_between_lines
+
+
+@dataclass(frozen=True)
+class TrackingParams(Thresholds):
+    """Thresholds of line tracking."""
+
+    epsilon: Annotated[float, EPSILON] = 0.04
+    start_points: Annotated[
+        int,
+        Knob(
+            "S_num", 2, 20, "", 1, least=2, most=1000,
+            label="points at the start",
+            why="2 points are the fewest that make a line",
+            help="Points that begin a line, taken unseen. Few give a rash direction, many hide a corner.",
+        ),
+    ] = 4  # fmt: skip
+    max_gap: Annotated[float, MAX_GAP] = 0.5
+    min_points: Annotated[int, MIN_POINTS] = 10
+    min_length: Annotated[float, MIN_LENGTH] = 0.6
+
+
+VOCABULARY = vocabulary(
+    "tracking",
+    ("epsilon", "max_gap", "end"),
+    Kind("line begun", "tracking", "shown", "seed", "line begun: through the first points, {span}"),
+    Kind(
+        "point refused", "tracking", "shown", "refusal",
+        "line ended: beam {beam} lies {value:.3f} m from it, ε = {limit:.3f} m; it takes {span}",
+    ),
+    Kind(
+        "gap", "tracking", "shown", "refusal",
+        "line ended: before beam {beam} lies a gap of {value:.3f} m, G_max = {limit:.3f} m; it takes {span}",
+    ),
+    Kind("last point", "tracking", "shown", "", "line ended: the last point is reached; it takes {span}"),
+)  # fmt: skip
+
+
+def find(points: Sequence, params: TrackingParams, found: Found) -> None:
+    """Line after line in the order of the points, each beginning at the point that the one before refused.
+
+    No point is looked at twice, and none goes back: what a line has taken at a corner, the next one lacks, so that the
+    lines of a scan run backward are others.
+    """
+    points = found.points = opened_between_lines(points, lambda circle: _spans(circle, circle.gaps(), params))
+    gaps = points.gaps()
+    for first, last in _spans(points, gaps, params):
+        run = np.arange(first, last + 1)
+        if found.traced:
+            _note(points, gaps, run, params, found)
+        found.keep(run)
+
+
+def _spans(points: Sequence, gaps: np.ndarray, params: TrackingParams) -> list[tuple[int, int]]:
+    spans, first = [], 0
+    while first < len(points.x):
+        last = track(points.x, points.y, gaps, first, params.start_points, params.epsilon, params.max_gap)
+        spans.append((first, last))
+        first = last + 1
+    return spans
+
+
+@entry_kernel
+def track(x, y, gaps, first, start_points, epsilon, max_gap):
+    """The last point of the line that begins at `first`: no gap before it is wider than max_gap, and from
+    `start_points` on each lies nearer than ε to the line through those before it."""
+    last, stop = first, len(x)
+    while last + 1 < min(first + start_points, stop) and gaps[last + 1] <= max_gap:
+        last += 1
+    if last + 1 < first + start_points:
+        return last
+    moments = moments_of(x, y, first, last)
+    while last + 1 < stop and gaps[last + 1] <= max_gap and is_nearer(moments, x[last + 1], y[last + 1], epsilon):
+        last += 1
+        moments = add(moments, x[last], y[last])
+    return last
+
+
+def _note(points: Sequence, gaps: np.ndarray, run: np.ndarray, params: TrackingParams, found: Found) -> None:
+    if len(run) < 2:
+        return
+    start = run[: params.start_points]
+    found.note("line begun", start, fit(points, start).line)
+    line, after = fit(points, run).line, int(run[-1]) + 1
+    if after == len(points.x):
+        found.note("last point", run, line, check="end")
+    elif gaps[after] > params.max_gap:
+        found.note("gap", run, line, check="max_gap", beam=after, value=gaps[after], limit=params.max_gap)
+    else:
+        value = float(points.distances(line)[after])
+        found.note("point refused", run, line, check="epsilon", beam=after, value=value, limit=params.epsilon)
+
+
+LINE_TRACKING = Method("line-tracking", VOCABULARY, find)

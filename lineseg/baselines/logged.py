@@ -1,0 +1,43 @@
+"""Methods that are kernels from end to end, which write lines and, if asked, a log."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+from numpy.typing import NDArray
+
+from ..decisions import Trace, Vocabulary
+from ..extraction import extraction_of
+from ..scan import Scan
+from ..segment import Extraction
+
+
+class Run(NamedTuple):
+    """What one run leaves behind: rows of LINE, DROPPED and ROW; positions (m,) turns their positions into beams."""
+
+    lines: NDArray
+    dropped: NDArray
+    positions: NDArray
+    rows: NDArray
+
+
+class LoggedMethod(NamedTuple):
+    """run: takes a scan, the thresholds, and whether the log is wanted."""
+
+    name: str
+    vocabulary: Vocabulary
+    run: Callable[[Scan, Any, bool], Run]
+
+    def extract(self, scan: Scan, params: Any) -> Extraction:
+        """The segments of one scan."""
+        return self._extraction(scan, params, self.run(scan, params, False))
+
+    def trace(self, scan: Scan, params: Any) -> Trace:
+        """The same run with its decisions."""
+        found = self.run(scan, params, True)
+        extraction = self._extraction(scan, params, found)
+        return Trace(scan, params, extraction, self.vocabulary, found.rows, found.positions)
+
+    def _extraction(self, scan: Scan, params: Any, found: Run) -> Extraction:
+        return extraction_of(self.name, scan, params, found.lines, found.dropped, found.positions)

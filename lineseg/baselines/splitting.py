@@ -1,0 +1,148 @@
+"""What the methods that split have in common: stretches of points, cut until each is straight."""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..decisions import Kind
+from ..kernel import kernel
+from ..knobs import Knob
+from ..log import note, note_pair
+from ..region_growing.lines import append, drop, line_at
+from ..region_growing.log import CHECKS, MIN_LENGTH, MIN_POINTS, NONE
+from ..scan import Scan
+from ..total_least_squares import line_of, moments_of
+from .chord import chord, farthest, widest_step
+
+SplitDistance = Annotated[
+    float,
+    Knob(
+        "d_split", 0.005, 0.3, "m", 0.001, log=True, least=1e-6, most=100.0, ros="min_split_dist",
+        label="distance that splits",
+        why="a distance of 0 would split at every point",
+        help="A stretch is split at its farthest point if that lies at least so far from the line through its ends.",
+    ),
+]  # fmt: skip
+LineGap = Annotated[
+    float,
+    Knob(
+        "G_max", 0.05, 5.0, "m", 0.01, log=True, least=1e-6, most=1000.0, ros="max_line_gap",
+        label="gap that splits",
+        why="a gap of 0 would part every point from the next",
+        help="A stretch with a gap as wide as this between neighbouring points is split there.",
+    ),
+]  # fmt: skip
+
+
+class Splitting(NamedTuple):
+    """What decides on splits, and which lines are kept.
+
+    loses_points: whether each split loses two points; by_fit: whether the line fitted to a stretch says if it is
+    straight, instead of that through its ends, which says where to split in any case.
+    """
+
+    split_distance: float
+    max_gap: float
+    min_points: int
+    min_length: float
+    loses_points: bool = False
+    by_fit: bool = False
+
+
+FARTHEST, WIDEST_GAP, SPLIT, POINT_LEFT, STRETCH_KEPT, LINE_DROPPED = range(6)
+# Every vocabulary of a method that splits begins with these.
+KINDS = (
+    Kind("farthest point", "split", "shown", "", "farthest of {span}: beam {beam}, {value:.3f} ≥ {limit:.3f} m off"),
+    Kind("widest gap", "split", "shown", "", "widest gap of {span}: {value:.3f} ≥ {limit:.3f} m, at beam {beam}"),
+    Kind("split", "split", "parted", "seed", "split at beam {beam}: the first part is {span}"),
+    Kind("point left", "split", "gone", "", "beam {first} is left alone"),
+    Kind("stretch kept", "split", "stands", "", "straight: {span}, all within {value:.3f} < {limit:.3f} m"),
+    Kind("line dropped", "select", "gone", "drop", "line dropped: {span}; {lack}"),
+)
+SPLIT_CHECKS = (*CHECKS, "split_distance", "max_gap")
+SPLIT_DISTANCE, LINE_GAP = range(len(CHECKS), len(CHECKS) + 2)
+
+
+def loop_of(scan: Scan) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
+    """(beams with a return, their points (2, n)); a full circle begins at its farthest point, which is a corner."""
+    beam = np.flatnonzero(scan.valid)
+    if scan.full_circle and len(beam):
+        beam = np.roll(beam, -int(np.argmax(scan.ranges[beam])))
+    return beam, np.ascontiguousarray(scan.xy[beam].T)
+
+
+@kernel
+def fitted(x, y, first, last):
+    """The total least squares line through the points first..last."""
+    return line_of(moments_of(x, y, first, last))
+
+
+@kernel
+def split(x, y, last_point, rules, stack, lines, log):
+    """Number of straight stretches of the points 0..last_point, each split at its farthest point, else at a gap.
+
+    stack: (n + 2, 3) int64, memory for stretches that wait.
+    """
+    count, waiting, names = 0, 1, 1
+    stack[0, 0], stack[0, 1], stack[0, 2] = 0, last_point, 0
+    while waiting > 0:
+        waiting -= 1
+        first, last, name = stack[waiting, 0], stack[waiting, 1], stack[waiting, 2]
+        if last <= first:
+            if log is not None and last == first:
+                note(log, POINT_LEFT, NONE, name, 0, (first, last), -1, chord(x, y, first, last), 0.0, 0.0)
+            continue
+        line = chord(x, y, first, last)
+        place, away = farthest(x, y, first, last, line)
+        if rules.by_fit:
+            # Of a bent stretch the farthest point from its fit often lies beside an end, and would be split off alone.
+            line = fitted(x, y, first, last)
+            other, away = farthest(x, y, first, last, line)
+            place = other if place == first else place
+        behind, gap = widest_step(x, y, first, last)
+        check, value, limit = NONE, away, rules.split_distance
+        if away >= rules.split_distance:
+            check = SPLIT_DISTANCE
+        elif gap >= rules.max_gap:
+            check, value, limit = LINE_GAP, gap, rules.max_gap
+            # The program splits one point early, but for a gap at the start.
+            place = behind - 1 if rules.loses_points and first < behind - 1 else behind
+        if check == NONE:
+            count = append(lines, count, first, last, name, line)
+            if log is not None:
+                note(log, STRETCH_KEPT, NONE, name, 0, (first, last), -1, line, value, limit)
+            continue
+        if log is not None:
+            kind = FARTHEST if check == SPLIT_DISTANCE else WIDEST_GAP
+            note(log, kind, check, name, 0, (first, last), place, line, value, limit)
+        end, stop = (place - 2, last - 1) if rules.loses_points else (place - 1, last)
+        if log is not None and end >= first and stop >= place:
+            parts = chord(x, y, first, end), chord(x, y, place, stop)
+            note_pair(log, SPLIT, check, (name, names), 0, (first, end), place, *parts, value, limit)
+        stack[waiting, 0], stack[waiting, 1], stack[waiting, 2] = place, stop, names
+        stack[waiting + 1, 0], stack[waiting + 1, 1], stack[waiting + 1, 2] = first, end, name
+        waiting, names = waiting + 2, names + 1
+    return count
+
+
+@kernel
+def select(x, y, rules, lines, count, dropped, log):
+    """Drop what is too short, between its ends, or too sparse."""
+    kept = 0
+    for i in range(count):
+        first, last = lines[i].first, lines[i].last
+        check, value, limit = MIN_LENGTH, math.hypot(x[last] - x[first], y[last] - y[first]), rules.min_length
+        if value >= limit:
+            check, value, limit = MIN_POINTS, float(last - first + 1), float(rules.min_points)
+        if value >= limit:
+            lines[kept] = lines[i]
+            kept += 1
+            continue
+        drop(dropped, first, last, check, value, limit)
+        if log is not None:
+            note(log, LINE_DROPPED, check, lines[i].candidate, 0, (first, last), -1, line_at(lines, i), value, limit)
+    return kept

@@ -1,0 +1,139 @@
+"""How long extraction takes, beside the floor: what no implementation of the method can do without."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from time import perf_counter_ns
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .extractors import extract, trace
+from .kernel import entry_kernel
+from .params import Params
+from .region_growing import Memory, extract_lines, limits_of
+from .scan import Recording, Scan
+from .survey import cores, survey
+from .total_least_squares import add, direction_of, empty
+
+FRAMES = 300
+# A survey of less is mostly the start of its threads.
+SURVEY_BEAMS = 4_000_000
+ROUNDS = 9
+
+# A pass over all frames, giving the time of each [ns]; that of a survey gives one, their mean.
+Pass = Callable[[], NDArray[np.float64]]
+
+
+@dataclass(frozen=True)
+class Timing:
+    """Time of one frame [µs]: median, 95 %, least, most; its ratio to the floor, and frames in a second of them.
+
+    ratio: of the least time of each frame to the least time of the floor, which ran in turns with it: drift cancels,
+    and what else the machine does only ever adds. A survey uses all cores, the floor one.
+    """
+
+    name: str
+    median_us: float
+    p95_us: float
+    min_us: float
+    max_us: float
+    ratio: float
+    frames_per_s: float
+    cores: int
+
+
+@entry_kernel
+def floor_pass(x, y):
+    """Add each point to the moments and fit the direction anew, as the method must at every point that it accepts."""
+    total = 0.0
+    if len(x) > 0:
+        moments = empty(x[0], y[0])
+        for k in range(len(x)):
+            moments = add(moments, x[k], y[k])
+            ux, uy = direction_of(moments)
+            total += ux + uy
+    return total
+
+
+def bench(recording: Recording, params: Params | None = None, rounds: int = ROUNDS) -> list[Timing]:
+    """Times of the floor, of one frame in several ways, and of the whole recording.
+
+    Single frames are up to FRAMES of the recording; for a survey they are repeated until there are SURVEY_BEAMS.
+    """
+    params = params or Params()
+    scans = [recording[frame] for frame in np.unique(np.linspace(0, len(recording) - 1, FRAMES, dtype=int))]
+    floor = _floor(scans)
+    floor()
+    timings, floors = [], []
+    for name, used, run in _passes(scans, params):
+        run()
+        before, times = zip(*((floor(), run()) for _ in range(rounds)), strict=True)
+        floors += before
+        timings.append(_timing(name, used, np.array(times), np.array(before)))
+    return [_timing("floor", 1, np.array(floors), np.array(floors)), *timings]
+
+
+def table(timings: list[Timing]) -> str:
+    """The timings as text, a line each."""
+    lines = [f"{'µs a frame':<22}{'median':>9}{'p95':>9}{'min':>9}{'max':>9}{'× floor':>9}{'frames/s':>11}{'cores':>7}"]
+    for t in timings:
+        times = "".join(f"{value:9.2f}" for value in (t.median_us, t.p95_us, t.min_us, t.max_us, t.ratio))
+        lines.append(f"{t.name:<22}{times}{t.frames_per_s:11,.0f}{t.cores:7}")
+    return "\n".join(lines)
+
+
+def _timing(name: str, used: int, times: NDArray[np.float64], floor: NDArray[np.float64]) -> Timing:
+    """times, floor: (rounds, frames) [ns], or (rounds, 1) for a survey."""
+    ratio = times.min(axis=0).mean() / floor.min(axis=0).mean()
+    least, median, p95, most = (float(value) / 1e3 for value in np.percentile(times, (0, 50, 95, 100)))
+    return Timing(name, median, p95, least, most, float(ratio), 1e6 / median, used)
+
+
+def _passes(scans: list[Scan], params: Params) -> Iterator[tuple[str, int, Pass]]:
+    """(name, cores, pass) of everything that is timed beside the floor."""
+    yield "kernel", 1, _kernel(scans, params)
+    yield "extract", 1, _each(lambda scan: extract(scan, params), scans)
+    yield "trace", 1, _each(lambda scan: trace(scan, params), scans)
+    repeats = -(-SURVEY_BEAMS // max(sum(map(len, scans)), 1))
+    repeated = Recording.from_scans(scans * min(repeats, 10_000))
+    for name, scores in (("survey", False), ("survey with scores", True)):
+        yield name, cores(), _whole(lambda scores=scores: survey(repeated, params, scores=scores), len(repeated))
+
+
+def _floor(scans: list[Scan]) -> Pass:
+    points = [np.ascontiguousarray(scan.xy[scan.valid].T) for scan in scans]
+    return _each(lambda xy: floor_pass(xy[0], xy[1]), points)
+
+
+def _kernel(scans: list[Scan], params: Params) -> Pass:
+    """One call of the compiled code from Python, with memory at hand; preparing the points is part of it."""
+    memory = Memory(max(map(len, scans)), any(scan.full_circle for scan in scans))
+    scenes = [
+        (scan.ranges.astype(np.float64), scan.rays, scan.range_min, scan.range_max, scan.full_circle) for scan in scans
+    ]
+    limits = limits_of(params)
+    return _each(lambda scene: extract_lines(*scene, limits, *memory.arguments, None), scenes)
+
+
+def _each(call: Callable[[Any], object], items: list) -> Pass:
+    def run() -> NDArray[np.float64]:
+        times = np.empty(len(items))
+        for i, item in enumerate(items):
+            before = perf_counter_ns()
+            call(item)
+            times[i] = perf_counter_ns() - before
+        return times
+
+    return run
+
+
+def _whole(call: Callable[[], object], frames: int) -> Pass:
+    def run() -> NDArray[np.float64]:
+        before = perf_counter_ns()
+        call()
+        return np.array([(perf_counter_ns() - before) / frames])
+
+    return run

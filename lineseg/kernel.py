@@ -1,0 +1,39 @@
+"""How the kernels are compiled."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from numba import njit
+
+# A kernel works on memory that its caller gives it: it allocates nothing, so it counts no references, which in loops as
+# short as these would cost more than the arithmetic. It needs no interpreter lock, divides as numpy does, and
+# may round a product and a sum together.
+_OPTIONS: dict[str, Any] = {"nogil": True, "error_model": "numpy", "_nrt": False, "fastmath": {"contract"}}
+# Only what Python calls needs a place in the cache: the rest is compiled into it.
+_INNER: dict[str, Any] = {**_OPTIONS, "no_cfunc_wrapper": True}
+
+
+def entry_kernel(function: Callable) -> Any:
+    """Compile a function of arrays and numbers that Python calls."""
+    return njit(**_OPTIONS, cache=True)(function)
+
+
+def kernel(function: Callable) -> Any:
+    """Compile a function that other kernels call."""
+    return njit(**_INNER)(function)
+
+
+def summing_kernel(function: Callable) -> Any:
+    """The same, but sums may be taken in any order, several numbers at a time.
+
+    Not all of fastmath: it would allow the compiler to assume that NaN and infinity never occur.
+    """
+    options: dict[str, Any] = {**_INNER, "fastmath": {"contract", "reassoc"}}
+    return njit(**options)(function)
+
+
+def inlined_kernel(function: Callable) -> Any:
+    """The same, put into its callers: a call hands over some fifty numbers, which takes longer than a refused point."""
+    return njit(**_INNER, inline="always")(function)

@@ -1,0 +1,87 @@
+"""What every method's thresholds are: declared once, for command line, sliders, presets, URL and ROS export."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, fields, replace
+from functools import cache
+from typing import Any, Self, get_type_hints
+
+
+@dataclass(frozen=True)
+class Knob:
+    """How a threshold is called, shown and bounded.
+
+    symbol: the paper's; ros: the name in the ROS program that has it ("" where none has).
+    low, high: the range of a slider; least, most: what is allowed at all, and why.
+    step: of a slider [unit]; log: whether the slider is logarithmic; extension: not in the paper.
+    """
+
+    symbol: str
+    low: float
+    high: float
+    unit: str = ""
+    step: float = 1
+    log: bool = False
+    least: float = 0.0
+    most: float = math.inf
+    why: str = ""
+    ros: str = ""
+    label: str = ""
+    help: str = ""
+    extension: bool = False
+
+
+def switch(symbol: str, label: str, help: str) -> Knob:
+    """The knob of something that is on or off; as numbers 1 and 0."""
+    return Knob(symbol, 0, 1, most=1, why="it is on (1) or off (0)", label=label, help=help)
+
+
+class Thresholds:
+    """Base of the thresholds of a method: a frozen dataclass whose fields carry a Knob each."""
+
+    def __post_init__(self) -> None:
+        for name, kind, knob in self.knobs():
+            object.__setattr__(self, name, _checked(name, getattr(self, name), kind, knob))
+
+    @classmethod
+    @cache
+    def knobs(cls) -> tuple[tuple[str, type, Knob], ...]:
+        """(field, int, float or bool, knob) of each threshold, in the order of the sliders."""
+        hints = get_type_hints(cls, include_extras=True)
+        return tuple((name, hints[name].__origin__, hints[name].__metadata__[0]) for name in cls.names())
+
+    @classmethod
+    @cache
+    def names(cls) -> tuple[str, ...]:
+        return tuple(entry.name for entry in fields(cls))  # type: ignore[arg-type]
+
+    def but(self, **values: Any) -> Self:
+        """These thresholds with some of them changed; an unknown name is a ValueError that lists the known ones."""
+        for name in values:
+            if name not in self.names():
+                raise ValueError(f"there is no threshold {name!r}; there are {', '.join(self.names())}")
+        return replace(self, **values)  # type: ignore[type-var]
+
+    def numbers(self) -> dict[str, int | float]:
+        """The values by name; a switch is 1 or 0."""
+        values = {name: getattr(self, name) for name in self.names()}
+        return {name: int(value) if isinstance(value, bool) else value for name, value in values.items()}
+
+
+def _checked(name: str, value: Any, kind: type, knob: Knob) -> int | float | bool:
+    """`value` as `kind`, or a ValueError that names field, value, allowed range and why."""
+    unit = f" {knob.unit}" if knob.unit else ""
+    allowed = f"allowed are {knob.least:g} to {knob.most:g}{unit}"
+    whole = "" if kind is float else "whole numbers, "
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        raise ValueError(f"{name} is {value!r}, which is not a number; {whole}{allowed}") from None
+    if isinstance(value, str | bytes) or (isinstance(value, bool) and kind is not bool) or math.isnan(number):
+        raise ValueError(f"{name} is {value!r}, which is not a number; {whole}{allowed}")
+    if kind is not float and not number.is_integer():
+        raise ValueError(f"{name} is {value!r}, which is not a whole number; {allowed}")
+    if not knob.least <= number <= knob.most:
+        raise ValueError(f"{name} is {number:g}; {knob.why} ({allowed})")
+    return kind(number)

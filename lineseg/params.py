@@ -1,0 +1,108 @@
+"""The thresholds of seeded region growing."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Annotated
+
+from .knobs import Knob, Thresholds
+
+# Other methods have some of them too.
+Epsilon = Annotated[
+    float,
+    Knob(
+        "ε", 0.005, 0.20, "m", 0.001, log=True, least=1e-6, most=100.0, ros="least_thresh",
+        label="distance to the line",
+        why="a distance of 0 would refuse every measured point",
+        help="Farthest a point may lie from its line. Set it to the range precision of the laser.",
+    ),
+]  # fmt: skip
+Delta = Annotated[
+    float,
+    Knob(
+        "δ", 0.01, 1.0, "m", 0.005, log=True, least=1e-6, most=1000.0, ros="predict_distance",
+        label="distance to the predicted point",
+        why="a distance of 0 would refuse every measured point",
+        help="In a seed: farthest a point may lie from where its beam meets the line. Keeps breaks out of seeds.",
+    ),
+]  # fmt: skip
+SeedPoints = Annotated[
+    int,
+    Knob(
+        "S_num", 3, 20, "", 1, least=3, most=1000, ros="seed_line_points",
+        label="points in a seed",
+        why="a seed needs 3 or more points, because any 2 points fit a line exactly",
+        help="Consecutive points in a seed. More make seeds rarer and surer.",
+    ),
+]  # fmt: skip
+MinPoints = Annotated[
+    int,
+    Knob(
+        "P_min", 3, 100, "", 1, least=2, most=100_000, ros="min_line_points",
+        label="points in a line",
+        why="2 points are the fewest that make a line",
+        help="Fewest points a line may have.",
+    ),
+]  # fmt: skip
+MinLength = Annotated[
+    float,
+    Knob(
+        "L_min", 0.0, 3.0, "m", 0.01, least=0.0, most=1000.0, ros="min_line_length",
+        label="length of a line",
+        why="a length is never negative",
+        help="Shortest a line may be, between its endpoints.",
+    ),
+]  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Params(Thresholds):
+    """Thresholds of seeded region growing; defaults are the paper's (Table 2), extensions are marked as such."""
+
+    epsilon: Epsilon = 0.03
+    delta: Delta = 0.10
+    seed_points: SeedPoints = 6
+    min_points: MinPoints = 10
+    min_length: MinLength = 0.60
+    max_dropout: Annotated[
+        int,
+        Knob(
+            "D_max", 0, 20, "beams", 1, least=0, most=100_000,
+            label="dropout crossed",
+            why="a number of beams is never negative",
+            help="Most beams without a return that a seed or a line may cross. 0: none, as the authors' program.",
+            extension=True,
+        ),
+    ] = 3  # fmt: skip
+    max_gap: Annotated[
+        float,
+        Knob(
+            "G_max", 0.1, 30.0, "m", 0.05, log=True, least=1e-6, most=1000.0,
+            label="gap bridged",
+            why="a gap of 0 would part every point from the next",
+            help="Widest gap between neighbouring points that a seed or a growing line may bridge.",
+            extension=True,
+        ),
+    ] = 30.0  # fmt: skip
+    merge_angle: Annotated[
+        float,
+        Knob(
+            "α_merge", 0.0, 0.5, "rad", 0.005, least=0.0, most=math.pi / 2,
+            label="merge angle",
+            why="two lines are never more than a right angle apart",
+            help="Overlapping lines that differ by less than this angle become one. 0: none do.",
+            extension=True,
+        ),
+    ] = 0.10  # fmt: skip
+    max_occluder: Annotated[
+        float,
+        Knob(
+            "W_max", 0.0, 1.0, "m", 0.01, least=0.0, most=100.0,
+            label="thing looked past",
+            why="a width is never negative",
+            help="Widest thing, such as a chair's leg, that a line may pass behind: its points count as none. "
+            "0: none, as in the paper.",
+            extension=True,
+        ),
+    ] = 0.0  # fmt: skip

@@ -1,0 +1,158 @@
+"""CARMEN logs: FLASER and RLASER of the older kind, ROBOTLASER1 and 2 of the newer, plain or packed by gzip."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from ..scan import Floats, Recording, Topic
+from .numbers import leading_numbers
+from .range_limits import longest_return
+from .source import Reader, Source, Sweeps
+
+WORDS = (
+    b"FLASER", b"RLASER", b"ROBOTLASER1", b"ROBOTLASER2", b"RAWLASER1", b"RAWLASER2", b"RAWLASER3", b"RAWLASER4",
+    b"PARAM", b"ODOM", b"SYNC", b"TRUEPOS", b"NEFF", b"VERTEX2", b"EDGE2",
+)  # fmt: skip
+LASERS = {b"FLASER": "FLASER", b"RLASER": "RLASER", b"ROBOTLASER1": "ROBOTLASER1", b"ROBOTLASER2": "ROBOTLASER2"}
+MAXIMA = {"FLASER": b"robot_front_laser_max", "RLASER": b"robot_rear_laser_max"}
+
+
+class Line(NamedTuple):
+    """One laser line, decoded; range_max is what the line announces, None if nothing."""
+
+    ranges: Floats
+    angle_min: float
+    angle_increment: float
+    range_max: float | None
+    stamp: float
+
+
+class CarmenLog(Reader):
+    """Lines of words; the first names the message, and for FLASER nothing but the number of beams tells the angles."""
+
+    format = "CARMEN log"
+    suffixes = (".log", ".clf", ".carmen")
+    expects = "lines that begin with FLASER, RLASER, ROBOTLASER1 or ROBOTLASER2"
+
+    @staticmethod
+    def recognises(head: bytes) -> bool:
+        return b"\0" not in head and any(line.split(None, 1)[:1] and line.split(None, 1)[0] in WORDS
+                                         for line in head.splitlines())  # fmt: skip
+
+    @staticmethod
+    def read(source: Source) -> Recording:
+        lasers: dict[str, list[Line]] = {}
+        settings: dict[bytes, bytes] = {}
+        for number, text in source.lines():
+            word = text.split(None, 1)[:1]
+            laser = LASERS.get(word[0]) if word else None
+            if laser:
+                decode = _decode_flaser if laser in MAXIMA else _decode_robotlaser
+                try:
+                    lasers.setdefault(laser, []).append(decode(text))
+                except ValueError as error:
+                    raise ValueError(f"{source.name}:{number}: {error}") from None
+            elif word == [b"PARAM"]:
+                _, key, value, *_ = (*text.split(), b"", b"")
+                settings[key] = value
+        if not lasers:
+            raise ValueError(f"{source.name} has no laser line; a CARMEN log has {CarmenLog.expects}.")
+        topics = [Topic(name, len(lines)) for name, lines in lasers.items()]
+        topic = source.choose(topics, "message")
+        return _recording(source, lasers[topic], topic, tuple(topics), _number(settings.get(MAXIMA.get(topic, b""))))
+
+
+def _recording(
+    source: Source, lines: list[Line], topic: str, topics: tuple[Topic, ...], setting: float | None
+) -> Recording:
+    sweeps = Sweeps()
+    for line in lines:
+        sweeps.add(line.ranges, line.angle_min, line.angle_increment, stamp=line.stamp, frame_id=topic.lower())
+    recording = sweeps.recording(source, topic=topic, topics=topics, format=CarmenLog.format)
+    announced = max((line.range_max for line in lines if line.range_max), default=setting)
+    recording.range_max[:] = longest_return(recording.ranges, announced)
+    return recording
+
+
+def _decode_flaser(text: bytes) -> Line:
+    """FLASER n r₁ … rₙ x y θ odom_x odom_y odom_θ stamp host logger_stamp"""
+    message, count, values = _words(text, 3)
+    ranges, rest = _ranges(message, count, values)
+    angle_min, angle_increment = flaser_angles(len(ranges))
+    return Line(ranges, angle_min, angle_increment, None, _stamp(rest, 6))
+
+
+def _decode_robotlaser(text: bytes) -> Line:
+    """ROBOTLASER1 type start field_of_view increment range_max accuracy remission_mode n r₁ … rₙ m s₁ … sₘ poses …
+    stamp host logger_stamp. The field of view is not used: logs state n·increment as well as (n − 1)·increment.
+    """
+    message, _, start, view, increment, longest, _, _, count, values = _words(text, 10)
+    angle_min, step, range_max = (_float(word, message) for word in (start, increment, longest))
+    ranges, rest = _ranges(message, count, values)
+    if step == 0 and len(ranges) > 1:
+        step = _float(view, message) / (len(ranges) - 1)
+    remissions = int(rest[0]) if rest and rest[0].isdigit() else 0
+    return Line(ranges, angle_min, step, range_max, _stamp(rest, 1 + remissions + 11))
+
+
+def flaser_angles(count: int) -> tuple[float, float]:
+    """angle_min and angle_increment [rad] of `count` beams that came without angles: −90° and on, as a SICK LMS.
+
+    180 and 181 beams are 1° apart, 360 and 361 are 0.5° apart; others are spread over 180°.
+    """
+    step = {180: 1.0, 181: 1.0, 360: 0.5, 361: 0.5}.get(count, 180.0 / max(count - 1, 1))
+    return -np.pi / 2, np.deg2rad(step)
+
+
+def _words(text: bytes, count: int) -> list[bytes]:
+    """The first words of a line, the last of them being all that remains."""
+    words = text.split(None, count - 1)
+    if len(words) < count:
+        raise ValueError(f"{_text(words[0])} breaks off after {len(words)} words; its ranges begin at word {count}.")
+    return words
+
+
+def _ranges(message: bytes, count: bytes, values: bytes) -> tuple[Floats, list[bytes]]:
+    """The ranges at the front of `values`, and the words behind them."""
+    if not count.isdigit():
+        raise ValueError(f"{_text(message)} has {_text(count)!r} where the number of its ranges belongs.")
+    wanted = int(count)
+    if 2 * wanted > len(values) + 1:  # before memory is taken for what cannot be there
+        raise ValueError(_missing(message, wanted, len(values.split())))
+    ranges, end = leading_numbers(values, wanted)
+    rest = values[end:].split()
+    if len(ranges) < wanted and rest:
+        raise ValueError(f"{_text(message)} has {_text(rest[0])!r} among its ranges; they must be numbers.")
+    if len(ranges) < wanted:
+        raise ValueError(_missing(message, wanted, len(ranges)))
+    return ranges, rest
+
+
+def _missing(message: bytes, wanted: int, found: int) -> str:
+    follow = "1 value follows" if found == 1 else f"{found} values follow"
+    return f"{_text(message)} announces {wanted} ranges, but {follow}."
+
+
+def _stamp(words: list[bytes], at: int) -> float:
+    """Seconds; 0 where the line has none."""
+    return _number(words[at] if at < len(words) else None) or 0.0
+
+
+def _float(word: bytes, message: bytes) -> float:
+    value = _number(word)
+    if value is None or not np.isfinite(value):
+        raise ValueError(f"{_text(message)} has {_text(word)!r} in its header; it must be a number.")
+    return value
+
+
+def _number(word: bytes | None) -> float | None:
+    try:
+        return None if word is None else float(word)
+    except ValueError:
+        return None
+
+
+def _text(word: bytes) -> str:
+    return word[:40].decode("ascii", "replace")

@@ -1,0 +1,126 @@
+"""sensor_msgs/LaserScan as bytes and as JSON. Its layout is fixed, so no message definition is needed or trusted."""
+
+from __future__ import annotations
+
+import math
+import struct
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from ..scan import Floats
+
+TYPES = ("sensor_msgs/LaserScan", "sensor_msgs/msg/LaserScan")
+
+
+class LaserScan(NamedTuple):
+    """seconds, nanoseconds: the stamp, exactly; angles [rad]; ranges (n,) float32 [m]."""
+
+    seconds: int
+    nanoseconds: int
+    frame_id: str
+    angle_min: float
+    angle_increment: float
+    range_min: float
+    range_max: float
+    ranges: Floats
+
+    @property
+    def stamp(self) -> float:
+        """[s], to about a microsecond for the times of today."""
+        return self.seconds + 1e-9 * self.nanoseconds
+
+
+def decode_ros1(data: bytes) -> LaserScan:
+    """The serialisation of ROS 1: little endian, packed."""
+    _, seconds, nanoseconds, length = struct.unpack_from("<IIII", data)
+    return _decode(data, seconds, nanoseconds, 16, length, 16 + length, "<")
+
+
+def decode_cdr(data: bytes) -> LaserScan:
+    """The serialisation of ROS 2: four bytes that state the byte order, then CDR, where numbers are aligned."""
+    order = "<" if data[1] & 1 else ">"
+    seconds, nanoseconds, length = struct.unpack_from(f"{order}iII", data, 4)
+    aligned = 4 + (12 + length + 3) // 4 * 4
+    return _decode(data, seconds, nanoseconds, 16, max(length - 1, 0), aligned, order)
+
+
+def _decode(data: bytes, seconds: int, nanoseconds: int, at: int, length: int, numbers: int, order: str) -> LaserScan:
+    angle_min, angle_max, increment, _, _, range_min, range_max, count = struct.unpack_from(
+        f"{order}7fI", data, numbers
+    )
+    if numbers + 32 + 4 * count > len(data):
+        raise ValueError(f"a LaserScan announces {count} ranges, but its message has {len(data)} bytes")
+    ranges = np.frombuffer(data, f"{order}f4", count, numbers + 32).astype(np.float32)
+    frame_id = data[at : at + length].decode("utf-8", "replace")
+    return _checked(seconds, nanoseconds, frame_id, angle_min, angle_max, increment, range_min, range_max, ranges)
+
+
+def decode_json(message: Any) -> LaserScan:
+    """The message as a JSON object, as rosbridge and Foxglove send it.
+
+    ranges: a list of numbers; null, which stands for NaN and inf in JSON, is no return. header.stamp: {sec, nanosec} or
+    {secs, nsecs}; it may be absent (0), and so may angle_increment where angle_max is there, range_min and range_max.
+    """
+    if not isinstance(message, Mapping):
+        raise ValueError(f"a LaserScan is an object with ranges and angle_min, but this is {_shown(message)}")
+    listed = message.get("ranges")
+    if not isinstance(listed, list):
+        raise ValueError(f"ranges is {_shown(listed)}; a list of distances [m] is expected")
+    try:
+        with np.errstate(over="ignore"):
+            ranges = np.array(listed, dtype=np.float64).astype(np.float32)
+    except (TypeError, ValueError, OverflowError):
+        ranges = np.empty((0, 0), np.float32)
+    if ranges.ndim != 1:
+        raise ValueError("ranges holds something that is neither a number nor null")
+    header = message.get("header", {})
+    header = header if isinstance(header, Mapping) else {}
+    stamp = header.get("stamp", {})
+    stamp = stamp if isinstance(stamp, Mapping) else {}
+    angles = (_number(message, "angle_min"), _number(message, "angle_max", 0.0))
+    if "angle_increment" not in message and "angle_max" not in message:
+        raise ValueError("angle_increment [rad] is missing, and angle_max as well")
+    rest = (_number(message, "angle_increment", 0.0), _number(message, "range_min", 0.0))
+    return _checked(
+        _whole(stamp, "sec", "secs"), _whole(stamp, "nanosec", "nsecs", "nsec"), str(header.get("frame_id", ""))[:200],
+        *angles, *rest, _number(message, "range_max", 0.0), ranges,
+    )  # fmt: skip
+
+
+def _checked(
+    seconds: int, nanoseconds: int, frame_id: str, angle_min: float, angle_max: float, increment: float,
+    range_min: float, range_max: float, ranges: Floats,
+) -> LaserScan:  # fmt: skip
+    """Limits of 0 mean that the device has none; an increment of 0 follows from angle_max."""
+    if increment == 0 and len(ranges) > 1:
+        increment = (angle_max - angle_min) / (len(ranges) - 1)
+    if not (math.isfinite(angle_min) and math.isfinite(increment)):
+        raise ValueError(f"its angle_min is {angle_min} and its angle_increment {increment}")
+    longest = range_max if range_max > 0 else np.inf
+    shortest = range_min if range_min > 0 else 0.0
+    return LaserScan(seconds, nanoseconds, frame_id, angle_min, increment, shortest, longest, ranges)
+
+
+def _number(message: Mapping[str, Any], name: str, usual: float | None = None) -> float:
+    value = message.get(name, usual)
+    if value is None and name in message:  # null: an infinity that JSON cannot say
+        return math.nan
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise ValueError(f"{name} is {_shown(value)}; a number is expected")
+    return float(value)
+
+
+def _whole(stamp: Mapping[str, Any], *names: str) -> int:
+    value = next((stamp[name] for name in names if name in stamp), 0)
+    if isinstance(value, bool) or not isinstance(value, int) or not 0 <= value < 1 << 32:
+        raise ValueError(f"the stamp's {names[0]} is {_shown(value)}; a whole number is expected")
+    return value
+
+
+def _shown(value: Any) -> str:
+    if value is None:
+        return "missing"
+    text = repr(value)
+    return text if len(text) <= 40 else f"{text[:37]}…"

@@ -1,0 +1,187 @@
+"""NPZ, the exchange format: arrays by name, read without pickle."""
+
+from __future__ import annotations
+
+import zipfile
+import zlib
+from collections.abc import Mapping
+from contextlib import nullcontext
+from pathlib import Path
+from typing import Any, BinaryIO
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..scan import Recording, Topic
+from .source import Reader, Source
+
+MOST_BYTES = 8 << 30
+SHAPES = "ranges (frames, beams) or (beams,), angle_min and angle_increment scalars or (frames,)"
+
+
+class Npz(Reader):
+    """ranges (F, N) or (N,) [m], angle_min, angle_increment [rad] scalars or (F,); optional range_min, range_max [m],
+    stamps (F,) [s], frame_id, wall (F, N) int, poses (F, 3), walls (W, 4).
+
+    For scans of different length: beams (F,) int, how many of a row count; for beams unevenly spaced: bearings (F, N)
+    [rad], which then stand in for angle_min and angle_increment.
+    """
+
+    format = "NPZ"
+    suffixes = (".npz",)
+    expects = "a zip archive of arrays, as numpy.savez writes it"
+
+    @staticmethod
+    def recognises(head: bytes) -> bool:
+        return head.startswith(b"PK\x03\x04")
+
+    @staticmethod
+    def read(source: Source) -> Recording:
+        return Npz.read_from(source.path, source)
+
+    @staticmethod
+    def read_from(file: Path | BinaryIO, source: Source) -> Recording:
+        """Read `file`, which is what `source` names or lies inside it."""
+        source.progress(0, 1)
+        arrays = _load(file, source)
+        try:
+            recording = _recording(source, arrays)
+        except (TypeError, ValueError) as error:
+            raise ValueError(f"{source.name}: {error}") from None
+        source.choose(list(recording.topics), "array")
+        source.progress(1, 1)
+        return recording
+
+
+def save_npz(recording: Recording, target: str | Path | BinaryIO) -> None:
+    """Write `recording` so that `open_recording` gives it back; shorter scans are padded with NaN."""
+    lengths = np.diff(recording.offsets)
+    shape = (len(recording), int(lengths.max(initial=0)))
+    inside = np.arange(shape[1]) < lengths[:, None]
+
+    def rows(flat: NDArray, fill: float) -> NDArray:
+        padded = np.full(shape, fill, flat.dtype)
+        padded[inside] = flat
+        return padded
+
+    arrays: dict[str, Any] = {name: getattr(recording, name) for name in ("angle_min", "angle_increment", "stamps")}
+    arrays |= {name: getattr(recording, name) for name in ("range_min", "range_max")}
+    arrays["ranges"] = rows(recording.ranges, np.nan)
+    arrays["frame_id"] = np.array(_unless_equal(recording.frame_ids), dtype=np.str_)
+    if not inside.all():
+        arrays["beams"] = lengths
+    if recording.bearings is not None:
+        arrays["bearings"] = rows(recording.bearings, np.nan)
+    if recording.wall is not None:
+        arrays["wall"] = rows(recording.wall, -1)
+    arrays |= {name: array for name in ("poses", "walls") if (array := getattr(recording, name)) is not None}
+    with Path(target).open("wb") if isinstance(target, str | Path) else nullcontext(target) as file:
+        np.savez_compressed(file, allow_pickle=False, **arrays)
+
+
+def _unless_equal(names: tuple[str, ...]) -> str | tuple[str, ...]:
+    return names if len(set(names)) > 1 else next(iter(names), "")
+
+
+def _load(file: Path | BinaryIO, source: Source) -> dict[str, NDArray]:
+    try:
+        with zipfile.ZipFile(file) as archive:
+            size = sum(each.file_size for each in archive.infolist())
+        if size > MOST_BYTES:
+            raise ValueError(f"unpacked it would have {size / 2**30:.1f} GB; at most {MOST_BYTES >> 30} GB are read")
+        with np.load(file, allow_pickle=False) as archive:
+            return {name: _array(archive, name) for name in archive.files}
+    except (zipfile.BadZipFile, zlib.error, EOFError, OSError) as error:
+        raise ValueError(f"{source.name}: a damaged NPZ file ({str(error).rstrip('.')}); save it again.") from None
+    except (ValueError, NotImplementedError) as error:
+        raise ValueError(f"{source.name}: {error}.") from None
+
+
+def _array(archive: Mapping[str, NDArray], name: str) -> NDArray:
+    try:
+        return np.asarray(archive[name])
+    except MemoryError:
+        raise ValueError(f"{name!r} states a shape that does not fit in memory; save the file again") from None
+    except ValueError as error:
+        why = "holds Python objects, which are not loaded; save plain numbers" if "pickle" in str(error) else str(error)
+        raise ValueError(f"{name!r} {why}") from None
+
+
+def _recording(source: Source, arrays: dict[str, NDArray]) -> Recording:
+    has = f"it has {', '.join(sorted(arrays)) or 'nothing'}"
+    for name in ("ranges",) if "bearings" in arrays else ("ranges", "angle_min", "angle_increment"):
+        if name not in arrays:
+            raise ValueError(f"there is no array {name!r}; {has}. Needed are {SHAPES}.")
+    ranges = np.atleast_2d(_numbers(arrays, "ranges", np.float32))
+    if ranges.ndim != 2:
+        raise ValueError(f"ranges has the shape {arrays['ranges'].shape}; needed are {SHAPES}.")
+    frames, beams = ranges.shape
+    lengths = _per_frame(arrays, "beams", frames, beams).astype(np.int64)
+    if ((lengths < 0) | (lengths > beams)).any():
+        raise ValueError(f"beams has the value {lengths.max()}; a row of ranges has {beams}.")
+    inside = np.arange(beams) < lengths[:, None]
+    topic = Topic("ranges", frames)
+    return Recording(
+        name=source.name,
+        ranges=ranges[inside],
+        offsets=np.concatenate(([0], np.cumsum(lengths))),
+        angle_min=_per_frame(arrays, "angle_min", frames, 0.0),
+        angle_increment=_per_frame(arrays, "angle_increment", frames, 0.0),
+        range_min=_per_frame(arrays, "range_min", frames, 0.0),
+        range_max=_per_frame(arrays, "range_max", frames, np.inf),
+        stamps=_per_frame(arrays, "stamps", frames, 0.0),
+        frame_ids=_frame_ids(arrays, frames),
+        bearings=_rows(arrays, "bearings", ranges.shape, inside, np.float64),
+        wall=_rows(arrays, "wall", ranges.shape, inside, np.int64),
+        poses=_table(arrays, "poses", 3, frames),
+        walls=_table(arrays, "walls", 4, None),
+        topic=topic.name,
+        topics=(topic,),
+        format=Npz.format,
+    )
+
+
+def _frame_ids(arrays: dict[str, NDArray], frames: int) -> tuple[str, ...]:
+    """One name for all scans, or one for each."""
+    names = arrays.get("frame_id", np.array(""))
+    if names.shape not in ((), (1,), (frames,)):
+        raise ValueError(f"frame_id has the shape {names.shape}; it needs one name, or one for each of {frames} scans.")
+    return tuple(map(str, np.broadcast_to(names, frames)))
+
+
+def _numbers(arrays: dict[str, NDArray], name: str, least: type) -> NDArray:
+    """The array as it is if it holds floats, or turned into them; float32 stays float32."""
+    array = arrays[name]
+    if array.dtype.kind not in "fiu":
+        raise ValueError(f"{name} holds {array.dtype}; it must hold numbers.")
+    return array if array.dtype in (np.float32, np.float64) else array.astype(np.result_type(array, least))
+
+
+def _per_frame(arrays: dict[str, NDArray], name: str, frames: int, default: float) -> NDArray[np.float64]:
+    if name not in arrays:
+        return np.full(frames, default, dtype=np.float64)
+    array = _numbers(arrays, name, np.float64).astype(np.float64)
+    if array.shape not in ((), (1,), (frames,)):
+        raise ValueError(f"{name} has the shape {array.shape}; it needs one value, or one for each of {frames} scans.")
+    if name.startswith("angle") and not np.isfinite(array).all():
+        raise ValueError(f"{name} has a value that is not finite; angles are radians.")
+    return np.broadcast_to(array, frames).copy()
+
+
+def _rows(arrays: dict[str, NDArray], name: str, shape: tuple, inside: NDArray, kind: type) -> NDArray | None:
+    if name not in arrays:
+        return None
+    array = _numbers(arrays, name, np.float64)
+    if np.atleast_2d(arrays[name]).shape != shape:
+        raise ValueError(f"{name} has the shape {arrays[name].shape}; it needs that of ranges, {shape}.")
+    return np.atleast_2d(array)[inside].astype(kind)
+
+
+def _table(arrays: dict[str, NDArray], name: str, columns: int, rows: int | None) -> NDArray | None:
+    if name not in arrays:
+        return None
+    table = _numbers(arrays, name, np.float64)
+    if table.ndim != 2 or table.shape[1] != columns or rows not in (None, len(table)):
+        wanted = f"({'any' if rows is None else rows}, {columns})"
+        raise ValueError(f"{name} has the shape {table.shape}; it needs {wanted}.")
+    return table

@@ -1,0 +1,98 @@
+"""Decimal numbers out of text, at the speed of the disk: logs of laser scans are hardly anything else."""
+
+from __future__ import annotations
+
+import re
+
+import numpy as np
+from numba import njit
+
+from ..scan import Floats
+
+SEPARATORS = re.compile(rb"[\s,;]+")
+WORD = re.compile(rb"[^\s,;]+")
+EXACT_POWERS = 10.0 ** np.arange(23)  # the powers of ten that a double holds exactly
+MOST_DIGITS = 15  # so many digits, too
+
+
+def split(text: bytes) -> list[bytes]:
+    """The words of a line, parted by blanks, commas or semicolons."""
+    return SEPARATORS.split(text.strip(b" \t,;\r\n"))
+
+
+def leading_numbers(text: bytes, count: int) -> tuple[Floats, int]:
+    """The first `count` numbers of `text`, and where they end; fewer if there are fewer or one word is no number.
+
+    The values are those of `float`, to the last bit.
+    """
+    values = np.empty(count)
+    found, end = _plain_decimals(np.frombuffer(text, np.uint8), values, EXACT_POWERS)
+    if found < count:  # there are words of another kind, such as nan, 1e-3 or 17 digits
+        for match in WORD.finditer(text, end):
+            try:
+                values[found] = float(match[0])
+            except ValueError:
+                break
+            found, end = found + 1, match.end()
+            if found == count:
+                break
+    return values[:found], end
+
+
+def all_numbers(text: bytes) -> Floats | None:
+    """All numbers of a line; None if one of its words is not a number."""
+    text = text.strip(b" \t,;\r\n")
+    values, end = leading_numbers(text, len(text) // 2 + 1)
+    return values.copy() if end >= len(text) else None
+
+
+def is_number(word: bytes) -> bool:
+    try:
+        float(word)
+    except ValueError:
+        return False
+    return True
+
+
+@njit(cache=True)
+def _is_separator(byte):
+    return byte == 32 or 9 <= byte <= 13 or byte == 44 or byte == 59
+
+
+@njit(cache=True)
+def _plain_decimals(text, values, powers):
+    """Fill `values` from the front of `text` while its words are like -12.34; their number, and where the last ends.
+
+    Digits are gathered as an integer and divided once by a power of ten: both are exact, so the quotient is rounded
+    correctly, as `float` does it.
+    """
+    at = end = found = 0
+    size = len(text)
+    while found < len(values):
+        while at < size and _is_separator(text[at]):
+            at += 1
+        negative = at < size and text[at] == 45
+        if negative:
+            at += 1
+        digits = decimals = number = 0
+        point = False
+        while at < size:
+            byte = text[at]
+            if 48 <= byte <= 57:
+                number = number * 10 + (byte - 48)
+                digits += 1
+                decimals += point
+            elif byte == 46 and not point:
+                point = True
+            else:
+                break
+            at += 1
+        if digits == 0 or digits > MOST_DIGITS:
+            break
+        if at < size and not _is_separator(text[at]):
+            break
+        value = number / powers[decimals]
+        values[found] = -value if negative else value
+        found += 1
+        end = at
+    return found, end

@@ -1,0 +1,76 @@
+"""Failure packs: a zip that holds one frame as NPZ, and what was found in it."""
+
+from __future__ import annotations
+
+import io
+import json
+import zipfile
+import zlib
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from ..scan import PackAbout, Recording
+from .npz import Npz
+from .source import Reader, Source
+
+FORMAT, VERSION = "lineseg failure pack", 1
+ABOUT, FRAME = "lineseg.json", "frame.npz"
+MOST_BYTES = 1 << 28
+# Of the local header of a zip's first entry: its name begins here.
+NAME_AT = 30
+
+
+class FailurePack(Reader):
+    """lineseg.json first, which says what it is, and frame.npz; see `lineseg.pack`."""
+
+    format = "failure pack"
+    suffixes = (".zip",)
+    expects = f"{ABOUT} as its first entry and {FRAME}"
+
+    @staticmethod
+    def recognises(head: bytes) -> bool:
+        return head.startswith(b"PK\x03\x04") and head[NAME_AT:].startswith(ABOUT.encode())
+
+    @staticmethod
+    def read(source: Source) -> Recording:
+        about = read_pack(source.path)
+        content = io.BytesIO(_entry(source.path, FRAME))
+        return replace(Npz.read_from(content, source), format=FailurePack.format, pack=about)
+
+
+def read_pack(path: str | Path) -> PackAbout:
+    """What a pack says about itself; its frame comes from `open_recording`. ValueError where it is no pack."""
+    about = _about(Path(path))
+    return PackAbout(**{name: about[name] for name in PackAbout.__dataclass_fields__})
+
+
+def _about(path: Path) -> dict[str, Any]:
+    """lineseg.json of a pack; a ValueError in one sentence where it is none, or of a newer version."""
+    try:
+        about = json.loads(_entry(path, ABOUT))
+    except (ValueError, RecursionError) as error:
+        raise ValueError(f"{path.name}: a damaged failure pack ({error}).") from None
+    if not isinstance(about, dict) or about.get("format") != FORMAT:
+        raise ValueError(f"{path.name} is no failure pack.")
+    if about.get("version") != VERSION:
+        raise ValueError(
+            f"{path.name}: a failure pack of version {about.get('version')}, {VERSION} is read; update lineseg."
+        )
+    wanted = {"recording": str, "frame": int, "method": str, "params": dict, "note": str}
+    for name, kind in wanted.items():
+        if not isinstance(about.get(name), kind):
+            raise ValueError(f"{path.name}: {name} in {ABOUT} is {about.get(name)!r}; a {kind.__name__} is expected.")
+    return about
+
+
+def _entry(path: Path, name: str) -> bytes:
+    """An entry of the zip, as long as it may be unpacked."""
+    try:
+        with zipfile.ZipFile(path) as pack, pack.open(name) as entry:
+            content = entry.read(MOST_BYTES + 1)
+    except (zipfile.BadZipFile, KeyError, EOFError, NotImplementedError, zlib.error) as error:
+        raise ValueError(f"{name} cannot be taken from the zip: {str(error).strip(chr(39))}") from None
+    if len(content) > MOST_BYTES:
+        raise ValueError(f"{name} has more than {MOST_BYTES >> 20} MB unpacked")
+    return content

@@ -1,0 +1,38 @@
+"""Where the returns of a laser end and its codes for "no return" begin, for formats that do not say it reliably."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..scan import Floats
+
+# SICK LMS2xx write the top of their number range for "nothing came back"; what they can measure ends a little below.
+# (longest measurement, lowest code, highest code), in metres
+SICK_CODES = (
+    (8.0, 8.18, 8.192),
+    (16.0, 16.37, 16.384),
+    (32.0, 32.75, 32.768),
+    (50.0, 51.08, 51.2),
+    (80.0, 81.8, 81.92),
+)
+ROUND_MAXIMA = (4.0, 5.6, 8.0, 10.0, 12.0, 16.0, 20.0, 25.0, 30.0, 32.0, 40.0, 50.0, 60.0, 80.0, 100.0)
+FEW_CODES = 3
+
+
+def longest_return(ranges: Floats, announced: float | None = None) -> float:
+    """A bound below which every range is a return and from which on none is [m]; inf if the data show none.
+
+    announced: the maximum that the file states. It is believed if nothing lies beyond it but a few values that recur,
+    as codes do; a robot's "laser max" may be a setting of its driver, while real readings are longer.
+    """
+    finite = ranges[np.isfinite(ranges)]
+    greatest = float(finite.max(initial=0.0))
+    for longest, lowest_code, highest_code in SICK_CODES:
+        if lowest_code <= greatest <= highest_code and np.count_nonzero(finite >= lowest_code) > 1:
+            return longest
+    if announced is not None and announced > 0:
+        beyond = np.unique(finite[finite >= announced])
+        return announced if len(beyond) <= FEW_CODES else np.inf
+    if greatest in ROUND_MAXIMA and np.count_nonzero(finite == greatest) > 1:
+        return greatest
+    return np.inf

@@ -1,0 +1,137 @@
+"""What every reader is given (`Source`), and how it hands its scans over (`Sweeps`)."""
+
+from __future__ import annotations
+
+import gzip
+import io
+import zlib
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, ClassVar
+
+import numpy as np
+
+from ..scan import Floats, Recording, Topic
+from .text_options import TextOptions
+
+Progress = Callable[[int, int], None]
+GZIP_MAGIC = b"\x1f\x8b"
+LONGEST_LINE = 1 << 24
+
+
+class Cancelled(Exception):  # noqa: N818 - nothing went wrong
+    """Raised by a progress callback to stop a reader; `open_recording` lets it through."""
+
+
+@dataclass(frozen=True)
+class Source:
+    """One file to be read, and how.
+
+    progress: called with what is done and the total, in one unit (bytes or messages); it may raise `Cancelled`.
+    """
+
+    path: Path
+    topic: str | None = None
+    progress: Progress = lambda done, total: None
+    text: TextOptions = field(default_factory=TextOptions)
+
+    @property
+    def name(self) -> str:
+        return self.path.name or str(self.path)
+
+    def lines(self) -> Iterator[tuple[int, bytes]]:
+        """(number, line) of a text file or of one packed by gzip; numbers count from 1, the line end is cut off."""
+        total = max(self.path.stat().st_size, 1)
+        number = 0
+        with self.path.open("rb") as file:
+            packed = file.read(2) == GZIP_MAGIC
+            file.seek(0)
+            unpacked = io.BufferedReader(gzip.GzipFile(fileobj=file), 1 << 14) if packed else file  # type: ignore[arg-type]
+            try:
+                while line := unpacked.readline(LONGEST_LINE):
+                    number += 1
+                    if number % 256 == 1:
+                        self.progress(file.tell(), total)
+                    yield number, line.rstrip(b"\r\n")
+            except (EOFError, zlib.error, gzip.BadGzipFile) as error:
+                where = f"{self.name}:{number}: after this line" if number else f"{self.name}:"
+                raise ValueError(
+                    f"{where} the gzip data break off or are damaged ({str(error).rstrip('.')}); "
+                    "fetch the file again, or unpack what is left with `gzip -dc`."
+                ) from None
+        self.progress(total, total)
+
+    def choose(self, topics: list[Topic], what: str = "topic") -> str:
+        """The wanted topic, or the first; a ValueError lists what there is."""
+        names = [topic.name for topic in topics]
+        if self.topic is None:
+            return names[0]
+        if self.topic not in names:
+            raise ValueError(f"{self.name} has no laser {what} {self.topic!r}; it has {', '.join(names)}.")
+        return self.topic
+
+
+class Reader:
+    """A format. format: its name; suffixes: in lower case; expects: what such a file has, for messages."""
+
+    format: ClassVar[str]
+    suffixes: ClassVar[tuple[str, ...]]
+    expects: ClassVar[str]
+
+    @staticmethod
+    def recognises(head: bytes) -> bool:
+        """Whether a file that begins so is of this format."""
+        raise NotImplementedError
+
+    @staticmethod
+    def read(source: Source) -> Recording:
+        """All scans of the chosen topic; a ValueError in one sentence if the file cannot be read."""
+        raise NotImplementedError
+
+
+class Sweeps:
+    """Collects scans one by one and joins them in a Recording."""
+
+    def __init__(self) -> None:
+        self.ranges: list[Floats] = []
+        self.geometry: list[tuple[float, float, float, float, float]] = []
+        self.frame_ids: list[str] = []
+        self.bearings: list[Floats] = []
+
+    def __len__(self) -> int:
+        return len(self.ranges)
+
+    def add(
+        self,
+        ranges: Floats,
+        angle_min: float,
+        angle_increment: float,
+        range_min: float = 0.0,
+        range_max: float = np.inf,
+        stamp: float = 0.0,
+        frame_id: str = "",
+        bearings: Floats | None = None,
+    ) -> None:
+        self.ranges.append(ranges)
+        self.geometry.append((angle_min, angle_increment, range_min, range_max, stamp))
+        self.frame_ids.append(frame_id)
+        if bearings is not None:
+            self.bearings.append(bearings)
+
+    def recording(self, source: Source, **fields: Any) -> Recording:
+        """All scans as one Recording; `fields` go to it as they are and win over what was collected."""
+        geometry = np.array(self.geometry, dtype=np.float64).reshape(-1, 5)
+        columns: dict[str, Any] = {
+            "name": source.name,
+            "ranges": np.concatenate(self.ranges) if self.ranges else np.empty(0, np.float32),
+            "offsets": np.concatenate(([0], np.cumsum([len(ranges) for ranges in self.ranges], dtype=np.int64))),
+            "angle_min": geometry[:, 0],
+            "angle_increment": geometry[:, 1],
+            "range_min": geometry[:, 2],
+            "range_max": geometry[:, 3],
+            "stamps": geometry[:, 4],
+            "frame_ids": tuple(self.frame_ids),
+            "bearings": np.concatenate(self.bearings) if self.bearings else None,
+        }
+        return Recording(**(columns | fields))

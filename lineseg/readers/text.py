@@ -1,0 +1,307 @@
+"""Plain text: a scan a row, columns of angle and distance, or a table with a column `ranges`."""
+
+from __future__ import annotations
+
+import csv
+import math
+import re
+from collections.abc import Iterator
+from dataclasses import replace
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+
+from ..scan import Floats, Recording, Topic
+from .numbers import all_numbers, is_number, split
+from .range_limits import longest_return
+from .source import Reader, Source, Sweeps
+from .text_options import METRES, TextOptions, Unit
+
+# angle_min and angle_increment, in degrees, of common lasers by their number of beams.
+LASERS = {
+    180: (-90.0, 1.0),
+    181: (-90.0, 1.0),
+    360: (-180.0, 1.0),
+    361: (-90.0, 0.5),
+    541: (-135.0, 0.5),
+    682: (-120.0, 240.0 / 681),
+    721: (-90.0, 0.25),
+    726: (-135.0, 360.0 / 1024),
+    769: (-135.0, 360.0 / 1024),
+    1081: (-135.0, 0.25),
+}
+COMMENTS = (b"#", b"%", b"//")
+ECHO = b"%time,field."  # the first line of `rostopic echo -p`
+SETTING = re.compile(rb"(\w+)\s*[=:]\s*([^\s,;]+)")
+ANGLES = ("angle", "angles", "bearing", "theta", "angle_rad", "angle_deg", "azimuth")
+DISTANCES = ("distance", "distances", "range", "dist", "rho", "distance_m", "distance_mm", "range_m", "range_mm")
+
+
+class Row(NamedTuple):
+    number: int
+    text: bytes
+
+
+class Text(Reader):
+    """The reader that is tried last: whatever consists of lines with numbers."""
+
+    format = "text"
+    suffixes = (".csv", ".txt", ".dat", ".tsv", ".asc", ".xy")
+    expects = "lines of numbers"
+
+    @staticmethod
+    def recognises(head: bytes) -> bool:
+        return bool(head.strip()) and b"\0" not in head
+
+    @staticmethod
+    def read(source: Source) -> Recording:
+        rows = _rows(source)
+        said: dict[str, str] = {}
+        first = next(rows, None)
+        while first is not None and first.text.startswith(COMMENTS) and not first.text.startswith(ECHO):
+            said.update((key.decode(), value.decode()) for key, value in SETTING.findall(first.text))
+            first = next(rows, None)
+        if first is None:
+            raise ValueError(f"{source.name} has no line of numbers; {TEXT_FORMS}")
+        options = _with_comments(source, said)
+        names = _names(first.text)
+        if names and ("ranges" in names or "ranges0" in names):
+            return _read_table(source, names, rows, options)
+        if names:
+            return _read_columns(source, rows, options, names)
+        rows = _chain(first, rows)
+        if len(split(first.text)) == 2 and not options.skip_columns:
+            return _read_columns(source, rows, options, ["angle", "distance"])
+        return _read_scans(source, rows, options)
+
+
+TEXT_FORMS = "a text file has one scan a row, or the columns angle and distance, or a table with a column named ranges."
+
+
+def _rows(source: Source) -> Iterator[Row]:
+    for number, line in source.lines():
+        text = line.removeprefix(b"\xef\xbb\xbf") if number == 1 else line
+        if stripped := text.strip():
+            yield Row(number, stripped if stripped.startswith(COMMENTS) else text)
+
+
+def _chain(first: Row, rest: Iterator[Row]) -> Iterator[Row]:
+    yield first
+    yield from (row for row in rest if not row.text.startswith(COMMENTS))
+
+
+def _names(text: bytes) -> list[str] | None:
+    """The column names in a line, None if it begins with a number."""
+    words = split(text)
+    if is_number(words[0]):
+        return None
+    return [word.decode("utf-8", "replace").strip("\"'%").removeprefix("field.").lower() for word in words]
+
+
+def _numbers(source: Source, row: Row, text: bytes) -> Floats:
+    values = all_numbers(text)
+    if values is None:
+        wrong = next(word for word in split(text) if not is_number(word))
+        shown = wrong[:40].decode("utf-8", "replace")
+        raise ValueError(f"{source.name}:{row.number}: {shown!r} is not a number; {TEXT_FORMS}")
+    return values
+
+
+def _with_comments(source: Source, said: dict[str, str]) -> TextOptions:
+    """The options given, completed by what comment lines of the file say."""
+    found: dict[str, str | float | int] = {}
+    for name in TextOptions.names():
+        if name in said and getattr(source.text, name) is None:
+            try:
+                value = said[name]
+                found[name] = value if "unit" in name else int(value) if name == "skip_columns" else float(value)
+            except ValueError:
+                raise ValueError(
+                    f"{source.name}: its comments say {name} = {said[name]!r}; it must be a number."
+                ) from None
+    try:
+        return replace(source.text, **found)  # type: ignore[arg-type]
+    except ValueError as error:
+        raise ValueError(f"{source.name}: {error}") from None
+
+
+# One scan a row
+
+
+def _read_scans(source: Source, rows: Iterator[Row], options: TextOptions) -> Recording:
+    scans: list[Floats] = []
+    numbers: list[int] = []
+    skip = options.skip_columns
+    for row in rows:
+        if skip is None:
+            skip = _leading_columns(row.text)
+        values = _numbers(source, row, row.text)[skip:]
+        if scans and len(values) != len(scans[0]):
+            raise ValueError(
+                f"{source.name}:{row.number}: {len(values)} ranges, but the scans before have {len(scans[0])}; "
+                "is the line complete?"
+            )
+        scans.append(values)
+        numbers.append(row.number)
+    if len(scans) > 1 and len(scans[0]) == 1:
+        scans = [np.concatenate(scans)]
+    if len(scans[0]) == 0:
+        raise ValueError(f"{source.name}:{numbers[0]}: no range is left after {skip} leading columns.")
+    ranges = np.concatenate(scans)
+    unit = options.unit or _guess_unit(ranges)
+    angle_min, increment = _angles(source, len(scans[0]), options)
+    sweeps = Sweeps()
+    for scan in scans:
+        sweeps.add(scan * METRES[unit], angle_min, increment)
+    return _finish(source, sweeps, options)
+
+
+def _leading_columns(text: bytes) -> int:
+    """How many numbers stand in front of the ranges: all before a double space, if there is one such in the line."""
+    parts = re.split(rb" {2,}", text.strip())
+    return len(split(parts[0])) if len(parts) == 2 and len(split(parts[1])) > len(split(parts[0])) else 0
+
+
+def _guess_unit(ranges: Floats) -> Unit:
+    """Whole numbers, most of them too large for metres, are millimetres."""
+    finite = ranges[np.isfinite(ranges) & (ranges > 0)]
+    whole = len(finite) > 0 and bool((finite == np.floor(finite)).all())
+    return "mm" if whole and np.percentile(finite, 90) > 100 else "m"
+
+
+def _angles(source: Source, beams: int, options: TextOptions) -> tuple[float, float]:
+    """angle_min and angle_increment [rad]: as given, or of the laser that has so many beams."""
+    low, step = (math.radians(angle) for angle in LASERS.get(beams, (math.nan, math.nan)))
+    step = step if options.angle_increment is None else options.angle_increment
+    low = low if options.angle_min is None else options.angle_min
+    if math.isnan(low) and not math.isnan(step):
+        low = -step * (beams - 1) / 2
+    if math.isnan(step):
+        raise ValueError(
+            f"{source.name}: rows of {beams} numbers, and nothing says at which angles; "
+            f"give angle_increment and angle_min (without, 0° is the middle), and skip_columns if not all are ranges."
+        )
+    return low, step
+
+
+# Columns of angle and distance
+
+
+def _read_columns(source: Source, rows: Iterator[Row], options: TextOptions, names: list[str]) -> Recording:
+    angle_at = _column(source, names, ANGLES)
+    distance_at = _column(source, names, DISTANCES)
+    table: list[Floats] = []
+    for row in rows:
+        if row.text.startswith(COMMENTS):
+            continue
+        words = split(row.text)
+        if len(words) < len(names):
+            raise ValueError(
+                f"{source.name}:{row.number}: {len(words)} of {len(names)} columns ({', '.join(names)}); "
+                "is the line complete?"
+            )
+        table.append(_numbers(source, row, words[angle_at] + b" " + words[distance_at]))
+    if not table:
+        raise ValueError(f"{source.name} has column names, but no line of numbers; {TEXT_FORMS}")
+    angles, distances = np.array(table).T
+    if not np.isfinite(angles).all():
+        raise ValueError(f"{source.name}: an angle is not a finite number; each beam needs its own.")
+    named_mm = names[distance_at].endswith("_mm")
+    unit = options.unit or ("mm" if named_mm else _guess_unit(distances))
+    if _in_degrees(angles, names[angle_at], options):
+        angles = np.deg2rad(angles)
+    sweeps = Sweeps()
+    for start, stop in _revolutions(angles):
+        bearings, ranges = angles[start:stop], distances[start:stop] * METRES[unit]
+        increment = (bearings[-1] - bearings[0]) / max(len(bearings) - 1, 1)
+        sweeps.add(ranges, bearings[0], increment, bearings=bearings)
+    return _finish(source, sweeps, options)
+
+
+def _column(source: Source, names: list[str], known: tuple[str, ...]) -> int:
+    for name in known:
+        if name in names:
+            return names.index(name)
+    raise ValueError(
+        f"{source.name} begins with {' '.join(names)[:60]!r}, which names no column {known[0]}; {TEXT_FORMS}"
+    )
+
+
+def _in_degrees(angles: Floats, name: str, options: TextOptions) -> bool:
+    """As asked for, as the column's name says, or because no angle in radians is so large."""
+    if options.angle_unit:
+        return options.angle_unit == "deg"
+    if name.endswith(("_deg", "_rad")):
+        return name.endswith("_deg")
+    return bool(np.abs(angles).max() > 2 * np.pi + 0.2)
+
+
+def _revolutions(angles: Floats) -> Iterator[tuple[int, int]]:
+    """Half-open spans of the scans in a column of angles: a new one begins where the angle leaps back."""
+    leaps = np.flatnonzero(np.abs(np.diff(angles)) > np.pi) + 1
+    edges = [0, *leaps.tolist(), len(angles)]
+    yield from pairwise(edges)
+
+
+# A table with a column of lists, as `rostopic echo -p` and exporters write it
+
+
+def _read_table(source: Source, names: list[str], rows: Iterator[Row], options: TextOptions) -> Recording:
+    csv.field_size_limit(1 << 24)
+    sweeps = Sweeps()
+    for row in rows:
+        cells = next(csv.reader([row.text.decode("utf-8", "replace")]))
+        if len(cells) != len(names):
+            raise ValueError(f"{source.name}:{row.number}: {len(cells)} of {len(names)} columns; is the line complete?")
+        cell = dict(zip(names, cells, strict=True))
+        listed = cell.get("ranges") or " ".join(cell[name] for name in names if re.fullmatch(r"ranges\d+", name))
+        ranges = _numbers(source, row, listed.strip(" []()").encode())
+        angle_min = _value(source, row, cell, "angle_min", options.angle_min)
+        increment = _value(source, row, cell, "angle_increment", options.angle_increment)
+        range_min = _value(source, row, cell, "range_min", 0.0)
+        range_max = _value(source, row, cell, "range_max", math.inf) or math.inf
+        stamp, frame_id = _stamp(cell), _frame_id(cell)
+        sweeps.add(ranges * METRES[options.unit or "m"], angle_min, increment, range_min, range_max, stamp, frame_id)
+    if not sweeps:
+        raise ValueError(f"{source.name} has column names, but no scan below them.")
+    return _finish(source, sweeps, options, limits=True)
+
+
+def _value(source: Source, row: Row, cell: dict[str, str], name: str, default: float | None) -> float:
+    """The number in the column `name`; `default` where there is no such column or an empty cell."""
+    if cell.get(name, "").strip():
+        return float(_numbers(source, row, cell[name].encode())[0])
+    if default is None:
+        raise ValueError(f"{source.name}:{row.number}: there is no {name}; a column or an option must give it.")
+    return default
+
+
+def _stamp(cell: dict[str, str]) -> float:
+    """Seconds of a message's stamp, however the exporter wrote them; 0 if it wrote none."""
+    header = cell.get("header", "")
+    seconds = re.search(r"\bsecs?'?\s*:\s*(-?\d+)", header)
+    nanoseconds = re.search(r"\bn(?:ano)?secs?'?\s*:\s*(\d+)", header)
+    if seconds:
+        return int(seconds[1]) + 1e-9 * int(nanoseconds[1] if nanoseconds else 0)
+    for name, unit in (("header.stamp", 1e-9), ("stamp", 1.0), ("timestamp", 1.0), ("time", 1.0)):
+        if is_number(cell.get(name, "").strip().encode()):
+            return float(cell[name]) * unit
+    return 0.0
+
+
+def _frame_id(cell: dict[str, str]) -> str:
+    found = re.search(r"'?frame_id'?\s*:\s*['\"]?([^'\",}]*)", cell.get("header", ""))
+    return found[1] if found else cell.get("header.frame_id", cell.get("frame_id", ""))
+
+
+def _finish(source: Source, sweeps: Sweeps, options: TextOptions, limits: bool = False) -> Recording:
+    topics = (Topic("scan", len(sweeps)),)
+    recording = sweeps.recording(source, topic=source.choose(list(topics)), topics=topics, format=Text.format)
+    if not limits:
+        recording.range_max[:] = longest_return(recording.ranges)
+    if options.range_min is not None:
+        recording.range_min[:] = options.range_min
+    if options.range_max is not None:
+        recording.range_max[:] = options.range_max
+    return recording

@@ -1,0 +1,120 @@
+"""Line segment extraction by seeded region growing.
+
+Gao, Zhang, Fang, Yuan: A line segment extraction algorithm using laser data based on seeded region growing.
+Int. J. Advanced Robotic Systems 15(1), 2018, DOI 10.1177/1729881418755245.
+"""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..kernel import entry_kernel, kernel
+from ..log import note, written
+from ..params import Params
+from ..scan import Scan
+from ..total_least_squares import line_of
+from .endpoints import place_endpoints
+from .growth import grow
+from .lines import DROPPED, LINE, Dropping, append, drop
+from .log import LINE_DROPPED, LINE_KEPT, NONE
+from .overlap import resolve_overlaps, shortfall
+from .points import Limits, points_of, unpacked
+from .seed import find_seed
+
+
+class Run(NamedTuple):
+    """What one run leaves behind; first and last are positions, and beam (m,) int32 turns positions into beams.
+
+    On a full circle beams go on counting past the seam; points: number of valid beams, without those of
+    things that are looked past.
+    """
+
+    lines: NDArray
+    dropped: NDArray
+    beam: NDArray[np.int32]
+    points: int
+    log: NDArray | None
+
+
+@entry_kernel
+def extract_lines(ranges, rays, range_min, range_max, circle, limits, xy, numbers, lines, dropped, log):
+    """The four procedures in a row: (number of lines, of dropped candidates, of points, of valid beams).
+
+    ranges, rays, circle: of a `Scan`; limits: (9,) the fields of `Limits`; the rest is `Memory`.
+    """
+    limits = unpacked(limits)
+    lines, dropped = lines.view(LINE), Dropping(dropped.view(DROPPED), numbers[3])
+    dropped.used[0] = 0
+    points = points_of(ranges, rays, range_min, range_max, circle, limits, xy, numbers)
+    count = grow_lines(points, limits, lines, dropped, log)
+    count = resolve_overlaps(points, lines, count, dropped, limits, log)
+    place_endpoints(points, lines, count, log)
+    return count, dropped.used[0], points.period, points.returns
+
+
+@kernel
+def grow_lines(points, limits, lines, dropped, log):
+    """Seed after seed, each grown to its end, from the first point to the last."""
+    count = candidate = 0
+    start = points.start
+    stop = start + points.period
+    if not points.circle:
+        stop -= max(limits.min_points, limits.seed_points) - 1
+    elif points.period < 2 * limits.seed_points:
+        stop = start
+    while True:
+        seed, moments = find_seed(points, start, stop, limits, candidate, log)
+        if seed < 0:
+            return count
+        first, last, moments = grow(points, seed, moments, limits, candidate, log)
+        line = line_of(moments)
+        check, value, limit = shortfall(points, first, last, line, limits)
+        if check == NONE:
+            count = append(lines, count, first, last, candidate, line)
+        else:
+            drop(dropped, first, last, check, value, limit)
+        if log is not None:
+            kind = LINE_KEPT if check == NONE else LINE_DROPPED
+            note(log, kind, check, candidate, 0, (first, last), -1, line, value, limit)
+        enough_points = last - first + 1 >= limits.min_points
+        start = last + 1 if enough_points else seed + 1
+        candidate += 1
+
+
+class Memory:
+    """What the kernels write to, for scans of up to `beams` beams.
+
+    xy, numbers: the points, see `points_of`; lines, dropped: (capacity,) of LINE and DROPPED.
+    """
+
+    def __init__(self, beams: int, circle: bool) -> None:
+        places = (4 * beams if circle else beams) + 1
+        self.xy = np.empty((4, places))
+        self.numbers = np.empty((5, places), np.int32)
+        self.lines = np.empty(beams + 1, LINE)
+        self.dropped = np.empty(2 * beams + 1, DROPPED)
+        self.arguments = self.xy, self.numbers, self.lines.view(np.float64), self.dropped.view(np.float64)
+
+
+def limits_of(params: Params) -> NDArray[np.float64]:
+    """`Params` as `extract_lines` takes them."""
+    return np.array([getattr(params, name) for name in Limits._fields], dtype=np.float64)
+
+
+def run(scan: Scan, params: Params, logged: bool = False) -> Run:
+    """Extract the lines of one scan, and write every decision down if `logged`."""
+    memory = Memory(len(scan), scan.full_circle)
+    ranges, nearest, farthest = scan.ranges.astype(np.float64), float(scan.range_min), float(scan.range_max)
+    scene = (ranges, scan.rays, nearest, farthest, scan.full_circle, limits_of(params))
+    rows = None
+    if logged:
+        run_once = partial(extract_lines, *scene, *memory.arguments)
+        (count, drops, points, _), rows = written(run_once, 4 * len(scan) + 64)
+    else:
+        count, drops, points, _ = extract_lines(*scene, *memory.arguments, None)
+    beams = 4 * points if scan.full_circle else points
+    return Run(memory.lines[:count], memory.dropped[:drops], memory.numbers[0, :beams], points, rows)

@@ -1,0 +1,35 @@
+"""Endpoint generation (Eqs. 7, 8)."""
+
+from __future__ import annotations
+
+import math
+
+from ..kernel import kernel, summing_kernel
+from ..log import note_pair
+from ..total_least_squares import project, signed_distance
+from .lines import line_at
+from .log import ENDPOINTS, NONE
+
+
+@summing_kernel
+def squares_of(x, y, first, last, line):
+    """Sum of the squared distances to the line (Eq. 2)."""
+    total = 0.0
+    for k in range(first, last + 1):
+        total += signed_distance(line, x[k], y[k]) ** 2
+    return total
+
+
+@kernel
+def place_endpoints(points, lines, count, log):
+    """Project the outermost points of each line on it; also its length, and the rms of the distances."""
+    for i in range(count):
+        row = lines[i]
+        first, last, line = row.first, row.last, line_at(lines, i)
+        row.x1, row.y1 = project(line, points.x[first], points.y[first])
+        row.x2, row.y2 = project(line, points.x[last], points.y[last])
+        row.length = math.hypot(row.x2 - row.x1, row.y2 - row.y1)
+        row.rms = math.sqrt(squares_of(points.x, points.y, first, last, line) / (last - first + 1))
+        if log is not None:
+            ends = (row.x1, row.y1, row.x2)
+            note_pair(log, ENDPOINTS, NONE, (row.candidate, i), 0, (first, last), -1, line, ends, row.y2, row.length)

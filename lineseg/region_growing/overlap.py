@@ -1,0 +1,176 @@
+"""Overlap region processing (Algorithm 3)."""
+
+from __future__ import annotations
+
+import math
+
+from ..kernel import inlined_kernel, kernel
+from ..log import note, note_pair
+from ..total_least_squares import line_of, moments_of, signed_distance
+from .growth import length_of
+from .lines import drop, line_at, remove
+from .log import (
+    LINE_DROPPED,
+    LINES_KEPT_APART,
+    LINES_MERGED,
+    MERGE_ANGLE,
+    MIN_LENGTH,
+    MIN_POINTS,
+    NEARER,
+    NONE,
+    OVERLAP_CUT,
+)
+
+
+@kernel
+def resolve_overlaps(points, lines, count, dropped, limits, log):
+    """Number of lines left when no two neighbours share a point: the collinear become one, then the rest is cut.
+
+    The listing stops at the first pair without an overlap; every pair is meant. On a full circle the last line is a
+    neighbour of the first.
+    """
+    count = merge_collinear(points, lines, count, limits, log)
+    count = cut_overlaps(points, lines, count, dropped, log)
+    return keep_sufficient(points, lines, count, dropped, limits, log)
+
+
+@kernel
+def merge_collinear(points, lines, count, limits, log):
+    """Neighbours that overlap and differ by less than `merge_angle` become one line over all points of both."""
+    i = 0
+    while i + 1 < count:
+        if merged(points, lines, i, i + 1, 0, limits, log):
+            count = remove(lines, count, i + 1)
+        else:
+            i += 1
+    if points.circle and count > 1 and merged(points, lines, count - 1, 0, points.period, limits, log):
+        count = remove(lines, count, 0)
+    return count
+
+
+@kernel
+def merged(points, lines, i, j, turn, limits, log):
+    """Whether line j, `turn` positions further on, was merged into line i."""
+    first, last = lines[i].first, lines[i].last
+    first_2, last_2 = lines[j].first + turn, lines[j].last + turn
+    if first_2 > last:
+        return False
+    line, other = line_at(lines, i), line_at(lines, j)
+    angle = math.asin(min(1.0, abs(line[0] * other[1] - line[1] * other[0])))
+    pair = lines[i].candidate, lines[j].candidate
+    # On a full circle the same line may have grown on both sides of the seam.
+    same = first == first_2 and last == last_2
+    if angle >= limits.merge_angle and not same:
+        if log is not None:
+            note_pair(
+                log, LINES_KEPT_APART, MERGE_ANGLE, pair, 0, (first, last), -1, line, other, angle, limits.merge_angle
+            )
+        return False
+    first, last = min(first, first_2), max(last, last_2)
+    last = min(last, first + points.period - 1)
+    refit(points, lines, i, first, last)
+    if log is not None:
+        line = line_at(lines, i)
+        note_pair(log, LINES_MERGED, MERGE_ANGLE, pair, 0, (first, last), -1, line, other, angle, limits.merge_angle)
+    return True
+
+
+@kernel
+def cut_overlaps(points, lines, count, dropped, log):
+    """Part overlapping neighbours; a line that keeps nothing goes, and its neighbours meet each other."""
+    i = 0
+    while i + 1 < count:
+        swallowed = cut(points, lines, i, i + 1, 0, dropped, log)
+        if swallowed >= 0:
+            count = remove(lines, count, swallowed)
+            i = max(i - 1, 0)
+        else:
+            i += 1
+    while points.circle and count > 1:
+        swallowed = cut(points, lines, count - 1, 0, points.period, dropped, log)
+        if swallowed < 0:
+            break
+        count = remove(lines, count, swallowed)
+    return count
+
+
+@kernel
+def cut(points, lines, i, j, turn, dropped, log):
+    """Part line i from line j, `turn` positions further on, at the first shared point that is not nearer to line i.
+
+    Returns the line to which no point is left, or −1. Where line j reaches farther back than line i begins, the points
+    before line i are not shared.
+    """
+    first, last = lines[i].first, lines[i].last
+    first_2, last_2 = lines[j].first + turn, lines[j].last + turn
+    start, stop = max(first, first_2), min(last, last_2) + 1
+    if start >= stop:
+        return -1
+    line, other = line_at(lines, i), line_at(lines, j)
+    k = start
+    here = there = 0.0
+    while k < stop:
+        here = abs(signed_distance(line, points.x[k], points.y[k]))
+        there = abs(signed_distance(other, points.x[k], points.y[k]))
+        if here >= there:
+            break
+        k += 1
+    if k == first:
+        return swallow(lines, i, j, there, here, dropped, log)
+    if k == last_2 + 1:
+        return swallow(lines, j, i, here, there, dropped, log)
+    refit(points, lines, i, first, k - 1)
+    refit(points, lines, j, k - turn, lines[j].last)
+    if log is not None:
+        line, other = line_at(lines, i), line_at(lines, j)
+        pair = lines[i].candidate, lines[j].candidate
+        note_pair(log, OVERLAP_CUT, NEARER, pair, 0, (first, k - 1), k, line, other, here, there)
+    return -1
+
+
+@kernel
+def swallow(lines, i, j, to_other, to_own, dropped, log):
+    """Line i leaves all its points to line j, which is the nearer one."""
+    first, last, line = lines[i].first, lines[i].last, line_at(lines, i)
+    if log is not None:
+        note(log, LINE_DROPPED, NEARER, lines[i].candidate, 0, (first, last), -1, line, to_own, to_other)
+    drop(dropped, first, last, NEARER, to_own, to_other)
+    return i
+
+
+@kernel
+def refit(points, lines, i, first, last):
+    """Give line i the positions first..last; with fewer than 2 points its line stays what it was."""
+    lines[i].first, lines[i].last = first, last
+    if last > first:
+        lines[i].a, lines[i].b, lines[i].c = line_of(moments_of(points.x, points.y, first, last))
+
+
+@kernel
+def keep_sufficient(points, lines, count, dropped, limits, log):
+    """Drop what no longer meets P_min and L_min."""
+    i = 0
+    while i < count:
+        first, last = lines[i].first, lines[i].last
+        check, value, limit = shortfall(points, first, last, line_at(lines, i), limits)
+        if check == NONE:
+            i += 1
+            continue
+        if log is not None:
+            note(log, LINE_DROPPED, check, lines[i].candidate, 0, (first, last), -1, line_at(lines, i), value, limit)
+        drop(dropped, first, last, check, value, limit)
+        count = remove(lines, count, i)
+    return count
+
+
+@inlined_kernel
+def shortfall(points, first, last, line, limits):
+    """(check, value, limit) of the requirement that a line fails, P_min first; check NONE if it meets both."""
+    n = last - first + 1
+    if n < limits.min_points or n < 2:
+        return MIN_POINTS, float(n), float(limits.min_points)
+    length = length_of(points, first, last, line)
+    # Not `<`: of points too close to have a direction, the length is NaN.
+    if not length >= limits.min_length:
+        return MIN_LENGTH, length, limits.min_length
+    return NONE, length, limits.min_length

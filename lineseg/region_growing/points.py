@@ -1,0 +1,156 @@
+"""What the procedures run over: the valid points of a scan, in order, and where no line may pass."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..kernel import kernel
+from .log import MAX_DROPOUT, MAX_GAP, NONE
+from .occluder import look_past
+
+
+class Limits(NamedTuple):
+    """`Params` as the kernels take them."""
+
+    epsilon: float
+    delta: float
+    seed_points: int
+    min_points: int
+    min_length: float
+    max_dropout: int
+    max_gap: float
+    merge_angle: float
+    max_occluder: float
+
+
+@kernel
+def unpacked(limits):
+    """`Limits` from an array of their fields."""
+    return Limits(
+        limits[0], limits[1], int(limits[2]), int(limits[3]), limits[4], int(limits[5]), limits[6], limits[7], limits[8]
+    )
+
+
+class Points(NamedTuple):
+    """The valid points in scan order; kernels count in positions, and `beam` leads back to the beams.
+
+    A full circle has no first beam. It is opened at its widest gap, wherever the device begins, and laid out four times
+    in a row with beam numbers that go on counting: a line may then cross the seam in both directions.
+
+    x, y: (m,) [m]; beam: (m,) int32, rising; start: the position of the first point; period: number of points.
+    breaks: (m,) int32, rising by 1 at each step that no seed and no line may take; of two positions between which the
+    way is free it is equal. returns: number of valid beams, with those of things that are looked past.
+    """
+
+    x: NDArray[np.float64]
+    y: NDArray[np.float64]
+    beam: NDArray[np.int32]
+    breaks: NDArray[np.int32]
+    start: int
+    period: int
+    circle: bool
+    returns: int
+
+
+@kernel
+def points_of(ranges, rays, range_min, range_max, circle, limits, xy, numbers):
+    """Points from ranges (n,) [m] and unit vectors along the beams (2, n); for what is valid see `Scan`.
+
+    Of things that are looked past the points are left out, see `look_past`.
+    xy (4, capacity) float64 and numbers (5, capacity) int32 are memory for them, with at least n + 1 places; on a full
+    circle with 4·n + 1.
+    """
+    x, y, beam, breaks = xy[0], xy[1], numbers[0], numbers[1]
+    if circle:
+        x, y, beam = xy[2], xy[3], numbers[2]
+    n = 0
+    for k in range(len(ranges)):
+        r = ranges[k]
+        # Written in any case, and kept if valid: a branch here would be guessed wrong at every dropout.
+        x[n], y[n], beam[n] = r * rays[0, k], r * rays[1, k], k
+        n += (r > 0.0) & (r >= range_min) & (r < range_max)
+    returns, start, m = n, 0, 0
+    looking = limits.max_occluder > 0.0 and n > 2
+    if looking and circle:
+        n = look_past_all_round(x, y, ranges, beam, n, xy, numbers[0], numbers[4], limits)
+    elif looking:
+        n = look_past(x, y, ranges, beam, breaks, n, limits)
+    if circle:
+        start, m = n, 4 * n
+        lay_round(x, y, beam, numbers[4], n, len(ranges), xy, numbers[0], breaks)
+    else:
+        m = n
+    find_breaks(xy[0], xy[1], numbers[0], breaks, m, limits)
+    return Points(xy[0, :m], xy[1, :m], numbers[0, :m], breaks[:m], start, n, circle, returns)
+
+
+@kernel
+def look_past_all_round(x, y, ranges, beam, n, to, to_beam, passed, limits):
+    """`look_past` on a full circle: from the farthest point, which is at no thing, until it comes round again."""
+    farthest = 0
+    for k in range(n):
+        if ranges[beam[k]] > ranges[beam[farthest]]:
+            farthest = k
+    put_down(x, y, beam, n, len(ranges), farthest, n + 1, to, to_beam)
+    left = look_past(to[0], to[1], ranges, to_beam, passed, n + 1, limits) - 1
+    passed[0] = passed[left]
+    for k in range(left):
+        x[k], y[k], beam[k] = to[0, k], to[1, k], to_beam[k]
+    return left
+
+
+@kernel
+def lay_round(x, y, beam, passed, n, beams, to, to_beam, to_passed):
+    """Open a full circle of n points at its widest gap, and put it down four times."""
+    opening, widest = 0, -1.0
+    for k in range(n):
+        after = k + 1 if k + 1 < n else 0
+        gap = (x[after] - x[k]) ** 2 + (y[after] - y[k]) ** 2
+        if gap > widest:
+            opening, widest = k + 1, gap
+    put_down(x, y, beam, n, beams, opening, 4 * n, to, to_beam)
+    for k in range(4 * n):
+        to_passed[k] = passed[(k + opening) % n]
+
+
+@kernel
+def put_down(x, y, beam, n, beams, start, count, to, to_beam):
+    """So many points of a full circle from point `start` on, with beam numbers that go on counting."""
+    for k in range(count):
+        turn = (k + start) // n
+        point = k + start - turn * n
+        to[0, k], to[1, k], to_beam[k] = x[point], y[point], beam[point] + turn * beams
+
+
+@kernel
+def find_breaks(x, y, beam, breaks, n, limits):
+    """Number the breaks: more than max_dropout beams without a return, or a gap wider than max_gap (extensions).
+
+    Where `look_past` has left a 1, the beams between stand for a thing and count as no dropout.
+    """
+    widest = limits.max_gap * limits.max_gap
+    looked = int(limits.max_occluder > 0.0)
+    breaks[0] = 0
+    for k in range(1, n):
+        dx, dy = x[k] - x[k - 1], y[k] - y[k - 1]
+        lost = (beam[k] - beam[k - 1] - 1 > limits.max_dropout) & (breaks[k] & looked == 0)
+        breaks[k] = lost | (dx * dx + dy * dy > widest)
+    for k in range(1, n):
+        breaks[k] += breaks[k - 1]
+
+
+@kernel
+def breach(points, k, neighbour, limits):
+    """(check, value, limit) of the extension that forbids the step from point k to its neighbour, or check NONE."""
+    if points.breaks[neighbour] == points.breaks[k]:
+        return NONE, 0.0, 0.0
+    dx, dy = points.x[neighbour] - points.x[k], points.y[neighbour] - points.y[k]
+    dropout, gap = abs(points.beam[neighbour] - points.beam[k]) - 1, math.sqrt(dx * dx + dy * dy)
+    # Behind a thing that is looked past, only a gap can part.
+    if dropout > limits.max_dropout and not (limits.max_occluder > 0.0 and gap > limits.max_gap):
+        return MAX_DROPOUT, float(dropout), float(limits.max_dropout)
+    return MAX_GAP, gap, limits.max_gap

@@ -1,0 +1,93 @@
+"""Extractions in a recording of rerun (rerun.io), beside whatever else is in it: one line a frame.
+
+    import rerun as rr
+    import lineseg, lineseg.rerun
+
+    rr.init("my_robot")
+    rr.save("run.rrd")
+    for frame, scan in enumerate(lineseg.open_recording("sample_scans/hallway.npz")):
+        rr.set_time("frame", sequence=frame)
+        lineseg.rerun.log("laser", lineseg.extract(scan), scan)
+
+Everything lies in the plane z = 0 of the entity that is logged to; a Transform3D there puts it where the laser is.
+Importing this module needs rerun: `pip install 'lineseg[rerun]'`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from .colours import SEGMENTS, segment_hues
+from .scan import Scan
+from .segment import Dropped, Extraction
+
+try:
+    import rerun as rr
+except ModuleNotFoundError:
+    raise ModuleNotFoundError("rerun is not installed; `pip install 'lineseg[rerun]'` installs it") from None
+
+NO_LINE = (140, 145, 152)
+# Negative radii are in pixels of the screen, not in metres.
+POINT, LINE, THIN = -1.5, -1.5, -0.75
+
+
+def log(
+    entity: str, extraction: Extraction, scan: Scan | None = None, recording: rr.RecordingStream | None = None
+) -> None:
+    """Log the segments of a frame at `entity`/segments, and with its scan the points and the dropped candidates.
+
+    recording: the one that rerun takes without.
+    """
+    rr.log(f"{entity}/segments", segments(extraction), recording=recording)
+    if scan is not None:
+        rr.log(f"{entity}/points", points(scan, extraction), recording=recording)
+        rr.log(f"{entity}/dropped", dropped(scan, extraction.dropped), recording=recording)
+
+
+def segments(extraction: Extraction) -> rr.LineStrips3D:
+    """The segments, each in the colour that it has in the page."""
+    found = extraction.segments
+    colours = SEGMENTS[segment_hues(found)]
+    labels = [f"beams {segment.first}–{segment.last}, {segment.length:.2f} m" for segment in found]
+    ends = strips([segment.start for segment in found], [segment.end for segment in found])
+    return rr.LineStrips3D(ends, colors=colours, radii=LINE, labels=labels, show_labels=False)
+
+
+def points(scan: Scan, extraction: Extraction) -> rr.Points3D:
+    """Every valid point, in the colour of its segment, grey where it has none."""
+    hues = hue_of_beams(extraction)[scan.valid]
+    colours = np.concatenate((np.array([NO_LINE], dtype=np.uint8), SEGMENTS))[hues]
+    return rr.Points3D(raised(scan.xy[scan.valid]), colors=colours, radii=POINT)
+
+
+def dropped(scan: Scan, candidates: Sequence[Dropped]) -> rr.LineStrips3D:
+    """The candidates that were not kept, between their outermost points."""
+    ends = dropped_strips(scan, candidates)
+    return rr.LineStrips3D(ends, colors=[NO_LINE], radii=THIN)
+
+
+def hue_of_beams(extraction: Extraction) -> NDArray[np.uint16]:
+    """(beams,): 0 for a beam without a segment, else 1 + which of SEGMENTS its segment has."""
+    hues = np.array([*segment_hues(extraction.segments), -1], dtype=np.int32) + 1
+    return hues[extraction.labels].astype(np.uint16)
+
+
+def dropped_strips(scan: Scan, candidates: Sequence[Dropped]) -> NDArray[np.float32]:
+    """Those between two beams with a return: other methods may begin at one that has none."""
+    beams = np.array([(candidate.first, candidate.last) for candidate in candidates], dtype=int).reshape(-1, 2)
+    found = raised(scan.xy[beams])
+    return found[np.isfinite(found).all(axis=(1, 2))]
+
+
+def strips(starts: ArrayLike, ends: ArrayLike) -> NDArray[np.float32]:
+    """(n, 2, 3): a strip of two points from each start (n, 2) to its end."""
+    both = (np.asarray(starts, float).reshape(-1, 2), np.asarray(ends, float).reshape(-1, 2))
+    return raised(np.stack(both, axis=1))
+
+
+def raised(xy: NDArray) -> NDArray[np.float32]:
+    """(…, 2) → (…, 3) with z = 0."""
+    return np.concatenate((xy, np.zeros((*xy.shape[:-1], 1))), axis=-1).astype(np.float32)

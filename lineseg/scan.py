@@ -1,0 +1,231 @@
+"""One sweep of a 2D laser (`Scan`) and many of them (`Recording`)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field, replace
+from functools import cached_property, lru_cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.floating]
+
+
+@dataclass(frozen=True, eq=False)
+class Scan:
+    """One sweep, beam by beam in the order of measurement; beams without a return stay in place.
+
+    ranges: (n,) [m]; NaN, ±inf, 0 and sentinels stand for "no return".
+    bearings: (n,) [rad], counter-clockwise from the x axis; they may fall from beam to beam.
+    range_min, range_max: [m]; a beam is valid if its range is finite, > 0, ≥ range_min and < range_max.
+    wall: (n,) int, the true wall of each beam, −1 for none; None where the truth is unknown.
+    """
+
+    ranges: Floats
+    bearings: Floats
+    range_min: float = 0.0
+    range_max: float = np.inf
+    stamp: float = 0.0
+    frame_id: str = ""
+    wall: NDArray[np.integer] | None = None
+
+    def __post_init__(self) -> None:
+        if self.ranges.ndim != 1 or self.ranges.shape != self.bearings.shape:
+            raise ValueError(
+                f"a scan needs one range and one bearing for each beam; ranges have the shape {self.ranges.shape}, "
+                f"bearings {self.bearings.shape}"
+            )
+        if self.wall is not None and self.wall.shape != self.ranges.shape:
+            raise ValueError(f"wall has the shape {self.wall.shape}; it needs that of ranges, {self.ranges.shape}")
+
+    @classmethod
+    def regular(cls, ranges: Floats, angle_min: float, angle_increment: float, **fields) -> Scan:
+        """A scan whose beams are `angle_increment` apart, as in sensor_msgs/LaserScan."""
+        ranges = np.asarray(ranges)
+        return cls(ranges, angle_min + angle_increment * np.arange(len(ranges)), **fields)
+
+    def __len__(self) -> int:
+        return len(self.ranges)
+
+    @cached_property
+    def valid(self) -> NDArray[np.bool_]:
+        """(n,) bool: the beams that returned something. NaN compares false."""
+        return (self.ranges > 0) & (self.ranges >= self.range_min) & (self.ranges < self.range_max)
+
+    @cached_property
+    def rays(self) -> NDArray[np.float64]:
+        """(2, n): unit vectors along the beams; read-only, for numba compiles a kernel once more for the other kind."""
+        rays = np.array((np.cos(self.bearings), np.sin(self.bearings)))
+        rays.flags.writeable = False
+        return rays
+
+    @cached_property
+    def xy(self) -> NDArray[np.float64]:
+        """(n, 2) [m] in the frame of the laser; NaN where the beam is not valid."""
+        ranges = np.where(self.valid, self.ranges, np.nan).astype(np.float64)
+        return (ranges * self.rays).T
+
+    @cached_property
+    def full_circle(self) -> bool:
+        """Whether the last beam is as near to the first as beams are to each other: such a scan has no first beam."""
+        if len(self) < 3:
+            return False
+        steps = np.abs(np.diff(self.bearings))
+        return bool(2 * np.pi - steps.sum() < 1.5 * np.median(steps))
+
+
+@dataclass(frozen=True)
+class Topic:
+    """A stream of scans inside a file, and how many it holds."""
+
+    name: str
+    scans: int
+
+
+@dataclass(frozen=True)
+class PackAbout:
+    """Where the frame of a failure pack came from, how it was extracted, and what was said of it."""
+
+    recording: str
+    frame: int
+    method: str
+    params: dict[str, int | float]
+    note: str
+
+
+@dataclass(frozen=True, eq=False)
+class Recording:
+    """Many scans in flat arrays; beam count and geometry may differ from scan to scan.
+
+    ranges: (total,) float32 or float64 [m], scan after scan; offsets: (frames + 1,) where each of them begins.
+    angle_min, angle_increment [rad], range_min, range_max [m], stamps [s]: (frames,) each.
+    frame_ids: the name of the laser's frame, scan by scan.
+    bearings: (total,) [rad], only for scans whose beams are not evenly spaced.
+    wall: (total,) int, only where the truth is known. poses: (frames, 3) of x, y [m] and heading [rad] and
+    walls: (walls, 4) of x1, y1, x2, y2 [m] in the world's frame, for simulated recordings.
+    topic, topics: the stream these scans come from, and all that the file offers.
+    pack: of a failure pack, what it says of itself.
+    """
+
+    name: str
+    ranges: Floats
+    offsets: NDArray[np.int64]
+    angle_min: Floats
+    angle_increment: Floats
+    range_min: Floats
+    range_max: Floats
+    stamps: Floats
+    frame_ids: tuple[str, ...]
+    bearings: Floats | None = None
+    wall: NDArray[np.integer] | None = None
+    poses: Floats | None = None
+    walls: Floats | None = None
+    topic: str = ""
+    topics: tuple[Topic, ...] = field(default=())
+    format: str = ""
+    pack: PackAbout | None = None
+
+    @classmethod
+    def from_scans(cls, scans: Iterable[Scan], name: str = "", **fields) -> Recording:
+        """A recording of the given scans; `fields` are those of Recording that no scan knows (poses, topics, …)."""
+        scans = list(scans)
+        lengths = np.array([len(scan) for scan in scans], dtype=np.int64)
+        have_wall = bool(scans) and all(scan.wall is not None for scan in scans)
+        increments = np.array([_increment(scan.bearings) for scan in scans])
+        regular = all(
+            np.allclose(np.diff(scan.bearings), increment, rtol=0, atol=1e-6)
+            for scan, increment in zip(scans, increments, strict=True)
+        )
+        return cls(
+            name=name,
+            ranges=_concatenate([scan.ranges for scan in scans]),
+            offsets=np.concatenate(([0], np.cumsum(lengths))),
+            angle_min=np.array([scan.bearings[0] if len(scan) else 0.0 for scan in scans]),
+            angle_increment=increments,
+            range_min=np.array([scan.range_min for scan in scans], dtype=float),
+            range_max=np.array([scan.range_max for scan in scans], dtype=float),
+            stamps=np.array([scan.stamp for scan in scans], dtype=float),
+            frame_ids=tuple(scan.frame_id for scan in scans),
+            bearings=None if regular else _concatenate([scan.bearings for scan in scans]),
+            wall=_concatenate([scan.wall for scan in scans if scan.wall is not None]) if have_wall else None,
+            **fields,
+        )
+
+    def __len__(self) -> int:
+        return len(self.offsets) - 1
+
+    def __getitem__(self, frame: int) -> Scan:
+        if not -len(self) <= frame < len(self):
+            raise IndexError(f"frame {frame} of {self.name or 'the recording'}: it has the frames 0 to {len(self) - 1}")
+        frame %= len(self)
+        beams = slice(self.offsets[frame], self.offsets[frame + 1])
+        fields = {} if self.wall is None else {"wall": self.wall[beams]}
+        scan = Scan(
+            self.ranges[beams],
+            self._bearings(frame),
+            float(self.range_min[frame]),
+            float(self.range_max[frame]),
+            float(self.stamps[frame]),
+            self.frame_ids[frame],
+            **fields,
+        )
+        if self.bearings is None:
+            # Most scans of a recording share their geometry: its sines and cosines are computed once.
+            _, rays, full_circle = self._geometry(frame)
+            vars(scan).update(rays=rays, full_circle=full_circle)
+        return scan
+
+    def only(self, frames: NDArray[np.integer]) -> Recording:
+        """The frames of these numbers, in this order."""
+        spans = [slice(*self.offsets[frame : frame + 2]) for frame in frames.tolist()]
+
+        def of_beams(array: NDArray | None) -> Any:
+            return None if array is None else _concatenate([array[span] for span in spans])
+
+        of_frames = ("angle_min", "angle_increment", "range_min", "range_max", "stamps")
+        return replace(
+            self,
+            ranges=of_beams(self.ranges),
+            bearings=of_beams(self.bearings),
+            wall=of_beams(self.wall),
+            offsets=np.concatenate(([0], np.cumsum(np.diff(self.offsets)[frames]))),
+            frame_ids=tuple(self.frame_ids[frame] for frame in frames.tolist()),
+            poses=None if self.poses is None else self.poses[frames],
+            **{name: getattr(self, name)[frames] for name in of_frames},
+        )
+
+    def _bearings(self, frame: int) -> Floats:
+        if self.bearings is not None:
+            return self.bearings[self.offsets[frame] : self.offsets[frame + 1]]
+        return self._geometry(frame)[0]
+
+    def _geometry(self, frame: int) -> tuple[Floats, Floats, bool]:
+        beams = int(self.offsets[frame + 1] - self.offsets[frame])
+        return regular_geometry(float(self.angle_min[frame]), float(self.angle_increment[frame]), beams)
+
+    def __iter__(self) -> Iterator[Scan]:
+        return (self[frame] for frame in range(len(self)))
+
+    @property
+    def beams(self) -> tuple[int, int]:
+        """The least and the greatest number of beams in a scan."""
+        lengths = np.diff(self.offsets)
+        return (int(lengths.min()), int(lengths.max())) if len(lengths) else (0, 0)
+
+
+@lru_cache(maxsize=64)
+def regular_geometry(angle_min: float, angle_increment: float, beams: int) -> tuple[Floats, Floats, bool]:
+    """(bearings, rays, full_circle) of beams `angle_increment` apart, read-only."""
+    scan = Scan.regular(np.empty(beams), angle_min, angle_increment)
+    scan.bearings.flags.writeable = False
+    return scan.bearings, scan.rays, scan.full_circle
+
+
+def _increment(bearings: Floats) -> float:
+    return float((bearings[-1] - bearings[0]) / (len(bearings) - 1)) if len(bearings) > 1 else 0.0
+
+
+def _concatenate(arrays: list) -> NDArray:
+    return np.concatenate(arrays) if arrays else np.empty(0, dtype=np.float32)

@@ -1,0 +1,78 @@
+"""What an extractor gives back: `Segment`, what it dropped, and both together as `Extraction`."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+class Segment(NamedTuple):
+    """A line segment and the beams it was fitted to.
+
+    line: (a, b, c) of a·x + b·y + c = 0 with the unit normal (a, b) pointing away from the laser, so that c ≤ 0.
+    start, end: endpoints [m], the outermost points projected on the line (Eqs. 7, 8), in the order of the beams.
+    first, last: beam indices, inclusive; last < first where the segment crosses the seam of a full-circle scan.
+    points: number of valid beams in it; length [m]; rms: root mean square of the distances to the line [m].
+    """
+
+    line: tuple[float, float, float]
+    start: tuple[float, float]
+    end: tuple[float, float]
+    first: int
+    last: int
+    points: int
+    length: float
+    rms: float
+
+    @property
+    def rho(self) -> float:
+        """Distance of the line from the laser [m], ≥ 0."""
+        return -self.line[2]
+
+    @property
+    def theta(self) -> float:
+        """Bearing of the foot of the perpendicular from the laser [rad]: x·cos θ + y·sin θ = ρ."""
+        return math.atan2(self.line[1], self.line[0])
+
+    def distance(self, xy: NDArray) -> NDArray:
+        """Distances of points (…, 2) to the infinite line [m]."""
+        a, b, c = self.line
+        return np.abs(a * xy[..., 0] + b * xy[..., 1] + c)
+
+
+class Dropped(NamedTuple):
+    """A line that was grown and not kept.
+
+    check: "min_points", "min_length", or "nearer" where an overlapping line is the nearer one for every shared point;
+    value: what was measured; limit: what was asked for, for "nearer" the distance to the other line. length: between
+    its outermost points [m].
+    """
+
+    first: int
+    last: int
+    points: int
+    length: float
+    check: str
+    value: float
+    limit: float
+
+
+@dataclass(frozen=True, eq=False)
+class Extraction:
+    """Segments in scan order; for each beam its segment, or −1; and the candidates that were dropped."""
+
+    method: str
+    params: Any
+    segments: tuple[Segment, ...]
+    labels: NDArray[np.int32]
+    dropped: tuple[Dropped, ...]
+
+    @cached_property
+    def covered(self) -> int:
+        """Number of beams that belong to a segment."""
+        return int(np.count_nonzero(self.labels >= 0))

@@ -1,0 +1,98 @@
+"""Which thresholds are swept, over which values: a grid of settings."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+
+from ..params import Knob, Params
+
+MOST_SETTINGS = 2_000_000
+
+
+@dataclass(frozen=True)
+class Grid:
+    """Every combination of the axes' values, on top of `base`; the last axis changes fastest.
+
+    axes: the values of each swept threshold by its name. Too many settings are a ValueError that says how many.
+    """
+
+    base: Params
+    axes: Mapping[str, tuple[float, ...]]
+
+    def __post_init__(self) -> None:
+        # Every value is checked once, alone: all of a grid's settings would take long.
+        for name, values in self.axes.items():
+            for value in values:
+                self.base.but(**{name: value})
+        if len(self) > MOST_SETTINGS:
+            sizes = " × ".join(str(len(values)) for values in self.axes.values())
+            raise ValueError(_too_many(f"{sizes} = {len(self):,}"))
+
+    def __len__(self) -> int:
+        return math.prod(len(values) for values in self.axes.values())
+
+    def __iter__(self) -> Iterator[Params]:
+        for values in product(*self.axes.values()):
+            yield self.base.but(**dict(zip(self.axes, values, strict=True)))
+
+    def __hash__(self) -> int:
+        return hash((self.base, tuple(self.axes.items())))
+
+
+def axis_values(text: str, name: str) -> tuple[float, ...]:
+    """The values that a text names for a threshold: "0.01:0.1:20" (from, to, how many), "0.01,0.02,0.05" or "0.03".
+
+    They are spread as the threshold's slider is, by equal ratios or by equal steps, and are whole where it is whole.
+    """
+    kind, knob = knob_of(name)
+    try:
+        if ":" not in text:
+            return tuple(dict.fromkeys(_exact(float(part), kind) for part in text.split(",")))
+        low, high, count = text.split(":")
+        ends, number = (float(low), float(high)), int(count)
+    except ValueError:
+        ends, number = (math.nan, math.nan), 0
+    if not all(map(math.isfinite, ends)) or number < 2:
+        raise ValueError(
+            f"--{name.replace('_', '-')} is {text!r}; a sweep is FROM:TO:COUNT, such as {knob.low:g}:{knob.high:g}:20, "
+            "or values with commas between them"
+        )
+    if number > MOST_SETTINGS:
+        raise ValueError(_too_many(f"{number:,}"))
+    return spread(*ends, number, kind, knob)
+
+
+def _too_many(sizes: str) -> str:
+    return (
+        f"a sweep of {sizes} settings is larger than the {MOST_SETTINGS:,} whose sums are kept in memory; take fewer "
+        "values, or sweep fewer thresholds at once"
+    )
+
+
+def spread(low: float, high: float, count: int, kind: type, knob: Knob) -> tuple[float, ...]:
+    """`count` values from low to high, fewer where they are whole numbers."""
+    even = np.geomspace if knob.log and min(low, high) > 0 else np.linspace
+    return tuple(dict.fromkeys(_exact(value, kind) for value in even(low, high, count).tolist()))
+
+
+def slider_values(name: str, count: int) -> tuple[float, ...]:
+    """`count` values over the range of a threshold's slider."""
+    kind, knob = knob_of(name)
+    return spread(knob.low, knob.high, count, kind, knob)
+
+
+def knob_of(name: str) -> tuple[type, Knob]:
+    """(int or float, Knob) of a threshold; an unknown name is a ValueError that lists the known ones."""
+    known = {field: (kind, knob) for field, kind, knob in Params.knobs()}
+    if name not in known:
+        raise ValueError(f"there is no threshold {name[:40]!r}; there are {', '.join(known)}")
+    return known[name]
+
+
+def _exact(value: float, kind: type) -> float:
+    return float(f"{value:.6g}") if kind is float else round(value)

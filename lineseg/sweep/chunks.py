@@ -1,0 +1,96 @@
+"""What one worker does: open a recording, take some of its frames, and sum them up under some settings."""
+
+from __future__ import annotations
+
+import threading
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..params import Params
+from ..readers import open_recording
+from ..scan import Recording
+from .measure import Batch
+
+# About a second of work a task: long enough that sending it costs nothing, short enough to lose.
+CHUNK_BEAMS = 1_000_000
+BLOCK_SETTINGS = 64
+# Auto-tuning comes back to every chunk in every trial.
+BATCHES_KEPT = 64
+
+_reading = threading.Lock()
+
+
+@dataclass(frozen=True)
+class Source:
+    """A stream of a file as it was at some moment; beams, frames: how much is in it."""
+
+    file: str
+    topic: str | None
+    changed: int
+    size: int
+    frames: int
+    beams: int
+    truth: bool
+
+    def chunks(self) -> list[Chunk]:
+        """All frames, in chunks of about CHUNK_BEAMS beams."""
+        count = min(max(1, round(self.beams / CHUNK_BEAMS)), max(self.frames, 1))
+        ends = np.linspace(0, self.frames, count + 1).round().astype(int).tolist()
+        return [Chunk(self, start, stop) for start, stop in pairwise(ends) if stop > start]
+
+
+@dataclass(frozen=True)
+class Chunk:
+    """The frames start..stop − 1 of a source."""
+
+    source: Source
+    start: int
+    stop: int
+
+
+@dataclass(frozen=True)
+class Task:
+    """A chunk under some settings; scored: see `Batch`."""
+
+    chunk: Chunk
+    settings: tuple[Params, ...]
+    scored: bool
+
+
+def describe(place: tuple[str, str | None]) -> Source:
+    """What stands in a file, read where this runs."""
+    file, topic = place
+    status = Path(file).stat()
+    recording = _opened(file, topic, status.st_mtime_ns, status.st_size)
+    beams = int(recording.offsets[-1])
+    truth = recording.wall is not None
+    return Source(file, topic, status.st_mtime_ns, status.st_size, len(recording), beams, truth)
+
+
+def measure_task(task: Task) -> NDArray[np.float64]:
+    """The sums of a task, (settings, len(COLUMNS)); a file that has changed meanwhile is a ValueError."""
+    source = task.chunk.source
+    status = Path(source.file).stat()
+    if (status.st_mtime_ns, status.st_size) != (source.changed, source.size):
+        raise ValueError(f"{source.file} has changed since the sweep began, or is another file here; begin again")
+    with _reading:
+        batch = _batch(task.chunk, task.scored)
+    return batch.measure(task.settings).sums
+
+
+@lru_cache(maxsize=BATCHES_KEPT)
+def _batch(chunk: Chunk, scored: bool) -> Batch:
+    source = chunk.source
+    lead = scored and chunk.start > 0
+    recording = _opened(source.file, source.topic, source.changed, source.size)
+    return Batch(recording.only(np.arange(chunk.start - lead, chunk.stop)), scored, lead)
+
+
+@lru_cache(maxsize=2)
+def _opened(file: str, topic: str | None, changed: int, size: int) -> Recording:
+    return open_recording(Path(file), topic)

@@ -1,0 +1,76 @@
+"""What a sweep has finished, on disk, so that an interrupted one goes on where it was."""
+
+from __future__ import annotations
+
+import sqlite3
+from collections.abc import Sequence
+from dataclasses import astuple
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..params import Params
+from .chunks import Chunk, Task
+from .totals import COLUMNS
+
+# Sums of another meaning must not be taken for these.
+MEANING = " ".join(COLUMNS)
+
+
+class Journal:
+    """The sums of each chunk under each setting; another grid over the same chunks finds those it shares.
+
+    A file that is no journal, or one of other sums, is a ValueError.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        try:
+            self._rows = sqlite3.connect(path)
+            self._rows.execute("CREATE TABLE IF NOT EXISTS meaning (columns TEXT PRIMARY KEY)")
+            self._rows.execute(
+                "CREATE TABLE IF NOT EXISTS done (chunk TEXT, settings TEXT, sums BLOB, PRIMARY KEY (chunk, settings)) "
+                "WITHOUT ROWID"
+            )
+            found = [columns for (columns,) in self._rows.execute("SELECT columns FROM meaning")]
+        except sqlite3.DatabaseError as error:
+            raise ValueError(f"{path}: this is not the journal of a sweep ({error}); remove it to begin anew") from None
+        if found and found != [MEANING]:
+            raise ValueError(f"{path}: the journal of a sweep by another version of lineseg; remove it to begin anew")
+        self._rows.execute("INSERT OR IGNORE INTO meaning VALUES (?)", (MEANING,))
+        self._rows.commit()
+
+    def known(self, task: Task) -> dict[Params, NDArray[np.float64]]:
+        """The sums that are there already of a task's settings."""
+        found = self._rows.execute(
+            "SELECT settings, sums FROM done WHERE chunk = ? AND settings BETWEEN ? AND ?",
+            (_chunk_key(task.chunk, task.scored), *_ends([_key(params) for params in task.settings])),
+        )
+        known = {key: np.frombuffer(sums) for key, sums in found}
+        return {params: known[key] for params in task.settings if (key := _key(params)) in known}
+
+    def add(self, task: Task, sums: NDArray[np.float64]) -> None:
+        chunk = _chunk_key(task.chunk, task.scored)
+        rows = ((chunk, _key(params), row.tobytes()) for params, row in zip(task.settings, sums, strict=True))
+        with self._rows:
+            self._rows.executemany("INSERT OR REPLACE INTO done VALUES (?, ?, ?)", rows)
+
+    def close(self, remove: bool = False) -> None:
+        """remove: the sweep is complete, and written elsewhere. A journal of nothing is removed anyway."""
+        empty = self._rows.execute("SELECT 1 FROM done LIMIT 1").fetchone() is None
+        self._rows.close()
+        if remove or empty:
+            self._path.unlink(missing_ok=True)
+
+
+def _chunk_key(chunk: Chunk, scored: bool) -> str:
+    return repr((astuple(chunk), scored))
+
+
+def _key(params: Params) -> str:
+    return repr(astuple(params))
+
+
+def _ends(keys: Sequence[str]) -> tuple[str, str]:
+    return min(keys), max(keys)

@@ -1,0 +1,142 @@
+"""The totals of some frames under many settings: extracted again and again, prepared once."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..kernel import entry_kernel
+from ..params import Params
+from ..readers.source import Cancelled
+from ..scan import Recording
+from ..score import SCORES
+from ..survey import Stretch, Workspace, flattened
+from ..truth import true_lines
+from .totals import COLUMNS, COUNTS, MEAN_COLUMNS, Totals
+
+
+@dataclass(frozen=True, eq=False)
+class Truth:
+    """The true lines of some frames.
+
+    labels: (total,) int32 for each beam its line, −1 for none, numbered frame by frame from 0; sizes: number of beams
+    of each line, frame after frame; offsets: (frames + 1,) where in `sizes` the lines of each frame begin.
+    """
+
+    labels: NDArray[np.int32]
+    sizes: NDArray[np.int64]
+    offsets: NDArray[np.int64]
+
+    @classmethod
+    def of(cls, recording: Recording) -> Truth | None:
+        """What `true_lines` says under the paper's P_min and L_min, whatever is being tried; None if nothing is known.
+
+        With the thresholds that are tried, a larger L_min would make the hard lines vanish and so be rewarded.
+        """
+        if recording.wall is None:
+            return None
+        labels = [true_lines(scan, Params()) for scan in recording]
+        sizes = [np.bincount(frame[frame >= 0]) for frame in labels]
+        counts = np.array([len(frame) for frame in sizes], dtype=np.int64)
+        return cls(
+            np.concatenate(labels) if labels else np.empty(0, np.int32),
+            np.concatenate(sizes).astype(np.int64) if labels else np.empty(0, np.int64),
+            np.concatenate(([0], np.cumsum(counts))),
+        )
+
+
+class Batch:
+    """Frames of one recording, ready to be measured under setting after setting; several threads may do so at once.
+
+    scored: whether the label-free scores that cost more than the extraction are wanted too (totals.MEANS).
+    lead: whether the first frame is only there to be compared with, and not counted.
+    """
+
+    def __init__(self, recording: Recording, scored: bool, lead: bool = False) -> None:
+        self._first = int(lead)
+        self._frames, self._beams = len(recording), recording.beams[1]
+        self._scored = scored
+        self._flat = flattened(recording)
+        self._truth = Truth.of(recording)
+        self._stretch = Stretch(recording, self._flat, self._first, self._frames, compared=scored)
+        counted = slice(self._flat.offsets[self._first], self._flat.offsets[-1])
+        near, far = (
+            np.repeat(limit[self._first :], np.diff(self._flat.offsets)[self._first :])
+            for limit in (self._flat.range_min, self._flat.range_max)
+        )
+        ranges = self._flat.ranges[counted]
+        self._valid = int(np.count_nonzero((ranges > 0) & (ranges >= near) & (ranges < far)))
+
+    def measure(self, settings: Sequence[Params], cancelled: NDArray[np.bool_] | None = None) -> Totals:
+        """The totals of each setting; cancelled: (1,) bool, set in another thread, raises `Cancelled`."""
+        flag = np.zeros(1, np.bool_) if cancelled is None else cancelled
+        memory, tally = Workspace(self._beams), np.zeros(self._beams + 1, np.int64)
+        counts = np.zeros(self._frames, np.int64)
+        scores = np.zeros((self._frames, len(SCORES)), np.float32) if self._scored else None
+        sums = np.zeros((len(settings), len(COLUMNS)))
+        for row, params in zip(sums, settings, strict=True):
+            segments = self._stretch.run(params, memory, flag, counts, scores)
+            if flag[0]:
+                raise Cancelled("the sweep was stopped")
+            row[: len(COUNTS)] = (
+                self._frames - self._first,
+                self._valid,
+                segments["points"].sum(),
+                len(segments),
+                0,
+                0,
+                0,
+            )
+            if scores is not None:
+                row[len(COUNTS) :] = scores[self._first :, MEAN_COLUMNS].sum(axis=0, dtype=np.float64)
+            else:
+                row[len(COUNTS) :] = np.nan
+            if self._truth is not None:
+                row[COUNTS.index("true_lines")] = self._truth.offsets[-1] - self._truth.offsets[self._first]
+                truth = self._truth.labels, self._truth.sizes, self._truth.offsets
+                found = count_matches(segments, counts, self._first, self._flat.offsets, *truth, tally)
+                row[COUNTS.index("matches") : COUNTS.index("matches") + 2] = found
+        return Totals(sums)
+
+    def _agreement(self, segments: NDArray[np.void], counts: NDArray[np.int64], tally: NDArray[np.int64]) -> Any:
+        """(true lines, matches, Σ of their intersections over union)."""
+        if self._truth is None:
+            return 0, 0, 0.0
+        labels, sizes, places = self._truth.labels, self._truth.sizes, self._truth.offsets
+        found = count_matches(segments, counts, self._first, self._flat.offsets, labels, sizes, places, tally)
+        return int(places[-1] - places[self._first]), *found
+
+
+@entry_kernel
+def count_matches(segments, counts, first, offsets, labels, sizes, places, tally):
+    """(matches, Σ of their intersections over union) of the frames from `first`, as `truth.match` defines them.
+
+    tally: (beams,) zeros, and zeros again afterwards.
+    """
+    matches, shared, used = 0, 0.0, 0
+    for frame in range(first, len(counts)):
+        start, beams = offsets[frame], offsets[frame + 1] - offsets[frame]
+        for i in range(used, used + counts[frame]):
+            length = (segments[i].last - segments[i].first) % beams + 1
+            most = line = -1
+            for k in range(length):
+                label = labels[start + (segments[i].first + k) % beams]
+                if label >= 0:
+                    tally[label] += 1
+                    if tally[label] > most:
+                        most, line = tally[label], label
+            for k in range(length):
+                label = labels[start + (segments[i].first + k) % beams]
+                if label >= 0:
+                    tally[label] = 0
+            if line >= 0:
+                union = segments[i].points + sizes[places[frame] + line] - most
+                if 2 * most > union:
+                    matches += 1
+                    shared += most / union
+        used += counts[frame]
+    return matches, shared

@@ -1,0 +1,159 @@
+"""A sweep as a table: a row for each file and setting; written, and read again."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Callable, Iterator
+from dataclasses import asdict, dataclass
+from itertools import islice
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..finite import finite_or_none
+from ..params import Params
+from . import MEASURES, Sweep
+
+ROWS_AT_ONCE = 50_000
+# A table that is read whole, to be looked at.
+MOST_ROWS = 100_000
+
+
+@dataclass(frozen=True, eq=False)
+class Table:
+    """A table that was read: (rows,) the file of each row, and by name its numbers, NaN where there is none."""
+
+    files: NDArray[np.str_]
+    numbers: dict[str, NDArray[np.float64]]
+
+    @property
+    def axes(self) -> dict[str, NDArray[np.float64]]:
+        """The thresholds that were swept, with their values in rising order."""
+        values = {name: np.unique(self.numbers[name]) for name, _, _ in Params.knobs()}
+        return {name: each for name, each in values.items() if len(each) > 1}
+
+
+def rows_of(result: Sweep) -> Iterator[dict[str, Any]]:
+    """file, the thresholds, frames, and MEASURES; None where a measure has no value, such as TR without truth."""
+    measures = {name: result.totals.measure(name) for name in MEASURES}
+    frames = result.totals.column("frames")
+    for number, source in enumerate(result.sources):
+        for k, params in enumerate(result.grid):
+            values = {name: finite_or_none(column[number, k]) for name, column in measures.items()}
+            yield {"file": source.file, **asdict(params), "frames": int(frames[number, k]), **values}
+
+
+def write_table(result: Sweep, path: Path) -> None:
+    """Write a sweep as .csv or .parquet; the file is there only once it is complete."""
+    partial = path.with_name(path.name + ".writing")
+    try:
+        TABLE_WRITERS[path.suffix.lower()](result, partial)
+        partial.replace(path)
+    finally:
+        partial.unlink(missing_ok=True)
+
+
+def check_table_path(path: Path) -> None:
+    """ValueError or FileNotFoundError for what cannot be written, before hours of work are spent."""
+    if path.suffix.lower() not in TABLE_WRITERS:
+        raise ValueError(f"{path}: a sweep is written as {' or '.join(TABLE_WRITERS)}")
+    if not path.absolute().parent.is_dir():
+        raise FileNotFoundError(f"{path}: the folder {path.parent} does not exist")
+    if path.suffix.lower() == ".parquet":
+        _pyarrow()
+
+
+def read_table(content: bytes, name: str) -> Table:
+    """Read what `write_table` wrote; a ValueError that begins with `name` if it is anything else."""
+    suffix = Path(name).suffix.lower()
+    if suffix not in TABLE_READERS:
+        raise ValueError(f"{name}: the table of a sweep ends in {' or '.join(TABLE_READERS)}")
+    try:
+        columns = TABLE_READERS[suffix](content)
+        wanted = ["file", *(field for field, _, _ in Params.knobs()), "frames", *MEASURES]
+        if missing := [column for column in wanted if column not in columns]:
+            raise ValueError(f"it has no column {missing[0]!r}; `lineseg sweep` writes {', '.join(wanted)}")
+        rows = len(columns["file"])
+        if not 0 < rows <= MOST_ROWS:
+            raise ValueError(f"it has {rows:,} rows; 1 to {MOST_ROWS:,} can be looked at, sweep fewer values or files")
+        numbers = {column: _column(column, columns[column]) for column in wanted[1:]}
+    except ValueError as error:
+        raise ValueError(f"{name} is not the table of a sweep: {error}") from None
+    return Table(np.array(columns["file"], dtype=np.str_), numbers)
+
+
+def _column(name: str, cells: list[Any]) -> NDArray[np.float64]:
+    numbers = np.empty(len(cells))
+    for row, cell in enumerate(cells):
+        try:
+            numbers[row] = np.nan if cell is None or cell == "" else float(cell)
+        except ValueError:
+            raise ValueError(f"{name} of row {row + 1} is {str(cell)[:40]!r}, expected is a number") from None
+    if name not in MEASURES and not np.isfinite(numbers).all():
+        raise ValueError(f"{name} of row {int(np.argmin(np.isfinite(numbers))) + 1} is missing")
+    return numbers
+
+
+def _read_csv(content: bytes) -> dict[str, list[str]]:
+    try:
+        rows = csv.reader(io.StringIO(content.decode("utf-8-sig"), newline=""), strict=True)
+        head = next(rows, [])
+        body = [row for row in islice(rows, MOST_ROWS + 1) if row]
+    except (UnicodeDecodeError, csv.Error) as error:
+        raise ValueError(f"it is no CSV: {error}") from None
+    for number, row in enumerate(body):
+        if len(row) != len(head):
+            raise ValueError(f"row {number + 1} has {len(row)} cells, its head {len(head)}")
+    return dict(zip(head, map(list, zip(*body, strict=True)), strict=True)) if body else {name: [] for name in head}
+
+
+def _read_parquet(content: bytes) -> dict[str, list[Any]]:
+    arrow, parquet = _pyarrow()
+    try:
+        file = parquet.ParquetFile(arrow.BufferReader(content))
+        if file.metadata.num_rows > MOST_ROWS:
+            raise ValueError(f"it has {file.metadata.num_rows:,} rows; {MOST_ROWS:,} can be looked at")
+        return file.read().to_pydict()
+    except (arrow.ArrowException, OSError) as error:
+        raise ValueError(f"it is no Parquet: {error}") from None
+
+
+def _write_csv(result: Sweep, path: Path) -> None:
+    with path.open("w", newline="", encoding="utf-8") as file:
+        rows = rows_of(result)
+        first = next(rows)
+        writer = csv.DictWriter(file, first, lineterminator="\n")
+        writer.writeheader()
+        writer.writerow(first)
+        writer.writerows(rows)
+
+
+def _write_parquet(result: Sweep, path: Path) -> None:
+    arrow, parquet = _pyarrow()
+    schema = _schema(arrow)
+    rows = rows_of(result)
+    with parquet.ParquetWriter(path, schema) as writer:
+        while block := list(islice(rows, ROWS_AT_ONCE)):
+            writer.write_table(arrow.Table.from_pylist(block, schema))
+
+
+def _schema(arrow: Any) -> Any:
+    thresholds = [(name, arrow.int64() if kind is int else arrow.float64()) for name, kind, _ in Params.knobs()]
+    measures = [(name, arrow.float64()) for name in MEASURES]
+    return arrow.schema([("file", arrow.string()), *thresholds, ("frames", arrow.int64()), *measures])
+
+
+def _pyarrow() -> tuple[Any, Any]:
+    try:
+        import pyarrow
+        import pyarrow.parquet
+    except ImportError:
+        raise ValueError("a .parquet file needs pyarrow; `pip install 'lineseg[tune]'` installs it") from None
+    return pyarrow, pyarrow.parquet
+
+
+TABLE_READERS: dict[str, Callable[[bytes], dict[str, list[Any]]]] = {".csv": _read_csv, ".parquet": _read_parquet}
+TABLE_WRITERS: dict[str, Callable[[Sweep, Path], None]] = {".csv": _write_csv, ".parquet": _write_parquet}

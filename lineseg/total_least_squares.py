@@ -1,0 +1,119 @@
+"""Lines by total least squares (Eqs. 1, 2) from running moments; distance and projection of a point (Eqs. 1, 8)."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from .kernel import inlined_kernel, kernel, summing_kernel
+
+
+class Moments(NamedTuple):
+    """Sums over points relative to a point of their own: far from the laser a line is fitted as well as near it."""
+
+    x0: float
+    y0: float
+    n: float
+    sx: float
+    sy: float
+    sxx: float
+    sxy: float
+    syy: float
+
+
+@kernel
+def empty(x0, y0):
+    """Moments of no points, about (x0, y0)."""
+    return Moments(x0, y0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
+
+
+@kernel
+def add(m, x, y):
+    """Moments with the point (x, y) added."""
+    dx, dy = x - m.x0, y - m.y0
+    return Moments(m.x0, m.y0, m.n + 1.0, m.sx + dx, m.sy + dy, m.sxx + dx * dx, m.sxy + dx * dy, m.syy + dy * dy)
+
+
+@kernel
+def remove(m, x, y):
+    """Moments with the point (x, y) taken out."""
+    dx, dy = x - m.x0, y - m.y0
+    return Moments(m.x0, m.y0, m.n - 1.0, m.sx - dx, m.sy - dy, m.sxx - dx * dx, m.sxy - dx * dy, m.syy - dy * dy)
+
+
+def _moments_of(x, y, first, last):
+    """Moments of the points first..last, about the first of them."""
+    m = empty(x[first], y[first])
+    for k in range(first, last + 1):
+        m = add(m, x[k], y[k])
+    return m
+
+
+moments_of = summing_kernel(_moments_of)
+# For so few points that adding them one by one is the fastest.
+moments_of_few = inlined_kernel(_moments_of)
+
+
+@kernel
+def direction_of(m):
+    """A vector, not of unit length, along the line that minimises Σ(a·xᵢ + b·yᵢ + c)² (Eq. 2).
+
+    It is the eigenvector of the greater eigenvalue of the 2×2 scatter matrix, here n² times too large, in closed form.
+    Of its two forms the one without cancellation is taken. Where all points coincide or scatter equally any direction
+    fits, and the one across the beam is taken.
+    """
+    xx, xy, yy = m.n * m.sxx - m.sx * m.sx, m.n * m.sxy - m.sx * m.sy, m.n * m.syy - m.sy * m.sy
+    half = 0.5 * (xx - yy)
+    root = math.sqrt(half * half + xy * xy)
+    if root == 0.0:
+        return -(m.n * m.y0 + m.sy), m.n * m.x0 + m.sx
+    if half >= 0.0:
+        return half + root, xy
+    return xy, root - half
+
+
+@kernel
+def line_of(m):
+    """Unit normal (a, b) and offset c ≤ 0 of the line that minimises Σ(a·xᵢ + b·yᵢ + c)² (Eq. 2), from n ≥ 2 points."""
+    ux, uy = direction_of(m)
+    x, y = m.x0 + m.sx / m.n, m.y0 + m.sy / m.n
+    norm = math.sqrt(ux * ux + uy * uy)
+    a, b = -uy / norm, ux / norm
+    c = -(a * x + b * y)
+    if c > 0.0:
+        return -a, -b, -c
+    return a, b, c
+
+
+@kernel
+def is_nearer(m, x, y, limit):
+    """Whether (x, y) lies nearer than `limit` to the line fitted to m (Eqs. 2, 3), without a division.
+
+    With p the point relative to the mean and φ the direction of the line, its distance d has
+    2·d² = |p|² − (px² − py²)·cos 2φ − 2·px·py·sin 2φ, and (cos 2φ, sin 2φ) has the direction of (xx − yy, 2·xy) of the
+    scatter matrix. This is asked once for every point that a line takes.
+    """
+    px, py = m.n * (x - m.x0) - m.sx, m.n * (y - m.y0) - m.sy
+    cosine = m.n * (m.sxx - m.syy) - (m.sx * m.sx - m.sy * m.sy)
+    sine = 2.0 * (m.n * m.sxy - m.sx * m.sy)
+    norm = math.sqrt(cosine * cosine + sine * sine)
+    along = (px * px - py * py) * cosine + 2.0 * px * py * sine
+    reach = limit * m.n
+    beyond = px * px + py * py - 2.0 * reach * reach
+    # Points that all coincide have no direction; what lies next to them joins.
+    return along > norm * beyond or (norm == 0.0 and beyond < 0.0)
+
+
+@kernel
+def signed_distance(line, x, y):
+    """Distance of (x, y) to a line with unit normal, positive on the far side of the laser (Eq. 1)."""
+    a, b, c = line
+    return a * x + b * y + c
+
+
+@kernel
+def project(line, x, y):
+    """Foot of the perpendicular from (x, y) to a line with unit normal (Eqs. 7, 8)."""
+    a, b, c = line
+    d = a * x + b * y + c
+    return x - d * a, y - d * b

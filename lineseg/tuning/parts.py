@@ -1,0 +1,116 @@
+"""The frames that auto-tuning learns from, and those held back to judge it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import pairwise
+from pathlib import Path
+from typing import Literal, Protocol
+
+import numpy as np
+
+from ..params import Params
+from ..scan import Recording
+from ..sweep.chunks import Chunk, Task, describe, measure_task
+from ..sweep.measure import Batch
+from ..sweep.totals import Totals
+from ..sweep.workers import Pool
+
+# Of each recording; every other one is held back. A block is a stretch of time, since neighbouring frames are alike.
+BLOCKS = 20
+Split = Literal["frames", "files"]
+
+
+class Blocks(Protocol):
+    """Stretches of frames that can be measured under a setting."""
+
+    @property
+    def train(self) -> Sequence[int]: ...
+    @property
+    def held_back(self) -> Sequence[int]: ...
+    @property
+    def frames(self) -> Sequence[int]: ...
+    @property
+    def truth(self) -> bool: ...
+    @property
+    def name(self) -> str: ...
+
+    def totals(self, params: Params, which: Sequence[int]) -> list[Totals]:
+        """Of each of these blocks."""
+        ...
+
+
+def stretches(frames: int, blocks: int, most: int | None) -> list[tuple[int, int]]:
+    """(start, stop) of blocks spread over a recording; together they hold `most` frames, all without."""
+    blocks = max(1, min(blocks, frames // 2))
+    ends = np.linspace(0, frames, blocks + 1).round().astype(int)
+    share = -(-frames // blocks) if most is None else max(2, most // blocks)
+    return [(start, min(start + share, stop)) for start, stop in pairwise(ends.tolist())]
+
+
+class RecordingBlocks:
+    """Blocks of a recording that is in memory."""
+
+    def __init__(self, recording: Recording, workers: Pool, scored: bool, most: int | None = None) -> None:
+        spans = stretches(len(recording), BLOCKS, most)
+        if len(spans) < 2:
+            raise ValueError("auto-tuning needs 4 or more frames: some to learn from, some to judge it by")
+        self.train, self.held_back = range(0, len(spans), 2), range(1, len(spans), 2)
+        self.frames = [stop - start for start, stop in spans]
+        self.truth = recording.wall is not None
+        self.name = recording.name
+        self._workers = workers
+        self._batches = [_batch(recording, *span, scored) for span in spans]
+
+    def totals(self, params: Params, which: Sequence[int]) -> list[Totals]:
+        tasks = [(self._batches[block], params) for block in which]
+        return [Totals(sums) for _, sums in sorted(self._workers.results(_measure, tasks), key=lambda row: row[0])]
+
+
+def _batch(recording: Recording, start: int, stop: int, scored: bool) -> Batch:
+    lead = scored and start > 0
+    return Batch(recording.only(np.arange(start - lead, stop)), scored, lead)
+
+
+def _measure(task: tuple[Batch, Params]) -> np.ndarray:
+    batch, params = task
+    return batch.measure([params]).sums[0]
+
+
+class FileBlocks:
+    """Blocks of files, opened where the work is done; split: held back are every other block, or every other file."""
+
+    def __init__(
+        self,
+        files: Sequence[Path],
+        workers: Pool,
+        scored: bool,
+        split: Split = "frames",
+        topic: str | None = None,
+        most: int | None = None,
+    ) -> None:
+        if split == "files" and len(files) < 2:
+            raise ValueError("to hold files back, there must be two or more; with one, split by frames")
+        places = [(str(Path(file).absolute()), topic) for file in files]
+        sources = [source for _, source in sorted(workers.results(describe, places), key=lambda row: row[0])]
+        self._chunks: list[Chunk] = []
+        owner: list[int] = []
+        for number, source in enumerate(sources):
+            share = None if most is None else most // len(sources)
+            spans = stretches(source.frames, BLOCKS, share) if source.frames else []
+            self._chunks += [Chunk(source, start, stop) for start, stop in spans]
+            owner += [number] * len(spans)
+        side = [number % 2 if split == "files" else k % 2 for k, number in enumerate(owner)]
+        self.train = [k for k, half in enumerate(side) if half == 0]
+        self.held_back = [k for k, half in enumerate(side) if half == 1]
+        if not self.train or not self.held_back:
+            raise ValueError("auto-tuning needs 4 or more frames: some to learn from, some to judge it by")
+        self.frames = [chunk.stop - chunk.start for chunk in self._chunks]
+        self.truth = all(source.truth for source in sources)
+        self.name = ", ".join(Path(source.file).name for source in sources)
+        self._workers, self._scored = workers, scored
+
+    def totals(self, params: Params, which: Sequence[int]) -> list[Totals]:
+        tasks = [Task(self._chunks[block], (params,), self._scored) for block in which]
+        found = sorted(self._workers.results(measure_task, tasks), key=lambda row: row[0])
+        return [Totals(sums[0]) for _, sums in found]

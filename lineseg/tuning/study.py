@@ -1,0 +1,230 @@
+"""Auto-tuning: an Optuna study over the thresholds, kept in a file and continued later."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..params import Params
+from ..sweep.axes import knob_of
+from ..sweep.totals import Totals
+from .objective import Objective
+from .parts import Blocks
+
+STUDY = "lineseg"
+SEED = 2018
+# Importance of fewer trials is noise.
+LEAST_FOR_IMPORTANCE = 12
+
+
+@dataclass(frozen=True)
+class Trial:
+    """One setting that was tried; score: on the training half, NaN where it had none."""
+
+    number: int
+    params: Params
+    score: float
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """The best trial beside the paper's defaults, both on the half that was held back.
+
+    error: standard error of the gain (jackknife over the held-back blocks); gained: whether it is more than twice that.
+    """
+
+    params: Params
+    tuned: float
+    default: float
+    error: float
+    frames: int
+
+    @property
+    def gain(self) -> float:
+        return self.tuned - self.default
+
+    @property
+    def gained(self) -> bool:
+        return self.gain > 0 and self.gain > 2 * self.error
+
+    @property
+    def text(self) -> str:
+        numbers = f"{self.tuned:.4f} against {self.default:.4f} of the paper's defaults"
+        where = f"on {self.frames:,} frames that were held back"
+        if self.params == Params():
+            return f"No gain: no trial was better than the paper's defaults, which have {self.default:.4f}, {where}."
+        if self.gained:
+            return f"Gain {self.gain:+.4f} (± {self.error:.4f}): {numbers}, {where}."
+        if self.gain < -2 * self.error:
+            return f"No gain: {numbers}, {where}. The defaults are better there; keep them."
+        return f"No gain: {numbers}, {where}, differ by less than twice their uncertainty ± {self.error:.4f}."
+
+
+class Tuning:
+    """Tries settings on the training blocks, one after another, as long as it is asked to.
+
+    path: the SQLite file of the study; in memory without. thresholds: those that are tuned, those of the
+    objective without; the others stay as in `base`. A file that holds another study is a ValueError that says which.
+    """
+
+    def __init__(
+        self,
+        blocks: Blocks,
+        objective: Objective,
+        path: Path | None = None,
+        thresholds: Sequence[str] | None = None,
+        base: Params | None = None,
+    ) -> None:
+        if objective.kind == "truth" and not blocks.truth:
+            raise ValueError(f"{blocks.name} has no truth; tune it with the label-free objective")
+        thresholds = objective.thresholds if thresholds is None else thresholds
+        if not thresholds:
+            raise ValueError(f"no threshold to tune is given; there are {', '.join(asdict(Params()))}")
+        self.objective, self._blocks = objective, blocks
+        self._base = base or Params()
+        self._optuna = optuna_module()
+        self._distributions = {name: self._distribution(name) for name in thresholds}
+        about = {"objective": asdict(objective), "thresholds": list(thresholds), "data": blocks.name}
+        about["frames"] = list(blocks.frames)
+        self._study = self._opened(path, json.dumps(about))
+        if not self._study.trials:
+            # The defaults first: nothing that is worse on the training half is ever proposed.
+            for start in dict.fromkeys((Params(), self._base)):
+                self._study.enqueue_trial({name: getattr(start, name) for name in thresholds})
+
+    def _opened(self, path: Path | None, about: str) -> Any:
+        optuna = self._optuna
+        sampler = optuna.samplers.TPESampler(seed=SEED)
+        storage = None if path is None else f"sqlite:///{Path(path).absolute()}"
+        try:
+            study = optuna.create_study(
+                storage=storage, sampler=sampler, study_name=STUDY, direction="maximize", load_if_exists=True
+            )
+            found = study.user_attrs.get("about")
+        except Exception as error:
+            if path is None:
+                raise
+            raise ValueError(f"{path}: no study can be kept there ({_first_line(error)})") from None
+        if found is None and not study.trials:
+            study.set_user_attr("about", about)
+        elif found != about:
+            raise ValueError(f"{path}: {_difference(found, about)}; give another file for this study")
+        return study
+
+    def _distribution(self, name: str) -> Any:
+        kind, knob = knob_of(name)
+        if kind is int:
+            return self._optuna.distributions.IntDistribution(int(knob.low), int(knob.high))
+        return self._optuna.distributions.FloatDistribution(knob.low, knob.high, log=knob.log)
+
+    def step(self) -> Trial:
+        """Try one more setting."""
+        trial = self._study.ask(self._distributions)
+        params = self._params(trial.params)
+        try:
+            score = self.objective.score(_sum(self._blocks.totals(params, self._blocks.train)))
+        except BaseException:
+            self._study.tell(trial, state=self._optuna.trial.TrialState.FAIL)
+            raise
+        if math.isnan(score):
+            self._study.tell(trial, state=self._optuna.trial.TrialState.FAIL)
+        else:
+            self._study.tell(trial, score)
+        return Trial(trial.number, params, score)
+
+    def run(self, trials: int) -> Iterator[Trial]:
+        """So many more."""
+        for _ in range(trials):
+            yield self.step()
+
+    def trials(self) -> list[Trial]:
+        """All that are finished, also those of former runs."""
+        finished = [trial for trial in self._study.trials if trial.state.is_finished() and trial.params]
+        return [
+            Trial(trial.number, self._params(trial.params), math.nan if trial.value is None else trial.value)
+            for trial in finished
+        ]
+
+    def best(self) -> Trial:
+        """The best on the training half; ValueError where no trial has a score."""
+        scored = [trial for trial in self.trials() if not math.isnan(trial.score)]
+        if not scored:
+            raise ValueError(
+                "no trial has a score: these frames hold no true line, or none with a return; try other frames, or "
+                "the label-free objective"
+            )
+        return max(scored, key=lambda trial: trial.score)
+
+    def importance(self) -> dict[str, float]:
+        """Of each tuned threshold its share in what makes a trial good (PED-ANOVA); empty for a few trials."""
+        scored = [trial for trial in self.trials() if not math.isnan(trial.score)]
+        if len(scored) < LEAST_FOR_IMPORTANCE or len(self._distributions) < 2:
+            return {}
+        evaluator = self._optuna.importance.PedAnovaImportanceEvaluator()
+        return self._optuna.importance.get_param_importances(self._study, evaluator=evaluator)
+
+    def verdict(self) -> Verdict:
+        """The best trial and the defaults on the held-back blocks."""
+        params = self.best().params
+        held_back = self._blocks.held_back
+        tuned, default = (self._blocks.totals(each, held_back) for each in (params, Params()))
+        gains = [
+            self._gain([*tuned[:k], *tuned[k + 1 :]], [*default[:k], *default[k + 1 :]]) for k in range(len(tuned))
+        ]
+        n = len(gains)
+        error = math.sqrt((n - 1) / n * float(np.sum((np.array(gains) - np.mean(gains)) ** 2))) if n > 1 else math.inf
+        frames = sum(self._blocks.frames[k] for k in held_back)
+        scores = self.objective.score(_sum(tuned)), self.objective.score(_sum(default))
+        return Verdict(params, *scores, error, frames)
+
+    def _gain(self, tuned: Sequence[Totals], default: Sequence[Totals]) -> float:
+        if not tuned:
+            return 0.0
+        return self.objective.score(_sum(tuned)) - self.objective.score(_sum(default))
+
+    def _params(self, values: dict[str, float]) -> Params:
+        return self._base.but(**{name: _rounded(name, value) for name, value in values.items()})
+
+
+def _rounded(name: str, value: float) -> float:
+    kind, _ = knob_of(name)
+    return int(value) if kind is int else float(f"{value:.4g}")
+
+
+def _sum(parts: Sequence[Totals]) -> Totals:
+    return Totals(np.sum([part.sums for part in parts], axis=0))
+
+
+def _difference(found: str | None, about: str) -> str:
+    if found is None:
+        return "a study of another program"
+    one, other = json.loads(found), json.loads(about)
+    for name, what in [("objective", "objective"), ("thresholds", "set of thresholds"), ("data", "recording")]:
+        if one[name] != other[name]:
+            return f"a study of another {what}, {_words(one[name])}, and this one is of {_words(other[name])}"
+    return "a study of other frames of the same recording"
+
+
+def _words(value: Any) -> str:
+    if isinstance(value, dict):
+        return f"{value['kind']} ({', '.join(f'{name} {each:g}' for name, each in value.items() if name != 'kind')})"
+    return ", ".join(value) if isinstance(value, list) else str(value)
+
+
+def optuna_module() -> Any:
+    try:
+        import optuna
+    except ImportError:
+        raise ValueError("auto-tuning needs Optuna; `pip install 'lineseg[tune]'` installs it") from None
+    optuna.logging.set_verbosity(optuna.logging.WARNING)
+    return optuna
+
+
+def _first_line(error: BaseException) -> str:
+    return next(iter(str(error).splitlines()), "").rstrip(".") or type(error).__name__

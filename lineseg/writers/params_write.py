@@ -1,0 +1,90 @@
+"""Thresholds as text: for ROS 1 and 2 under the names of the authors' program, for Python, for the command line."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+from ..extractors import method_of
+from ..knobs import Knob, Thresholds
+from ..params import Params
+
+EXTENSION = "extension of lineseg; the authors' program does not know it"
+
+
+def ros1_launch(params: Thresholds) -> str:
+    """A launch file; the parameters lie in the namespace of the node, as the authors' program reads them."""
+    lines = [
+        "<launch>",
+        "  <!-- The name of the line extraction node; or copy the parameters into its <node>. -->",
+        '  <arg name="node" default="line_extraction"/>',
+        '  <group ns="$(arg node)">',
+    ]
+    for name, value, knob in _ros_values(params):
+        kind = {bool: "bool", int: "int", float: "double"}[type(value)]
+        lines.append(
+            f'    <param name="{knob.ros or name}" type="{kind}" value="{_yaml(value)}"/>{_note("<!-- {} -->", knob)}'
+        )
+    return "\n".join([*lines, "  </group>", "</launch>", ""])
+
+
+def ros2_yaml(params: Thresholds) -> str:
+    """A parameter file for whatever node loads it."""
+    lines = ["/**:", "  ros__parameters:"]
+    lines += [
+        f"    {knob.ros or name}: {_yaml(value)}{_note('# {}', knob)}" for name, value, knob in _ros_values(params)
+    ]
+    return "\n".join([*lines, ""])
+
+
+def python(params: Thresholds) -> str:
+    """Source text that makes these thresholds."""
+    values = ",\n".join(f"    {name}={value!r}" for name, value, _ in _values(params))
+    kind = type(params)
+    module = "lineseg" if kind is Params else kind.__module__
+    return f"from {module} import {kind.__name__}\n\nparams = {kind.__name__}(\n{values},\n)\n"
+
+
+def flags(params: Thresholds) -> str:
+    """Flags of `lineseg extract`."""
+    if type(params) is Params:
+        return " ".join(f"--{name.replace('_', '-')} {value!r}" for name, value, _ in _values(params)) + "\n"
+    values = " ".join(f"{name}={value!r}" for name, value in params.numbers().items())
+    return f"--method {method_of(params).name} --set {values}\n"
+
+
+PARAMS_WRITERS: dict[str, Callable[[Thresholds], str]] = {
+    "ros2": ros2_yaml,
+    "ros1": ros1_launch,
+    "python": python,
+    "flags": flags,
+}
+
+
+def params_text(params: Thresholds, format: str) -> str:
+    """`params` in a format of PARAMS_WRITERS; every threshold is written, also those at their defaults."""
+    if format not in PARAMS_WRITERS:
+        raise ValueError(f"thresholds cannot be written as {format!r}; they can as {', '.join(PARAMS_WRITERS)}.")
+    return PARAMS_WRITERS[format](params)
+
+
+def _values(params: Thresholds) -> Iterator[tuple[str, int | float, Knob]]:
+    for name, _, knob in params.knobs():
+        yield name, getattr(params, name), knob
+
+
+def _ros_values(params: Thresholds) -> list[tuple[str, int | float, Knob]]:
+    """Those that a ROS program knows, and extensions; a switch that shows what a program does is neither."""
+    values = [(name, value, knob) for name, value, knob in _values(params) if knob.ros or knob.extension]
+    if not any(knob.ros for _, _, knob in values):
+        raise ValueError(f"no ROS program is known that has the thresholds of {method_of(params).name}.")
+    return values
+
+
+def _note(comment: str, knob: Knob) -> str:
+    return "  " + comment.format(EXTENSION) if knob.extension else ""
+
+
+def _yaml(value: int | float) -> str:
+    """YAML 1.1 takes 1e-06 for a string: a float needs its point."""
+    text = repr(value).lower()
+    return text if isinstance(value, int) or "." in text else text.replace("e", ".0e")

@@ -1,0 +1,140 @@
+"""Segments as JSON lines (a scan a line, scans without segments too), CSV (a segment a row) and GeoJSON.
+
+With the noise of the beams given, each segment also has its (ρ, θ) and their covariance; see `lineseg.covariance`.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+from collections.abc import Callable, Iterable, Iterator
+from pathlib import Path
+from typing import TextIO
+
+from ..covariance import Noise, covariances
+from ..finite import finite_or_none
+from ..scan import Scan
+from ..segment import Extraction, Segment
+
+Rows = Iterable[tuple[int, Scan, Extraction]]
+COLUMNS = (
+    "frame", "stamp", "frame_id", "start_x", "start_y", "end_x", "end_y", "first", "last", "a", "b", "c", "points",
+    "length", "rms",
+)  # fmt: skip
+POLAR_COLUMNS = ("rho", "theta", "var_rho", "cov_rho_theta", "var_theta")
+
+
+def json_lines(rows: Rows, noise: Noise | None = None) -> Iterator[str]:
+    """An object a line: frame, stamp, frame_id, and segments of start, end, first, last, line, points, length, rms.
+
+    With `noise` also rho, theta and covariance, [[var ρ, cov], [cov, var θ]]. One line for each scan; null is a stamp
+    that is not finite, and the covariance where there is none.
+    """
+    for frame, scan, extraction in rows:
+        segments = _segments(scan, extraction, noise)
+        row = {"frame": frame, "stamp": finite_or_none(scan.stamp), "frame_id": scan.frame_id, "segments": segments}
+        yield json.dumps(row, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+def geojson(rows: Rows, noise: Noise | None = None) -> Iterator[str]:
+    """A FeatureCollection with a LineString for each segment; what `json_lines` tells besides are its properties.
+
+    Coordinates are metres in the frame of the laser, not degrees: GeoJSON knows no other way to say so than here.
+    """
+    yield '{"type": "FeatureCollection", "features": ['
+    separator = "\n"
+    for frame, scan, extraction in rows:
+        for number, fields in enumerate(_segments(scan, extraction, noise)):
+            line = {"type": "LineString", "coordinates": [fields.pop("start"), fields.pop("end")]}
+            about = {"frame": frame, "stamp": finite_or_none(scan.stamp), "frame_id": scan.frame_id, "segment": number}
+            feature = {"type": "Feature", "geometry": line, "properties": about | fields}
+            yield separator + json.dumps(feature, ensure_ascii=False, allow_nan=False)
+            separator = ",\n"
+    yield "\n]}\n"
+
+
+def csv_lines(rows: Rows, noise: Noise | None = None) -> Iterator[str]:
+    """A header and a row for each segment; a number has as many digits as give it back exactly."""
+    yield _csv_line(COLUMNS if noise is None else (*COLUMNS, *POLAR_COLUMNS))
+    for frame, scan, extraction in rows:
+        stamp = finite_or_none(scan.stamp)
+        polars = [()] * len(extraction.segments) if noise is None else _polar(scan, extraction, noise)
+        for segment, polar in zip(extraction.segments, polars, strict=True):
+            place = (*segment.start, *segment.end, segment.first, segment.last)
+            fit = (*segment.line, segment.points, segment.length, segment.rms)
+            yield _csv_line((frame, "" if stamp is None else stamp, scan.frame_id, *place, *fit, *polar))
+
+
+# Suffix → writer: rows of (frame, scan, extraction) in, pieces of text out.
+SEGMENT_WRITERS: dict[str, Callable[[Rows, Noise | None], Iterator[str]]] = {
+    "jsonl": json_lines,
+    "csv": csv_lines,
+    "geojson": geojson,
+}
+
+
+def segment_lines(format: str, rows: Rows, noise: Noise | None = None) -> Iterator[str]:
+    """The text of `rows` in a format of SEGMENT_WRITERS, piece by piece; with covariances if the noise is given."""
+    if format not in SEGMENT_WRITERS:
+        raise ValueError(f"segments cannot be written as {format!r}; they can as {', '.join(SEGMENT_WRITERS)}.")
+    return SEGMENT_WRITERS[format](rows, noise)
+
+
+def write_segments(target: str | Path | TextIO, format: str | None, rows: Rows, noise: Noise | None = None) -> None:
+    """Write `rows` to a path or an open text file, row by row as they come; format None: as the path's suffix says.
+
+    noise: of the beams, to write covariances too.
+    A file appears under its name when it is complete; what was there before stays until then.
+    """
+    if not isinstance(target, str | Path):
+        target.writelines(segment_lines(format or "jsonl", rows, noise))
+        return
+    path = Path(target)
+    lines = segment_lines(format or path.suffix.lstrip(".").lower(), rows, noise)
+    unfinished = path.with_name(f"{path.name}.part")
+    try:
+        with unfinished.open("w", encoding="utf-8", newline="") as file:
+            file.writelines(lines)
+        unfinished.replace(path)
+    except BaseException:
+        unfinished.unlink(missing_ok=True)
+        raise
+
+
+def _segments(scan: Scan, extraction: Extraction, noise: Noise | None) -> list[dict[str, object]]:
+    """What there is to say of each segment in JSON."""
+    segments = [_fields(segment) for segment in extraction.segments]
+    if noise is not None:
+        for fields, polar in zip(segments, _polar(scan, extraction, noise), strict=True):
+            rho, theta, *matrix = polar
+            var_rho, cov, var_theta = map(finite_or_none, matrix)
+            fields |= {"rho": rho, "theta": theta, "covariance": [[var_rho, cov], [cov, var_theta]]}
+    return segments
+
+
+def _fields(segment: Segment) -> dict[str, object]:
+    return {
+        "start": [float(value) for value in segment.start],
+        "end": [float(value) for value in segment.end],
+        "first": int(segment.first),
+        "last": int(segment.last),
+        "line": [float(value) for value in segment.line],
+        "points": int(segment.points),
+        "length": float(segment.length),
+        "rms": float(segment.rms),
+    }
+
+
+def _polar(scan: Scan, extraction: Extraction, noise: Noise) -> list[tuple[float, ...]]:
+    """POLAR_COLUMNS of each segment."""
+    matrices = covariances(scan, extraction, noise)[:, (0, 0, 1), (0, 1, 1)].tolist()
+    return [(segment.rho, segment.theta, *m) for segment, m in zip(extraction.segments, matrices, strict=True)]
+
+
+def _csv_line(values: Iterable[object]) -> str:
+    line = io.StringIO()
+    csv.writer(line, lineterminator="\n").writerow(
+        [repr(float(value)) if isinstance(value, float) else value for value in values]
+    )
+    return line.getvalue()

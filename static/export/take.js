@@ -1,0 +1,82 @@
+// @ts-check
+// What is taken along of the frame and of the recording: pictures, failure packs, segments.
+import { download } from "../widgets/clipboard.js";
+import { openDialog } from "../widgets/dialog.js";
+import { h } from "../widgets/dom.js";
+import { pngOf } from "./picture.js";
+import { fetchFile } from "./save.js";
+
+/** @typedef {import("../wire.js").State} State */
+/** @typedef {(done: number, total: number) => void} Progress */
+
+/**
+ * @param {typeof import("../text/export.js").exportText} text
+ * @param {{session: () => string, state: () => State | null,
+ *          work: (words: string, run: (show: Progress, signal: AbortSignal) => Promise<void>) => void}} handlers
+ *   work: does something long, where it can be seen and cancelled
+ */
+export function createTake(text, { session, state, work }) {
+  /** @param {string} what @param {Record<string, string>} [more] */
+  const address = (what, more) => `/api/${what}?${new URLSearchParams({ session: session(), ...more })}`;
+
+  /** @param {"svg" | "png"} kind */
+  function savePicture(kind) {
+    work(text.drawing, async (show, signal) => {
+      const { name, content } = await fetchFile(address("figure"), text.broken, { signal });
+      download(name.replace(/svg$/, kind), kind === "svg" ? content : await pngOf(content, text.noPicture));
+    });
+  }
+
+  /** @param {string} to */
+  function saveSegments(to) {
+    const { label, frames } = state() ?? { label: "", frames: 0 };
+    work(text.making(label), async (show, signal) => {
+      const { name, content } = await fetchFile(address("segments", { to }), text.broken, { signal }, (frame) => show(frame + 1, frames));
+      download(name, content);
+    });
+  }
+
+  function askNote() {
+    const note = h("textarea", { rows: 5, class: "note", value: state()?.pack?.note ?? "", placeholder: text.note.placeholder });
+    const error = h("p", { class: "panel-error", role: "alert", hidden: true });
+    const save = h("button", { type: "button", class: "button primary" }, text.note.save);
+    const dialog = openDialog(
+      text.note.title,
+      text.note.close,
+      h("p", { class: "hint" }, text.note.hint),
+      h("label", { class: "note-label" }, text.note.label, note),
+      error,
+      h("div", { class: "dialog-buttons" }, save),
+    );
+    save.addEventListener("click", async () => {
+      save.disabled = true;
+      try {
+        const { name, content } = await fetchFile(address("pack"), text.broken, { method: "POST", body: note.value.trim() });
+        download(name, content);
+        dialog.close();
+      } catch (trouble) {
+        error.textContent = trouble instanceof Error ? trouble.message : String(trouble);
+        error.hidden = save.disabled = false;
+      }
+    });
+    note.focus();
+  }
+
+  return {
+    /** @returns {import("../widgets/menu.js").Group[]} */
+    groups: () => [
+      {
+        title: text.frame,
+        items: [
+          { label: text.png, run: () => savePicture("png") },
+          { label: text.svg, run: () => savePicture("svg") },
+          { label: text.pack, run: askNote },
+        ],
+      },
+      {
+        title: text.all,
+        items: Object.entries(text.formats).map(([to, label]) => ({ label, run: () => saveSegments(to) })),
+      },
+    ],
+  };
+}

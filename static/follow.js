@@ -1,0 +1,67 @@
+// @ts-check
+// Mirroring another tab: the bar that says so, and the gate that keeps this tab from changing what it mirrors.
+import { h, setText } from "./widgets/dom.js";
+
+/** @typedef {import("./store.js").Patch} Patch */
+/** @typedef {"here" | "away" | "gone"} Presence */
+
+const HASH = /^#follow=([\w-]+)$/;
+const OWN = new Set(["dark", "camera", "layers"]);
+
+/** The presenter that a link names. @param {string} hash @returns {string | null} */
+export function presenterIn(hash) {
+  return HASH.exec(hash)?.[1] ?? null;
+}
+
+/**
+ * @param {typeof import("./text/en.js").text.follow} text
+ * @param {{presenter: string | null, onFollow: (presenter: string | null) => void}} handlers onFollow: null to stop
+ */
+export function createFollow(text, { presenter, onFollow }) {
+  let active = presenter !== null;
+  /** @type {Presence | null} */
+  let presence = null;
+  const words = h("span", { role: "status" });
+  const button = h("button", { type: "button", class: "button", onclick: () => turn(!active) });
+  const element = h("div", { class: "follow", hidden: presenter === null }, words, button);
+  show();
+
+  /** @param {boolean} on */
+  function turn(on) {
+    active = on;
+    presence = null;
+    show();
+    onFollow(on ? presenter : null);
+  }
+
+  function show() {
+    setText(words, presence === "gone" ? text.gone : !active ? text.left : presence === "away" ? text.away : text.following);
+    setText(button, active ? text.stop : text.again);
+    button.hidden = presence === "gone";
+    element.classList.toggle("active", active);
+  }
+
+  return {
+    element,
+    get active() {
+      return active;
+    },
+    /** The presenter that this tab mirrors, for the server. */
+    get presenter() {
+      return active ? presenter : null;
+    },
+    /** Whether this tab may change so much. @param {Patch} patch */
+    allows(patch) {
+      const allowed = !active || Object.keys(patch).every((name) => OWN.has(name));
+      if (!allowed) element.animate?.([{ scale: 1 }, { scale: 1.04 }, { scale: 1 }], { duration: matchMedia("(prefers-reduced-motion: reduce)").matches ? 0 : 250 });
+      return allowed;
+    },
+    /** @param {Presence | null} next */
+    setPresence(next) {
+      if (next === null && presence !== "gone") return;
+      presence = next ?? presence;
+      if (presence === "gone") active = false;
+      show();
+    },
+  };
+}

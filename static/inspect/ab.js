@@ -1,0 +1,90 @@
+// @ts-check
+// A, a result that was pinned, beside B, the present one.
+import { keyOf } from "../key.js";
+import { h, setText } from "../widgets/dom.js";
+import { iconButton } from "../widgets/icon.js";
+import { format, withUnit } from "../widgets/scale.js";
+import { tooltip } from "../widgets/tooltip.js";
+
+/** @typedef {import("../wire.js").State} State */
+/** @typedef {import("../wire.js").Survey} Survey */
+/** @typedef {import("../wire.js").Method} Method */
+/** @typedef {import("../wire.js").Against} Against */
+
+const PARTS = /** @type {const} */ (["recording", "topic", "method", "params", "against"]);
+
+/**
+ * The button that pins, and the card that tells how the two differ.
+ * @param {typeof import("../text/inspect.js").inspectText.ab} text
+ * @param {{onToggle: () => void, onSwap: () => void, onAdopt: () => void, onNext: () => void}} handlers
+ */
+export function createAb(text, { onToggle, onSwap, onAdopt, onNext }) {
+  const button = h("button", { type: "button", class: "button quiet", "aria-pressed": "false", onclick: onToggle }, text.label);
+  tooltip(button, text.pinHelp);
+  const what = h("span", { class: "ab-what" });
+  const heads = Object.values(text.fates).map(({ label, help }) => {
+    const head = h("th", { scope: "col" }, label);
+    tooltip(head, help);
+    return head;
+  });
+  const rows = [text.frame, text.all].map((label) => {
+    const cells = heads.map(() => h("td"));
+    return { element: h("tr", {}, h("th", { scope: "row" }, label), ...cells), cells };
+  });
+  const table = h("table", { class: "ab-table" }, h("thead", {}, h("tr", {}, h("td"), ...heads)), h("tbody", {}, ...rows.map(({ element }) => element)));
+  const action = (/** @type {string} */ label, /** @type {string} */ help, /** @type {() => void} */ run) => {
+    const made = h("button", { type: "button", class: "button", onclick: run }, label);
+    tooltip(made, help);
+    return made;
+  };
+  const next = action(text.next, text.nextHelp, onNext);
+  const element = h(
+    "section",
+    { class: "ab", "aria-label": text.label, hidden: true },
+    h("div", { class: "ab-head" }, h("b", {}, text.a), what, iconButton("close", text.unpin, onToggle)),
+    table,
+    h("div", { class: "ab-actions" }, next, action(text.swap, text.swapHelp, onSwap), action(text.adopt, text.adoptHelp, onAdopt)),
+  );
+  /** @type {Against | null} */
+  let against = null;
+  /** What the totals belong to. */
+  let counted = "";
+
+  /** @param {HTMLElement[]} cells @param {Record<string, number> | null | undefined} counts */
+  function fill(cells, counts) {
+    Object.keys(text.fates).forEach((fate, k) => setText(cells[k], counts ? counts[fate].toLocaleString("en") : text.pending));
+  }
+
+  return {
+    button,
+    element,
+    /** @param {State} state @param {Method[]} methods */
+    setState(state, methods) {
+      against = state.against;
+      button.setAttribute("aria-pressed", String(against !== null));
+      element.hidden = against === null;
+      if (!against) return;
+      setText(what, words(against, state, methods, text));
+      fill(rows[0].cells, state.difference);
+      if (counted !== keyOf(state, ...PARTS)) fill(rows[1].cells, null);
+    },
+    /** @param {Survey} survey @param {State | null} state */
+    setSurvey(survey, state) {
+      if (!survey.totals || !against || !state) return;
+      counted = keyOf({ ...state, params: survey.params }, ...PARTS);
+      fill(rows[1].cells, survey.totals);
+    },
+  };
+}
+
+/**
+ * How A differs from B: "ε 0.030 m, P_min 10", and its method if that is another.
+ * @param {Against} against @param {State} state @param {Method[]} methods @param {typeof import("../text/inspect.js").inspectText.ab} text
+ */
+function words(against, state, methods, text) {
+  const method = methods.find(({ name }) => name === against.method);
+  const other = against.method !== state.method;
+  const differing = (method?.knobs ?? []).filter(({ name, default: usual }) => against.params[name] !== (other ? usual : state.params[name]));
+  const said = differing.map((knob) => `${knob.symbol} ${knob.unit ? withUnit(knob, against.params[knob.name]) : format(knob, against.params[knob.name])}`);
+  return [...(other && method ? [method.label] : []), ...said].join(", ") || text.same;
+}

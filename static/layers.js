@@ -1,0 +1,39 @@
+// @ts-check
+// Switches of what is drawn, which are the legend as well.
+import { h } from "./widgets/dom.js";
+import { iconButton } from "./widgets/icon.js";
+import { popUnder } from "./widgets/menu.js";
+import { tooltip } from "./widgets/tooltip.js";
+
+/**
+ * @param {typeof import("./text/en.js").text} words
+ * @param {(layers: Record<string, boolean>) => void} onLayers
+ */
+export function createLayers(words, onLayers) {
+  /** @type {Map<string, HTMLInputElement>} */
+  const boxes = new Map();
+  const names = Object.keys(words.layers);
+  const rows = Object.entries(words.layers).map(([name, { label, help }]) => {
+    const box = h("input", { type: "checkbox", onchange: () => onLayers({ [name]: box.checked }) });
+    boxes.set(name, box);
+    const row = h("label", { class: "layer" }, box, h("span", { class: `swatch swatch-${name}`, "aria-hidden": "true" }), label);
+    tooltip(row, help, "left");
+    return row;
+  });
+  const button = iconButton("layers", words.stage.layers, () => {});
+  const list = h("div", { class: "menu layers", popover: "auto", role: "group", "aria-label": words.stage.layers }, ...rows);
+  list.addEventListener("keydown", (event) => event.key !== "Escape" && event.stopPropagation());
+  popUnder(button, list, true, () => {});
+  return {
+    button,
+    list,
+    /** Offers the true walls only where they are known. @param {boolean} known */
+    setTruth(known) {
+      rows[names.indexOf("truth")].hidden = !known;
+    },
+    /** @param {Record<string, boolean>} layers */
+    set(layers) {
+      for (const [name, box] of boxes) box.checked = layers[name] ?? false;
+    },
+  };
+}

@@ -1,0 +1,19 @@
+// @ts-check
+// JSON of the server; where it does not come, the place that waits for it says so and offers to try again.
+import { fetchText } from "../tune/exchange.js";
+import { h } from "../widgets/dom.js";
+
+/**
+ * @template T
+ * @param {HTMLElement} place stands empty unless something is wrong
+ * @param {string} url
+ * @param {{missing: string, again: string}} text missing: what is not there
+ * @param {(json: T) => void} onCome
+ */
+export async function fetchInto(place, url, text, onCome) {
+  place.replaceChildren();
+  const { words, trouble } = await fetchText(url);
+  if (trouble === null) return onCome(JSON.parse(words));
+  const again = h("button", { type: "button", class: "button", onclick: () => fetchInto(place, url, text, onCome) }, text.again);
+  return place.replaceChildren(h("div", { class: "panel-error trouble-here", role: "alert" }, h("p", {}, `${text.missing} ${trouble}`), again));
+}

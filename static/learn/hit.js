@@ -1,0 +1,43 @@
+// @ts-check
+// The other way round: which term of the formulas is meant by a place in the scene.
+import { shapeOf } from "./overlay.js";
+
+/** @typedef {import("./trace.js").Event} Event */
+/** @typedef {import("./trace.js").Trace} Trace */
+/** @typedef {import("./geometry.js").Point} Point */
+/** @typedef {(x: number, y: number) => Point | null} Project */
+
+const REACH_PX = 10;
+// Points lie on lines: near a point, the point is meant.
+const DOT_AHEAD_PX = 5;
+
+/**
+ * @param {Point} at place on the stage [px]
+ * @param {string[]} names terms of the present formulas @param {Event} event @param {Trace} trace @param {Project} project
+ * @returns {string | null} the term whose geometry is nearest; of two that share it, the one that is less beside it
+ */
+export function termAt(at, names, event, trace, project) {
+  const near = names.flatMap((name) => {
+    const shape = shapeOf(name, event, trace);
+    const far = shape ? distance(at, shape, project) : Infinity;
+    const parts = (shape?.dots?.length ?? 0) + (shape?.lines?.length ?? 0);
+    return far < REACH_PX ? [{ name, far, parts }] : [];
+  });
+  near.sort((one, other) => one.far - other.far || one.parts - other.parts);
+  return near[0]?.name ?? null;
+}
+
+/** @param {Point} at @param {import("./overlay.js").Shape} shape @param {Project} project */
+function distance(at, { dots = [], lines = [] }, project) {
+  const toDots = dots.map((dot) => toSegment(at, project(...dot), project(...dot)) - DOT_AHEAD_PX);
+  const toLines = lines.map(([from, to]) => toSegment(at, project(...from), project(...to)));
+  return Math.min(...toDots, ...toLines);
+}
+
+/** @param {Point} at @param {Point | null} from @param {Point | null} to */
+function toSegment([x, y], from, to) {
+  if (!from || !to) return Infinity;
+  const [dx, dy] = [to[0] - from[0], to[1] - from[1]];
+  const along = Math.min(Math.max(((x - from[0]) * dx + (y - from[1]) * dy) / (dx * dx + dy * dy || 1), 0), 1);
+  return Math.hypot(x - from[0] - along * dx, y - from[1] - along * dy);
+}

@@ -1,0 +1,101 @@
+// @ts-check
+// What a term of a formula, or a question, means in the scene: drawn over the plan view, above the scene's frame.
+import { svg } from "../widgets/dom.js";
+import { foot, stretch } from "./geometry.js";
+
+/** @typedef {import("./trace.js").Event} Event */
+/** @typedef {import("./trace.js").Trace} Trace */
+/** @typedef {import("./geometry.js").Point} Point */
+/** @typedef {{dots?: Point[], lines?: [Point, Point][], faint?: boolean}} Shape */
+
+/**
+ * @param {HTMLElement} stage
+ * @param {{project: (x: number, y: number) => [number, number] | null, onMove: (listener: () => void) => void}} view
+ */
+export function createOverlay(stage, view) {
+  const element = svg("svg", { class: "overlay", "aria-hidden": "true" });
+  stage.append(element);
+  /** @type {Map<string, Shape>} */
+  const shapes = new Map();
+
+  function draw() {
+    element.replaceChildren();
+    for (const [name, shape] of shapes) {
+      const group = svg("g", { class: `overlay-shape overlay-${name}` });
+      for (const [from, to] of shape.lines ?? []) {
+        const one = view.project(...from);
+        const other = view.project(...to);
+        if (one && other) group.append(svg("line", { x1: one[0], y1: one[1], x2: other[0], y2: other[1] }));
+      }
+      for (const dot of shape.dots ?? []) {
+        const at = view.project(...dot);
+        if (at) group.append(svg("circle", { cx: at[0], cy: at[1], r: 8 }));
+      }
+      element.append(group);
+    }
+  }
+  view.onMove(draw);
+
+  return {
+    /** @param {string} name @param {Shape | null} shape */
+    set(name, shape) {
+      if (!shape && !shapes.has(name)) return;
+      if (shape) shapes.set(name, shape);
+      else shapes.delete(name);
+      draw();
+    },
+  };
+}
+
+/**
+ * The geometry of a term (formulas.js) at a decision.
+ * @param {string} name @param {Event} event @param {Trace} trace @returns {Shape | null}
+ */
+export function shapeOf(name, event, trace) {
+  const { other, first, last, beam, limit } = event;
+  const line = trace.compared(event);
+  const inside = trace.span(first, last);
+  const at = beam >= 0 ? trace.point(beam) : null;
+  const points = inside.flatMap((each) => trace.point(each) ?? []);
+  const dots = /** @type {Point[]} */ (inside.map((each) => trace.point(each)).filter((point) => point !== null));
+  const along = (/** @type {import("./trace.js").Line | null} */ of) => (of ? stretch(trace, at ? [...inside, beam] : inside, of) : null);
+  const here = along(line);
+  switch (name) {
+    case "point":
+      return at && { dots: [at] };
+    case "window":
+      return { dots };
+    case "outermost":
+      return { dots: dots.length ? [dots[0]] : [] };
+    case "beam":
+      return at && { lines: [[[0, 0], at]] };
+    case "distance":
+      return at && line && { lines: [[at, foot(at, line)]], dots: [at] };
+    case "predicted": {
+      if (!at || !line) return null;
+      const { range, meets } = trace.predicted(beam, line);
+      const ahead = /** @type {Point} */ ([(at[0] * meets) / range, (at[1] * meets) / range]);
+      return { dots: [ahead], lines: [[at, ahead]] };
+    }
+    case "line":
+    case "length":
+      return here && { lines: [here] };
+    case "other": {
+      const there = along(other);
+      return there && { lines: [there] };
+    }
+    case "band":
+      return here && line && { lines: [1, -1].map((side) => /** @type {[Point, Point]} */ (here.map(([x, y]) => [x + side * limit * line[0], y + side * limit * line[1]]))) };
+    case "normal":
+      return line && { lines: [[[0, 0], [-line[2] * line[0], -line[2] * line[1]]]] };
+    case "mean": {
+      const n = points.length / 2;
+      const sum = dots.reduce(([sx, sy], [x, y]) => [sx + x, sy + y], [0, 0]);
+      return { dots: [[sum[0] / n, sum[1] / n]] };
+    }
+    case "ends":
+      return event.ends && { dots: [[event.ends[0], event.ends[1]]] };
+    default:
+      return null;
+  }
+}

@@ -1,0 +1,208 @@
+// @ts-check
+// The decisions of one frame as the page holds them: columns from the server (app/stepping.py), read one at a time.
+
+/** @typedef {[number, number, number]} Line a, b, c */
+
+/**
+ * @typedef {object} Columns
+ * @property {string[]} kinds
+ * @property {string[]} checks
+ * @property {string[]} phases
+ * @property {Record<string, string[]>} jumps kinds of decision that each jump leads to
+ * @property {string[] | null} text what each decision says; null: the page says it in its own words
+ * @property {number} total decisions there are; the columns may hold only the first of them
+ * @property {boolean} circle
+ * @property {number[]} kind
+ * @property {number[]} check
+ * @property {number[]} phase
+ * @property {number[]} direction
+ * @property {number[]} candidate
+ * @property {number[]} partner
+ * @property {number[]} first
+ * @property {number[]} last
+ * @property {number[]} beam
+ * @property {number[]} points
+ * @property {(number | null)[]} a
+ * @property {(number | null)[]} b
+ * @property {(number | null)[]} c
+ * @property {(number | null)[]} a2
+ * @property {(number | null)[]} b2
+ * @property {(number | null)[]} c2
+ * @property {(number | null)[]} value
+ * @property {(number | null)[]} limit
+ * @property {number[]} lines
+ * @property {(number | null)[]} x
+ * @property {(number | null)[]} y
+ */
+
+/**
+ * One decision; fields as in lineseg/tracing.py. Infinite numbers arrive as null and become Infinity.
+ * @typedef {object} Event
+ * @property {number} index
+ * @property {string} kind
+ * @property {string} check
+ * @property {string} phase
+ * @property {number} direction
+ * @property {number} candidate
+ * @property {number} first
+ * @property {number} last
+ * @property {number} beam
+ * @property {number} points
+ * @property {Line | null} line
+ * @property {Line | null} other
+ * @property {number[] | null} ends x1, y1, x2, y2 of "endpoints"
+ * @property {number} value
+ * @property {number} limit
+ * @property {string | null} text in the method's own words, where the page has none
+ */
+
+/** Where one may jump to; the columns say which decisions count as it. */
+export const JUMPS = /** @type {const} */ (["seed", "refusal", "line", "drop", "merge", "cut"]);
+/** @typedef {(typeof JUMPS)[number]} Jump */
+/** @typedef {"decision" | "phase" | "line"} Level */
+
+/** What is decided on all points of a line at once. */
+const OF_A_LINE = new Set(["line kept", "line dropped", "lines merged", "overlap cut"]);
+
+export class Trace {
+  /** @type {Record<Jump, number[]>} */ marks;
+  /** @type {Record<Level, number[] | null>} where a stretch begins; null: everywhere */ starts;
+
+  /** @param {Columns} columns */
+  constructor(columns) {
+    this.columns = columns;
+    this.length = columns.kind.length;
+    this.beams = columns.x.length;
+    const kinds = columns.kind.map((kind) => columns.kinds[kind]);
+    const those = (/** @type {readonly string[]} */ wanted) => kinds.flatMap((kind, k) => (wanted.includes(kind) ? [k] : []));
+    this.marks = /** @type {Record<Jump, number[]>} */ (
+      Object.fromEntries(JUMPS.map((name) => [name, those(columns.jumps[name] ?? [])]))
+    );
+    const { phase, candidate } = columns;
+    const growth = columns.phases.indexOf("growth");
+    const turns = kinds.flatMap((_, k) =>
+      k === 0 || phase[k] !== phase[k - 1] || (phase[k] <= growth && candidate[k] !== candidate[k - 1]) ? [k] : [],
+    );
+    this.starts = { decision: null, phase: turns, line: columns.lines };
+  }
+
+  /** @param {number} index @returns {Event} */
+  at(index) {
+    const { columns: c } = this;
+    const kind = c.kinds[c.kind[index]];
+    const of = (/** @type {(number | null)[][]} */ ...names) => names.map((name) => name[index] ?? Infinity);
+    const line = /** @type {Line} */ (of(c.a, c.b, c.c));
+    const other = /** @type {Line} */ (of(c.a2, c.b2, c.c2));
+    const ends = kind === "endpoints";
+    const { value, limit } = { value: c.value[index] ?? Infinity, limit: c.limit[index] ?? Infinity };
+    return {
+      index,
+      kind,
+      check: c.checks[c.check[index]],
+      phase: c.phases[c.phase[index]],
+      direction: c.direction[index],
+      candidate: c.candidate[index],
+      first: c.first[index],
+      last: c.last[index],
+      beam: c.beam[index],
+      points: c.points[index],
+      line: Math.hypot(line[0], line[1]) > 0.5 ? line : null,
+      other: !ends && Math.hypot(other[0], other[1]) > 0.5 ? other : null,
+      ends: ends ? [...other, value] : null,
+      // For endpoints the value column holds y2, and the length stands in limit.
+      value: ends ? limit : value,
+      limit,
+      text: c.text && c.text[index],
+    };
+  }
+
+  /**
+   * The first of two lines that were compared, as it was then: a merge records the line that came of it.
+   * @param {Event} event @returns {Line | null}
+   */
+  compared({ index, kind, candidate, line }) {
+    if (kind !== "lines merged") return line;
+    const { columns: c } = this;
+    for (let k = index - 1; k >= 0; k--) {
+      if (c.candidate[k] === candidate && ["line kept", "lines merged"].includes(c.kinds[c.kind[k]])) return this.at(k).line;
+    }
+    return line;
+  }
+
+  /** The valid beams from `first` to `last`, across the seam of a full circle. @param {number} first @param {number} last */
+  span(first, last) {
+    const n = this.beams;
+    const count = last >= first ? last - first + 1 : this.columns.circle ? last - first + 1 + n : 0;
+    const beams = [];
+    for (let k = 0; k < count; k++) {
+      const beam = (first + k) % n;
+      if (this.columns.x[beam] !== null) beams.push(beam);
+    }
+    return beams;
+  }
+
+  /** @param {number} beam @returns {[number, number] | null} its point [m] */
+  point(beam) {
+    const x = this.columns.x[beam];
+    const y = this.columns.y[beam];
+    return x === null || y === null || x === undefined || y === undefined ? null : [x, y];
+  }
+
+  /** @param {number} beam @param {Line} line */
+  distance(beam, [a, b, c]) {
+    const at = this.point(beam);
+    return at ? Math.abs(a * at[0] + b * at[1] + c) : NaN;
+  }
+
+  /**
+   * Range ρ, bearing θ, and the range ρ′ at which the beam meets the line.
+   * @param {number} beam @param {Line} line
+   */
+  predicted(beam, [a, b, c]) {
+    const [x, y] = this.point(beam) ?? [NaN, NaN];
+    const range = Math.hypot(x, y);
+    const along = (a * x + b * y) / range;
+    return { range, bearing: Math.atan2(y, x), meets: along === 0 ? Infinity : -c / along };
+  }
+
+  /** Whether beam lies between first and last of the decision. @param {number} index @param {number} beam */
+  covers(index, beam) {
+    const first = this.columns.first[index];
+    const last = this.columns.last[index];
+    return first <= last ? first <= beam && beam <= last : this.columns.circle && (beam >= first || beam <= last);
+  }
+
+  /**
+   * The next decision after `from` that is about the beam: it decides on it or on its line, or first tries it in a seed.
+   * @param {number} beam @param {number} from @returns {number} −1 if there is none
+   */
+  nextAbout(beam, from) {
+    const { columns: c } = this;
+    for (let k = from + 1; k < this.length; k++) {
+      if (c.beam[k] === beam) return k;
+      const kind = c.kinds[c.kind[k]];
+      if (kind === "point added" || !this.covers(k, beam)) continue;
+      if (OF_A_LINE.has(kind) || !(k > 0 && this.covers(k - 1, beam))) return k;
+    }
+    return -1;
+  }
+
+  /** Steps on from `from` by stretches of a level. @param {number} from @param {number} by @param {Level} level */
+  moved(from, by, level) {
+    const last = this.length - 1;
+    const starts = this.starts[level];
+    if (!Number.isFinite(by)) return by < 0 ? 0 : last;
+    if (!starts) return Math.min(Math.max(from + by, 0), last);
+    let at = from;
+    for (let k = Math.abs(by); k > 0; k--) {
+      at = by > 0 ? (starts.find((start) => start > at) ?? last) : (starts.findLast((start) => start < at) ?? 0);
+    }
+    return at;
+  }
+}
+
+/** How the listing names a decision. @param {Event} event */
+export function eventName({ phase, kind, check, direction }) {
+  const way = direction > 0 ? " forward" : direction < 0 ? " backward" : "";
+  return `${phase}: ${kind}${check ? ` (${check})` : ""}${way}`;
+}

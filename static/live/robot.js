@@ -1,0 +1,141 @@
+// @ts-check
+// What goes to a robot when somebody asks for it: parameters of a node, and segments of live scans.
+import { openDialog } from "../widgets/dialog.js";
+import { h } from "../widgets/dom.js";
+import { messageOf } from "../tune/exchange.js";
+
+const KEY = "lineseg.robot";
+
+/** @typedef {typeof import("../text/live.js").liveText} Words */
+/** @typedef {{name: string, threshold: string, value: number, now: unknown, taken: boolean, reason: string}} Sent */
+
+/**
+ * Sends the thresholds to a node and shows what the robot has afterwards.
+ * @param {Words} words
+ * @param {import("../wire.js").Params} params
+ */
+export function showSend(words, params) {
+  const text = words.send;
+  const last = remembered();
+  const address = field(text.address, last.address ?? "ws://localhost:9090", "url");
+  const node = field(text.node, last.node ?? "/line_extraction", "text");
+  const ros = h(
+    "select",
+    { class: "select" },
+    h("option", { value: "2", selected: last.ros !== 1 }, text.ros2),
+    h("option", { value: "1", selected: last.ros === 1 }, text.ros1),
+  );
+  const extensions = h("input", { type: "checkbox", checked: Boolean(last.extensions) });
+  const form = h(
+    "form",
+    { class: "robot-form" },
+    address.row,
+    node.row,
+    h("label", { class: "robot-field" }, h("span", {}, text.ros), ros),
+    h("label", { class: "robot-check" }, extensions, text.extensions),
+  );
+  const answer = createAnswer();
+  const send = h("button", { type: "submit", class: "button primary" }, text.button);
+  form.append(answer.element, h("div", { class: "dialog-buttons" }, send));
+  form.addEventListener("submit", async (event) => {
+    event.preventDefault();
+    const asked = { address: address.input.value.trim(), node: node.input.value.trim(), ros: Number(ros.value), extensions: extensions.checked };
+    localStorage.setItem(KEY, JSON.stringify(asked));
+    send.disabled = true;
+    send.textContent = text.busy;
+    answer.clear();
+    const { values, trouble } = await post("/api/robot/params", { ...asked, params });
+    send.disabled = false;
+    send.textContent = text.button;
+    if (trouble !== null) return answer.refuse(trouble);
+    return answer.show(...table(text, values.sent));
+  });
+  openDialog(text.title, words.close, h("p", { class: "hint" }, text.hint), form);
+  address.input.focus();
+}
+
+/**
+ * Begins to publish the segments of this tab.
+ * @param {Words} words
+ * @param {string} session
+ */
+export function showPublish(words, session) {
+  const text = words.publish;
+  const topic = field(text.topic, "/lineseg/segments", "text");
+  const answer = createAnswer();
+  const begin = h("button", { type: "submit", class: "button primary" }, text.button);
+  const form = h("form", { class: "robot-form" }, topic.row, answer.element, h("div", { class: "dialog-buttons" }, begin));
+  form.addEventListener("submit", async (event) => {
+    event.preventDefault();
+    const { trouble } = await post("/api/robot/segments", { session, on: true, topic: topic.input.value.trim() });
+    if (trouble === null) dialog.close();
+    else answer.refuse(trouble);
+  });
+  const dialog = openDialog(text.title, words.close, h("p", { class: "hint" }, text.hint), form);
+  topic.input.select();
+}
+
+/** @param {string} session */
+export function stopPublishing(session) {
+  return post("/api/robot/segments", { session, on: false });
+}
+
+/** @param {Words["send"]} text @param {Sent[]} sent @returns {HTMLElement[]} */
+function table(text, sent) {
+  const taken = sent.filter((row) => row.taken).length;
+  const { name, value, now } = text.columns;
+  const head = h("tr", {}, h("th", {}, name), h("th", {}, value), h("th", {}, now));
+  const rows = sent.flatMap((row) => [
+    h(
+      "tr",
+      { class: row.taken ? "taken" : "refused" },
+      h("td", {}, row.name),
+      h("td", {}, String(row.value)),
+      h("td", {}, row.now === null ? text.unset : String(row.now)),
+    ),
+    ...(row.reason ? [h("tr", { class: "reason" }, h("td", { colSpan: 3 }, row.reason))] : []),
+  ]);
+  const summary = taken === sent.length ? text.done(taken) : text.some(taken, sent.length);
+  return [
+    h("p", { class: taken === sent.length ? "robot-done" : "robot-some" }, summary),
+    h("table", { class: "robot-table" }, h("thead", {}, head), h("tbody", {}, ...rows)),
+  ];
+}
+
+/** What came of it, in the dialog. */
+function createAnswer() {
+  const element = h("div", { class: "robot-answer", "aria-live": "polite" });
+  return {
+    element,
+    clear: () => element.replaceChildren(),
+    show: (/** @type {HTMLElement[]} */ ...content) => element.replaceChildren(...content),
+    refuse: (/** @type {string} */ why) => element.replaceChildren(h("p", { class: "panel-error", role: "alert" }, why)),
+  };
+}
+
+/** @param {string} label @param {string} value @param {string} inputMode */
+function field(label, value, inputMode) {
+  const input = h("input", { type: "text", class: "robot-input", value, required: true, spellcheck: false, autocomplete: "off", inputMode });
+  return { input, row: h("label", { class: "robot-field" }, h("span", {}, label), input) };
+}
+
+/** @returns {{address?: string, node?: string, ros?: number, extensions?: boolean}} */
+function remembered() {
+  try {
+    return JSON.parse(localStorage.getItem(KEY) ?? "{}") ?? {};
+  } catch {
+    return {};
+  }
+}
+
+/** @param {string} url @param {object} asked @returns {Promise<{values: any, trouble: string | null}>} */
+async function post(url, asked) {
+  try {
+    const body = JSON.stringify(asked);
+    const response = await fetch(url, { method: "POST", headers: { "Content-Type": "application/json" }, body });
+    const words = await response.text();
+    return response.ok ? { values: JSON.parse(words), trouble: null } : { values: null, trouble: messageOf(words) };
+  } catch (error) {
+    return { values: null, trouble: String(error) };
+  }
+}

@@ -1,0 +1,222 @@
+// @ts-check
+// The words of mode Learn. Another language is another file with the same keys.
+
+/** @typedef {import("../learn/trace.js").Event} Event */
+
+const m = (/** @type {number} */ value) => (Number.isFinite(value) ? `${value.toFixed(3)}\u00a0m` : "infinitely far");
+const deg = (/** @type {number} */ value) => `${((value * 180) / Math.PI).toFixed(1)}°`;
+const lacks = (/** @type {Event} */ { check, value, limit }) =>
+  check === "min_points"
+    ? `it has ${value} points, fewer than P_min\u00a0=\u00a0${limit}`
+    : check === "min_length"
+      ? `it is ${m(value)} long, shorter than L_min\u00a0=\u00a0${m(limit)}`
+      : "the line that overlaps it is nearer to all its points";
+
+const AGAIN = "Try again";
+
+/** Why a step, or a point, was refused. @param {Event} event */
+function refusal({ beam, check, value, limit }) {
+  if (check === "max_dropout") return `${value} beams without a return lie before beam ${beam}, more than D_max\u00a0=\u00a0${limit}`;
+  if (check === "max_gap") return `before beam ${beam} there is a gap of ${m(value)}, wider than ${m(limit)}`;
+  if (check === "delta") return `beam ${beam} lies ${m(value)} from where the line predicts it, more than δ\u00a0=\u00a0${m(limit)}`;
+  return `beam ${beam} lies ${m(value)} from the line; ε allows ${m(limit)}`;
+}
+
+/** @type {Record<string, (event: Event) => string>} */
+const SENTENCES = {
+  "seed rejected": (e) => `Beams ${e.first} to ${e.last} are no seed: ${refusal(e)}.`,
+  "seed found": (e) => `Beams ${e.first} to ${e.last} are a seed: all of them lie on one line. It starts to grow.`,
+  "point added": (e) =>
+    `Beam ${e.beam} joins, growing ${e.direction > 0 ? "forward" : "backward"}: it lies ${m(e.value)} from the line, less than ε\u00a0=\u00a0${m(e.limit)}. The line is fitted anew.`,
+  "growth stopped": (e) =>
+    e.check === "end"
+      ? `Growth ${e.direction > 0 ? "forward" : "backward"} ends: there is no further point.`
+      : `Growth ${e.direction > 0 ? "forward" : "backward"} stops: ${refusal(e)}.`,
+  "line kept": (e) => `The line of beams ${e.first} to ${e.last} is kept: ${e.points} points, ${m(e.value)} long.`,
+  "line dropped": (e) => `The line of beams ${e.first} to ${e.last} is dropped: ${lacks(e)}.`,
+  "lines merged": (e) =>
+    `Two lines share points and differ by only ${deg(e.value)}, less than ${deg(e.limit)}: they become one, beams ${e.first} to ${e.last}.`,
+  "lines kept apart": (e) => `Two lines share points, but differ by ${deg(e.value)}, not less than ${deg(e.limit)}: they stay two.`,
+  "overlap cut": (e) =>
+    e.value < e.limit
+      ? `The overlap is cut behind beam ${e.last}: every shared point is nearer to the first line (${m(e.value)}) than to the second (${m(e.limit)}). The second begins at beam ${e.beam}.`
+      : `The overlap is cut at beam ${e.beam}: it is the first shared point not nearer to the first line (${m(e.value)}) than to the second (${m(e.limit)}).`,
+  endpoints: (e) => `The outermost points, beams ${e.first} and ${e.last}, are projected on the line: its ends are ${m(e.value)} apart.`,
+};
+
+export const learnText = {
+  modes: { label: "Mode", tune: "Tune", learn: "Learn", inspect: "Inspect" },
+  panel: "Learn",
+  keys: { jumps: "in Learn: next refusal, merge, cut", zoom: "in Learn: zoom to the decision", answer: "in Learn: answers of a prediction" },
+  sentence: (/** @type {Event} */ event) => event.text ?? SENTENCES[event.kind]?.(event) ?? event.kind,
+  otherMethod: (/** @type {string} */ label, /** @type {string} */ citation) =>
+    `${label} (${citation}) is replayed here decision by decision. Pseudocode, formulas, charts and lessons are those of region growing.`,
+  whole: (/** @type {number} */ lines, /** @type {number} */ steps) =>
+    `The whole result: ${lines} ${lines === 1 ? "line" : "lines"}, from ${steps.toLocaleString("en")} decisions. Press → to follow them one by one.`,
+  nothing: "This frame has no decisions: too few points have a return.",
+  phases: /** @type {Record<string, string>} */ ({
+    seed: "Seed",
+    growth: "Growth",
+    overlap: "Overlap",
+    endpoints: "Endpoints",
+    whole: "Result",
+  }),
+  waiting: "Reading the decisions of this frame…",
+  truncated: (/** @type {number} */ shown, /** @type {number} */ total) =>
+    `This frame has ${total.toLocaleString("en")} decisions; the first ${shown.toLocaleString("en")} can be stepped through.`,
+  steps: {
+    label: "Steps",
+    first: "First decision (Home)",
+    back: "Step back (←)",
+    play: "Play (Space)",
+    pause: "Pause (Space)",
+    forward: "Step forward (→)",
+    last: "Last decision (End)",
+    leave: "Show the whole result (Esc)",
+    start: "Start",
+    level: "What → goes on by",
+    levels: { decision: "by decision", phase: "by phase", line: "by line" },
+    speed: "Steps a second",
+    perSecond: (/** @type {number} */ n) => `${n}/s`,
+    jump: "Next",
+    jumps: {
+      seed: "seed",
+      refusal: "refusal",
+      line: "line",
+      drop: "drop",
+      merge: "merge",
+      cut: "cut",
+    },
+    jumpTo: (/** @type {string} */ what, /** @type {number} */ n) => `Next ${what} (${n} in this frame)`,
+    zoom: "Zoom to this decision (Z)",
+    loopStart: "Loop: from here",
+    loopEnd: "Loop: to here",
+    loopClear: "End the loop",
+    beam: "Run to beam",
+    noBeam: (/** @type {number} */ most) => `Beams are 0 to ${most}.`,
+    scrubber: "Decision",
+    number: "Number of the decision",
+    of: (/** @type {number} */ n) => `of ${n.toLocaleString("en")}`,
+    range: (/** @type {number} */ most) => `Decisions are 1 to ${most.toLocaleString("en")}.`,
+    beamHint: "Enter runs to the next decision about this beam, and tells why it is in a line or not; so does a click on its point in the scene.",
+  },
+  lesson: {
+    label: "Lesson",
+    overview: "Lessons",
+    missing: "The lessons did not come. Any frame can be stepped through without them.",
+    again: AGAIN,
+    unknown: (/** @type {string} */ id) => `There is no lesson “${id}”; these are all.`,
+    overviewHint: "Each is a few minutes long and ends with one thing to do. Or just step through any frame of your own.",
+    close: "Back to the list of lessons",
+    back: "Back",
+    next: "Next",
+    toTask: "To the task",
+    nextLesson: "Next lesson",
+    finish: "Finish",
+    task: "Now you",
+    hint: "Hint",
+    place: (/** @type {number} */ n, /** @type {number} */ all) => `${n} of ${all}`,
+    right: "Done.",
+    notYet: "Not yet.",
+    doneMark: "done",
+  },
+  goals: {
+    nothingChanged: "No threshold has been changed.",
+    wrongThreshold: "A threshold has been changed that is not meant; set it back (Ctrl+Z).",
+    onlyOne: "More than one threshold has been changed; one is enough.",
+    lines: (/** @type {number} */ found, /** @type {[number, number]} */ [least, most]) =>
+      `There ${found === 1 ? "is 1 line" : `are ${found} lines`}; ${least === most ? least : most > 99 ? `at least ${least}` : `${least} to ${most}`} ${least === 1 && most === 1 ? "is" : "are"} asked for.`,
+    together: (/** @type {number} */ one, /** @type {number} */ other) => `Beams ${one} and ${other} are not in one line.`,
+    apart: (/** @type {number} */ one, /** @type {number} */ other) => `Beams ${one} and ${other} are not in two lines.`,
+    inside: (/** @type {number} */ beam) => `Beam ${beam} is in no line any more.`,
+    outside: (/** @type {number} */ beam) => `Beam ${beam} is in a line.`,
+    at: "This is not the decision that is asked for.",
+    selectOne: "No point is chosen.",
+    notThis: (/** @type {number} */ beam) => `It is not beam ${beam}.`,
+    count: (/** @type {number} */ n, /** @type {string} */ kind) => `“${kind}” occurs ${n} times.`,
+  },
+  formulas: {
+    label: "Formulas",
+    terms: "Show in the scene",
+    names: /** @type {Record<string, string>} */ ({
+      point: "point P",
+      window: "its points",
+      outermost: "outermost point",
+      beam: "beam",
+      distance: "distance d",
+      predicted: "predicted point P′",
+      line: "line",
+      length: "length",
+      other: "other line",
+      band: "ε band",
+      normal: "normal (a, b)",
+      mean: "mean",
+      ends: "endpoint",
+    }),
+    toLine: "Distance of a point to the line (Eqs. 1, 3)",
+    predicted: "Distance to the predicted point (Eqs. 4–6)",
+    fit: (/** @type {number} */ n) => `The line through ${n} points (Eq. 2)`,
+    accepted: "Enough for a line?",
+    angle: "Angle between the two lines",
+    cut: "Where the overlap is cut",
+    endpoint: (/** @type {number} */ beam) => `Endpoint from beam ${beam} (Eqs. 7, 8)`,
+    broken: "A broken way (not in the paper)",
+    gap: "gap",
+    dropout: "beams without a return",
+    joins: "it joins",
+    stops: "growth stops",
+    noSeed: "no seed",
+    kept: "kept",
+    dropped: "dropped",
+    enough: "points are enough",
+    oneLine: "one line",
+    twoLines: "two lines",
+  },
+  charts: {
+    distance: { title: "Distance to the line, by beam", y: "ε" },
+    predicted: { title: "|ρ − ρ′|, by beam", y: "δ" },
+    growth: { title: "Length and points of the growing line", y: "min" },
+    nothing: "Step to a decision to see its numbers.",
+    noLine: "No line was fitted: the way is broken.",
+    noGrowth: "No line is growing now.",
+    sayBeam: (/** @type {number} */ beam, /** @type {number} */ value) => `Beam ${beam}: ${m(value)}`,
+    sayGrowth: (/** @type {{points: number, length: number}} */ { points, length }) => `${points} points, ${m(length)} long`,
+  },
+  views: { label: "Charts", step: "This step", all: "All steps", trail: "Trail", trailHelp: "Draw every fit of the growing line so far" },
+  ladder: {
+    seeds: "Every window tried",
+    window: (/** @type {number} */ first, /** @type {number} */ last, /** @type {string} */ fate) => `Beams ${first} to ${last}: ${fate}`,
+    missing: "This picture could not be made.",
+    again: AGAIN,
+    tones: /** @type {Record<string, string>} */ ({ "": "seed", delta: "refused by δ", epsilon: "by ε", max_dropout: "broken" }),
+    sweep: "over its range, beam by beam",
+    sweepHelp: "One column for each value of the threshold; colours are lines, beams run downwards. Click to take a value.",
+    threshold: "Threshold",
+    at: (/** @type {string} */ symbol, /** @type {string} */ value, /** @type {number} */ lines) => `${symbol} = ${value}: ${lines} ${lines === 1 ? "line" : "lines"}`,
+  },
+  predict: {
+    toggle: "Predict",
+    help: "Before each decision, say how it will go (keys 1 and 2)",
+    seed: (/** @type {Event} */ e) => `Beams ${e.first} to ${e.last}: will they be a seed?`,
+    seedAnswers: ["1 Seed", "2 No seed"],
+    point: (/** @type {Event} */ e) => `Beam ${e.beam}: does it join the growing line, or does growth ${e.direction > 0 ? "forward" : "backward"} stop here?`,
+    pointAnswers: ["1 In", "2 Out"],
+    line: (/** @type {Event} */ e) => `The line of beams ${e.first} to ${e.last}, ${e.points} points: is it kept or dropped?`,
+    lineAnswers: ["1 Kept", "2 Dropped"],
+    pair: "Two neighbouring lines share points: one wall or two?",
+    pairAnswers: ["1 One", "2 Two"],
+    score: (/** @type {number} */ right, /** @type {number} */ all) => (all ? `${right} of ${all} right` : "Press → for the first question"),
+    right: "Right.",
+    wrong: "No.",
+  },
+  listing: {
+    label: "Pseudocode",
+    missing: "The pseudocode did not come.",
+    again: AGAIN,
+    misprint: "Where this differs from the printed listing",
+    extension: "not in the paper",
+    values: "Values now",
+    tabs: /** @type {Record<string, string>} */ ({ seed: "1 Seed", growth: "2 Growth", overlap: "3 Overlap", endpoints: "Endpoints" }),
+    follow: "The tab follows the step.",
+  },
+};

@@ -1,0 +1,47 @@
+// @ts-check
+// The words about live sources and robots.
+
+export const liveText = {
+  group: "Robot",
+  live: "Live",
+  follow: "Show the newest scan again",
+  following: "The newest scan is shown as it comes. Space pauses.",
+  newer: (/** @type {number} */ n) => `+${n.toLocaleString("en")}`,
+  rate: (/** @type {number} */ rate) => `${rate.toFixed(1)} scans/s`,
+  silent: "no scans at present",
+  delay: (/** @type {number} */ seconds) =>
+    Math.abs(seconds) < 1 ? `delay ${Math.round(1000 * seconds)} ms` : `delay ${seconds.toFixed(1)} s`,
+  dropped: (/** @type {number} */ n) => `${n.toLocaleString("en")} dropped`,
+  publishing: (/** @type {string} */ topic, /** @type {number} */ n) => `${topic}: ${n.toLocaleString("en")} sent`,
+  connection: { connecting: "connecting", open: "connected", lost: "lost" },
+  help: (/** @type {number} */ most, /** @type {number} */ total, /** @type {number} */ refused) =>
+    `At most the newest ${most.toLocaleString("en")} scans are kept; older ones are dropped. ${total.toLocaleString("en")} came so far` +
+    (refused ? `; ${refused.toLocaleString("en")} other messages were no scans.` : "."),
+  delayHelp: "From the stamp of the last scan to its arrival here, as far as both clocks agree.",
+  close: "Close",
+  send: {
+    item: "Send parameters to a robot…",
+    title: "Send parameters to a robot",
+    hint: "Sets the present thresholds as parameters of a running node, over rosbridge, and reads them back. The connection is made when you press Send.",
+    address: "Address of rosbridge",
+    node: "Node",
+    ros: "ROS",
+    ros2: "ROS 2: set_parameters of the node",
+    ros1: "ROS 1: parameter server (a node reads it when it starts)",
+    extensions: "Also the extensions, which the authors’ program does not know",
+    button: "Send",
+    busy: "Sending…",
+    columns: { name: "parameter", value: "sent", now: "on the robot" },
+    unset: "not set",
+    done: (/** @type {number} */ n) => `The robot has all ${n} values.`,
+    some: (/** @type {number} */ taken, /** @type {number} */ n) => `The robot has ${taken} of ${n} values.`,
+  },
+  publish: {
+    item: "Publish segments to the robot…",
+    stop: "Stop publishing segments",
+    title: "Publish segments to the robot",
+    hint: "Each scan’s segments, under the thresholds of this tab, as visualization_msgs/MarkerArray with the scan’s own stamp and frame. It ends when this tab closes.",
+    topic: "Topic",
+    button: "Publish",
+  },
+};

@@ -1,0 +1,82 @@
+// @ts-check
+// The socket of long work. Each kind of work has a number that rises: answers of older numbers are dropped.
+
+/** @typedef {import("../wire.js").Params} Params */
+/** @typedef {"curves" | "map" | "auto"} Kind */
+/** @typedef {{name: string, label: string, unit: string, better: string, truth: boolean, help: string}} Measure (lineseg/sweep/totals.py) */
+/** @typedef {{values: number[]} & Record<string, (number | null)[]>} Curve */
+/** @typedef {{frames: number, of: number, params: Params, curves?: Record<string, Curve>, x?: string, y?: string, measure?: string, xs?: number[], ys?: number[], heights?: (number | null)[][]}} Sampled */
+/** @typedef {{number: number, params: Params, score: number | null}} Trial */
+/** @typedef {{params: Params, text: string, gained: boolean}} Verdict */
+/** @typedef {{text?: string, caution?: string, thresholds?: string[], trials?: Trial[], importance?: Record<string, number>, verdict?: Verdict}} Tuned */
+/** @typedef {Partial<Sampled> & Tuned & {type: Kind, job: number, done?: boolean, stopped?: boolean, message?: string}} Answer */
+
+const RETRY_MS = 2000;
+
+export class Workbench {
+  /** @type {WebSocket | null} */ #socket = null;
+  /** @type {Map<Kind, {job: number, wish: object | null}>} */ #latest = new Map();
+  #url;
+  #onAnswer;
+  #onMeasures;
+  #job = 0;
+
+  /**
+   * @param {() => string | null} url null while there is no session yet
+   * @param {{onAnswer: (answer: Answer) => void, onMeasures: (measures: Measure[]) => void}} handlers
+   */
+  constructor(url, { onAnswer, onMeasures }) {
+    this.#url = url;
+    this.#onAnswer = onAnswer;
+    this.#onMeasures = onMeasures;
+  }
+
+  /** Begins work of a kind, and stops what was under way of it. @param {Kind} kind @param {object} wish */
+  ask(kind, wish) {
+    const job = ++this.#job;
+    const full = { type: kind, job, ...wish };
+    this.#latest.set(kind, { job, wish: full });
+    this.#post(full);
+  }
+
+  /** @param {Kind} kind */
+  stop(kind) {
+    this.#post({ type: "stop", what: kind });
+  }
+
+  /** @param {object} message */
+  #post(message) {
+    if (this.#socket?.readyState === WebSocket.OPEN) this.#socket.send(JSON.stringify(message));
+    else this.#connect();
+  }
+
+  #connect() {
+    const url = this.#url();
+    if (this.#socket || !url) return;
+    const socket = new WebSocket(url);
+    this.#socket = socket;
+    socket.onopen = () => {
+      for (const { wish } of this.#latest.values()) if (wish) socket.send(JSON.stringify(wish));
+    };
+    socket.onmessage = ({ data }) => this.#receive(JSON.parse(data));
+    socket.onclose = () => {
+      this.#socket = null;
+      if ([...this.#latest.values()].some(({ wish }) => wish)) setTimeout(() => this.#connect(), RETRY_MS);
+    };
+  }
+
+  /** @param {any} answer */
+  #receive(answer) {
+    if (answer.type === "measures") return this.#onMeasures(answer.measures);
+    if (answer.type === "error") {
+      // Refused before it began: of whatever was asked last.
+      const open = [...this.#latest].filter(([, { wish }]) => wish).sort(([, one], [, other]) => other.job - one.job)[0];
+      if (open) this.#receive({ type: open[0], job: open[1].job, done: true, message: answer.message });
+      return undefined;
+    }
+    const latest = this.#latest.get(answer.type);
+    if (!latest || answer.job !== latest.job) return undefined;
+    if (answer.done) latest.wish = null;
+    return this.#onAnswer(answer);
+  }
+}

@@ -1,0 +1,253 @@
+"""The command line as its users call it."""
+
+import csv
+import json
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+import urllib.request
+
+import numpy as np
+import pytest
+from lineseg_app.__main__ import main
+from lineseg_app.commands.progress import counted, interruptible
+from processes import lineseg
+
+from lineseg import Params, extract
+from lineseg.readers import open_recording
+from lineseg.writers import params_text
+
+TURN = 0.25 * np.pi / 180
+
+
+@pytest.fixture
+def hall(tmp_path):
+    """Three scans of a hall with walls at y = ±1.5 m, and one beam lost."""
+    bearings = np.deg2rad(-90) + TURN * np.arange(721)
+    with np.errstate(divide="ignore"):
+        ranges = np.minimum(np.abs(1.5 / np.sin(bearings)), 8.0 / np.cos(bearings)) * np.ones((3, 1))
+    ranges[:, 300] = np.nan
+    path = tmp_path / "hall.npz"
+    np.savez(path, ranges=ranges, angle_min=bearings[0], angle_increment=TURN, stamps=[1.0, 1.5, 2.0], frame_id="laser")
+    return path
+
+
+@pytest.fixture
+def run(capsys):
+    def call(*arguments):
+        code = main([str(argument) for argument in arguments])
+        return code, *capsys.readouterr()
+
+    return call
+
+
+def test_extract_writes_the_segments_that_the_library_finds(run, hall, tmp_path):
+    assert run("extract", hall, "-o", tmp_path / "out.jsonl") == (0, "", "")
+    rows = [json.loads(line) for line in (tmp_path / "out.jsonl").read_text().splitlines()]
+    recording = open_recording(hall)
+    assert [(row["frame"], row["stamp"], row["frame_id"]) for row in rows] == [
+        (0, 1.0, "laser"),
+        (1, 1.5, "laser"),
+        (2, 2.0, "laser"),
+    ]
+    for row, scan in zip(rows, recording, strict=True):
+        found = [(each["first"], each["last"], each["points"]) for each in row["segments"]]
+        assert found == [(each.first, each.last, each.points) for each in extract(scan).segments]
+        assert found
+
+
+def test_extract_writes_covariances_where_the_noise_is_given(run, hall, tmp_path):
+    code, out, _ = run("extract", hall, "--range-noise", "0.01")
+    first = json.loads(out.splitlines()[0])["segments"][0]
+    (var_rho, cov), (_, var_theta) = first["covariance"]
+    assert code == 0
+    assert var_rho * var_theta > cov**2
+    assert "covariance" not in run("extract", hall)[1]
+    code, _, err = run("extract", hall, "--bearing-noise", "-1")
+    assert (code, err) == (
+        2,
+        "lineseg: the noise of a bearing is -1; a standard deviation is 0 rad or more, and finite\n",
+    )
+
+
+def test_extract_writes_csv_and_standard_output(run, hall, tmp_path):
+    run("extract", hall, "--out", tmp_path / "out.csv")
+    with (tmp_path / "out.csv").open() as file:
+        rows = list(csv.DictReader(file))
+    code, out, _ = run("extract", hall)
+    assert code == 0
+    assert len(rows) == sum(len(json.loads(line)["segments"]) for line in out.splitlines()) > 0
+
+
+def test_flags_win_over_the_file_of_thresholds(run, tmp_path):
+    path = tmp_path / "mine.yaml"
+    path.write_text(params_text(Params(epsilon=0.05, min_points=33), "ros2"))
+    code, out, _ = run("params", "--params", path, "--epsilon", "0.07", "--to", "flags")
+    assert code == 0
+    assert out == params_text(Params(epsilon=0.07, min_points=33), "flags")
+
+
+@pytest.mark.parametrize("format", ["ros2", "ros1", "python", "flags"])
+def test_params_writes_each_format(run, format):
+    assert run("params", "--to", format, "--seed-points", 7) == (0, params_text(Params(seed_points=7), format), "")
+
+
+def test_every_threshold_is_a_flag_with_its_symbol_and_default(capsys):
+    with pytest.raises(SystemExit) as raised:
+        main(["extract", "--help"])
+    assert raised.value.code == 0
+    text = " ".join(capsys.readouterr().out.replace("│", " ").split())
+    for name, _, knob in Params.knobs():
+        assert re.search(rf"--{name.replace('_', '-')} \w+ {re.escape(knob.symbol)}", text), name
+        assert f"(default: {getattr(Params(), name)})" in text
+
+
+def test_info_says_what_a_recording_holds(run, hall):
+    code, out, _ = run("info", hall)
+    assert code == 0
+    facts = dict(
+        re.split(r"\s{2,}", line, maxsplit=1) if "  " in line else line.rsplit(" ", 1) for line in out.splitlines()
+    )
+    assert (facts["format"], facts["scans"], facts["beams"]) == ("NPZ", "3", "721")
+    assert (facts["field of view"], facts["invalid beams"]) == ("180.00°", "0.14%")
+
+
+def test_info_offers_the_other_topics(run, data_dir):
+    code, out, _ = run("info", data_dir / "ros1_two_urg04lx" / "scans_demo.bag", "--topic", "/front_scan")
+    assert code == 0
+    assert "/rear_scan (330 scans)\n" in out
+    assert "/front_scan (331 scans) *\n" in out
+
+
+def test_options_of_text_files_are_flags(run, tmp_path):
+    path = tmp_path / "scan.txt"
+    path.write_text(" ".join(["1500"] * 50))
+    code, _, err = run("info", path)
+    assert (code, err.startswith("lineseg: scan.txt: rows of 50 numbers")) == (2, True)
+    code, out, _ = run("info", path, "--angle-increment", "0.02", "--unit", "mm")
+    assert code == 0
+    assert "1.500 m" in out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (["nowhere.bag"], "lineseg: nowhere.bag: there is no such file or folder."),
+        (["extract", "nowhere.bag"], "lineseg: nowhere.bag: there is no such file or folder."),
+        (["info", "nowhere.bag"], "lineseg: nowhere.bag: there is no such file or folder."),
+        (["extract", "{hall}", "-o", "out.txt"], "lineseg: out.txt: segments are written as .jsonl, .csv, .geojson."),
+        (
+            ["extract", "{hall}", "-o", "no/such/out.csv"],
+            "lineseg: no/such/out.csv: the folder no/such does not exist.",
+        ),
+        (["extract", "{hall}", "--topic", "/scan"], "lineseg: hall.npz has no laser array '/scan'; it has ranges."),
+        (["extract", "{hall}", "--params", "no.yaml"], "lineseg: no.yaml: No such file or directory."),
+        (
+            ["params", "--params", "{hall}"],
+            "lineseg: {hall}: this is not text; a launch file, YAML or JSON is expected.",
+        ),
+        (
+            ["params", "--seed-points", "2"],
+            "lineseg: seed_points is 2; a seed needs 3 or more points, because any 2 points fit a line exactly",
+        ),
+    ],
+)
+def test_an_error_is_one_sentence_and_code_2(run, hall, arguments, sentence):
+    code, out, err = run(*(argument.format(hall=hall) for argument in arguments))
+    assert (code, out, err.count("\n")) == (2, "", 1)
+    assert err.startswith(sentence.format(hall=hall))
+
+
+def test_wrong_flags_are_refused_with_code_2(capsys):
+    for arguments in (["extract"], ["params", "--to", "ros3"], ["params", "--epsilon", "wide"], ["view", "--nonsense"]):
+        with pytest.raises(SystemExit) as raised:
+            main(arguments)
+        assert raised.value.code == 2
+        assert capsys.readouterr().err
+
+
+def test_version_is_said(run):
+    code, out, _ = run("--version")
+    assert code == 0
+    assert re.fullmatch(r"lineseg \d+\.\d+\.\d+\n", out)
+
+
+def test_what_only_the_page_needs_is_not_loaded_for_the_rest():
+    heavy = {"viser", "fastapi", "uvicorn", "rosbags", "rerun"}
+    script = f"import sys, lineseg_app.__main__; print(*{heavy} & set(sys.modules))"
+    found = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    assert found.stdout.strip() == ""
+
+
+def test_a_reader_of_a_pipe_may_leave_early(hall):
+    command = f"{sys.executable} -m lineseg_app extract {hall} | head -n 1"
+    found = subprocess.run(["bash", "-o", "pipefail", "-c", command], capture_output=True, text=True, check=True)
+    assert (found.stdout.count("\n"), found.stderr) == (1, "")
+
+
+def test_ctrl_c_ends_an_extraction_without_a_trace(tmp_path):
+    path = tmp_path / "long.csv"
+    rng = np.random.default_rng(1)
+    rows = "\n".join(",".join(map(str, rng.uniform(1, 9, 1081).round(3))) for _ in range(20))
+    path.write_text("\n".join([rows] * 400))
+    process = lineseg("extract", path, "-o", tmp_path / "out.jsonl", "--seed-points", "3", "--epsilon", "0.5")
+    part = tmp_path / "out.jsonl.part"
+    deadline = time.monotonic() + 60
+    while not part.exists() and process.poll() is None and time.monotonic() < deadline:
+        time.sleep(0.01)
+    process.send_signal(signal.SIGINT)
+    _, err = process.communicate(timeout=60)
+    assert (process.returncode, err) == (130, "lineseg: stopped.\n")
+    assert [each.name for each in tmp_path.iterdir()] == ["long.csv"]
+
+
+def test_ctrl_c_in_a_finaliser_ends_the_work_at_its_next_step(capsys):
+    class Finalised:
+        def __del__(self):
+            signal.raise_signal(signal.SIGINT)
+
+    steps = []
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    try:
+        with pytest.raises(KeyboardInterrupt), interruptible():
+            for step in counted(range(5), 5, "work"):
+                steps.append(step)
+                if step == 2:
+                    Finalised()
+    finally:
+        signal.signal(signal.SIGINT, before)
+    assert (steps, capsys.readouterr().err) == ([0, 1, 2], "")
+
+
+@pytest.mark.parametrize("arguments", [["view"], []], ids=["view FILE", "FILE"])
+def test_a_file_alone_is_viewed_until_ctrl_c(hall, tmp_path, arguments):
+    environment = os.environ | {"HOME": str(tmp_path), "XDG_DATA_HOME": str(tmp_path), "XDG_STATE_HOME": str(tmp_path)}
+    process = lineseg(*arguments, hall, "--port", 0, "--no-browser", env=environment)
+    assert process.stdout
+    try:
+        address = re.search(r"http://\S+", process.stdout.readline())
+        assert address
+        with urllib.request.urlopen(address[0], timeout=20) as page:
+            assert page.status == 200
+    finally:
+        process.send_signal(signal.SIGINT)
+        _, err = process.communicate(timeout=30)
+    assert "Traceback" not in err
+    assert process.returncode == 130
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        (("ws://",), "'ws://' is no address of a robot; an address is like ws://robot:9090"),
+        (("view", "ws://robot:99999"), "no address of a robot"),
+        (("ws://robot:9090", "--keep", "0"), "--keep is 0; allowed are 1 to 20000 scans"),
+    ],
+)
+def test_a_robot_that_cannot_be_watched_is_named(run, arguments, sentence):
+    code, _, error = run(*arguments, "--no-browser")
+    assert code == 2
+    assert sentence in error

@@ -1,0 +1,146 @@
+"""Who may speak with the server."""
+
+from __future__ import annotations
+
+import socket
+
+import pytest
+from lineseg_app.server import Settings, create_app, listen
+from live import Address, Page, page_of, serving
+from websockets.exceptions import InvalidStatus
+from websockets.sync.client import connect
+
+
+@pytest.mark.parametrize(
+    "host", ["evil.example", "evil.example:8765", "127.0.0.1.evil.example", "", "localhost@evil.example"]
+)
+def test_a_foreign_host_is_refused(server: Address, host: str):
+    answer = server.get("/", headers={"Host": host})
+    assert answer.status_code == 403
+    assert "not a name of this server" in answer.json()["message"]
+
+
+@pytest.mark.parametrize("host", ["localhost", "127.0.0.1", "[::1]", "localhost:9000", "LOCALHOST:9000"])
+def test_this_machine_may_be_reached_through_a_tunnel(server: Address, host: str):
+    assert server.get("/static/index.html", headers={"Host": host}).status_code == 200
+
+
+FOREIGN = ["http://evil.example", "https://evil.example", "null", "http://localhost:1", "http://127.0.0.1.evil.example"]
+
+
+@pytest.mark.parametrize("origin", FOREIGN)
+def test_a_foreign_origin_is_refused_on_http(server: Address, origin: str):
+    answer = server.upload("a.npz", b"x", headers={"Origin": origin})
+    assert answer.status_code == 403
+    assert origin in answer.json()["message"]
+
+
+@pytest.mark.parametrize("path", ["/api/session", "/s/whatever/viser"])
+@pytest.mark.parametrize("origin", FOREIGN)
+def test_a_foreign_origin_is_refused_on_sockets(server: Address, origin: str, path: str):
+    with pytest.raises(InvalidStatus) as refused, connect(server.ws + path, origin=origin, proxy=None):  # pyright: ignore
+        pass
+    assert refused.value.response.status_code == 403
+
+
+def test_a_foreign_host_is_refused_on_sockets(server: Address):
+    there = socket.create_connection(("127.0.0.1", server.port))
+    with pytest.raises(InvalidStatus) as refused, connect("ws://evil.example/api/session", sock=there, proxy=None):
+        pass
+    assert refused.value.response.status_code == 403
+
+
+def test_the_page_itself_is_welcome(server: Address):
+    with page_of(server, origin=server.http) as page:
+        page.hello()
+
+
+def test_other_sites_may_not_embed_what_the_server_has(server: Address):
+    assert server.get("/static/main.js", headers={"Sec-Fetch-Site": "cross-site"}).status_code == 403
+    following_a_link = {"Sec-Fetch-Site": "cross-site", "Sec-Fetch-Mode": "navigate"}
+    assert server.get("/", headers=following_a_link).status_code == 200
+
+
+def test_the_page_may_load_from_this_server_only(server: Address):
+    headers = server.get("/").headers
+    policy = dict(part.split(" ", 1) for part in headers["content-security-policy"].split("; "))
+    assert policy["default-src"] == "'none'"
+    assert {policy[name] for name in ("style-src", "connect-src")} == {"'self'"}
+    assert policy["script-src"] == "'self' 'unsafe-eval'"
+    assert policy["frame-ancestors"] == "'none'"
+    assert headers["x-content-type-options"] == "nosniff"
+
+
+def test_the_scene_may_be_framed_by_the_page_only(server: Address, page: Page):
+    page.hello()
+    policy = server.get(page.welcome["viser"]).headers["content-security-policy"]
+    assert "frame-ancestors 'self'" in policy
+    assert "connect-src 'self' data: blob:" in policy
+
+
+PATHS = [
+    "/static/../pyproject.toml",
+    "/static/%2e%2e/pyproject.toml",
+    "/static/..%2fpyproject.toml",
+    "/static//etc/passwd",
+]
+
+
+@pytest.mark.parametrize("path", PATHS)
+def test_no_path_leads_out_of_the_static_folder(server: Address, path: str):
+    assert server.get(path).status_code == 404
+
+
+def test_static_files_are_answered_by_their_etag(server: Address):
+    first = server.get("/static/index.html")
+    assert first.headers["cache-control"] == "no-cache"
+    again = server.get("/static/index.html", headers={"If-None-Match": first.headers["etag"]})
+    assert again.status_code == 304
+
+
+def test_an_unknown_address_is_answered_with_a_message(server: Address):
+    answer = server.get("/api/nothing")
+    assert answer.status_code == 404
+    assert list(answer.json()) == ["message"]
+
+
+def test_more_than_the_loopback_needs_a_token():
+    with pytest.raises(ValueError, match=r"0\.0\.0\.0.*token"):
+        create_app(Settings(host="0.0.0.0"))
+
+
+@pytest.fixture(scope="module")
+def public(tmp_path_factory):
+    """A server as for other machines, though its socket is on the loopback."""
+    with serving(Settings(host="0.0.0.0", token="sesame", data_folder=tmp_path_factory.mktemp("data"))) as address:
+        yield address
+
+
+def test_without_the_token_nothing_is_answered(public: Address):
+    for path in ("/", "/?token=wrong", "/static/index.html", "/api/params", "/?token="):
+        assert public.get(path).status_code == 403, path
+    with pytest.raises(InvalidStatus), page_of(public):
+        pass
+
+
+def test_the_token_becomes_a_cookie_that_opens_the_page(public: Address):
+    entered = public.get("/?token=sesame")
+    assert (entered.status_code, entered.headers["location"]) == (303, "/")
+    cookie = entered.headers["set-cookie"]
+    assert "HttpOnly" in cookie
+    assert "SameSite=strict" in cookie
+    assert "sesame" not in cookie
+    key = {"Cookie": cookie.split(";")[0]}
+    assert public.get("/", headers=key).status_code == 200
+    with page_of(public, additional_headers=key) as page:
+        page.hello()
+
+
+def test_a_server_for_others_answers_to_addresses_but_not_to_any_name(public: Address):
+    assert public.get("/?token=sesame", headers={"Host": "192.168.1.7:8765"}).status_code == 303
+    assert public.get("/?token=sesame", headers={"Host": "evil.example"}).status_code == 403
+
+
+def test_a_busy_port_is_told_with_the_way_on(server: Address):
+    with pytest.raises(OSError, match=rf"port {server.port} .* is taken.*--port"):
+        listen("127.0.0.1", server.port)

@@ -1,0 +1,214 @@
+"""Scans from a robot over rosbridge: they arrive, stop, come again; and segments go back."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from live import Address, Page, page_of
+from robots import drawn, heard, nearest, wall, watching
+from rosbridge_peer import TEXT, RosBridgePeer, scan_message
+
+
+@pytest.fixture
+def peer() -> Iterator[RosBridgePeer]:
+    peer = RosBridgePeer()
+    yield peer
+    peer.close()
+
+
+def send(peer: RosBridgePeer, page: Page, *distances: float) -> dict[str, Any]:
+    """Publish scans of a wall; the state once the last of them is drawn."""
+    assert peer.subscribed.wait(60)
+    for second, distance in enumerate(distances):
+        peer.publish("/scan", scan_message(wall(distance), second))
+    return drawn(page, lambda state: abs(nearest(state) - distances[-1]) < 0.01)
+
+
+def test_scans_arrive_as_frames_and_the_newest_is_followed(peer: RosBridgePeer, tmp_path: Path):
+    with watching(peer.url, tmp_path) as server, page_of(server) as page:
+        page.say(type="hello")
+        assert "waiting for its first scan" in heard(page, "loading", lambda m: "subscribed" in m["note"])["note"]
+        state = send(peer, page, 4.0, 3.0, 2.0)
+        assert (state["frame"], state["frames"], state["live"], state["first"]) == (2, 3, True, 0)
+        assert (state["frameId"], state["topic"]) == ("laser", "/scan")
+        status = heard(page, "live", lambda m: m["total"] == 3 and m["connection"] == "open")
+        assert (status["message"], status["dropped"], status["delay"]) == ("", 0, None)
+
+
+def test_who_looks_at_a_frame_keeps_it_until_the_newest_is_wanted_again(peer: RosBridgePeer, tmp_path: Path):
+    with watching(peer.url, tmp_path, keep=3) as server, page_of(server) as page:
+        page.say(type="hello")
+        send(peer, page, 4.0, 3.5, 3.0)
+        paused = page.change(frame=0)
+        assert (paused["live"], nearest(paused)) == (False, pytest.approx(4.0))
+        for distance in (2.5, 2.0, 1.5):
+            peer.publish("/scan", scan_message(wall(distance)))
+        heard(page, "live", lambda m: m["total"] == 6 and m["dropped"] == 3)
+        still = page.change(params={"epsilon": 0.04})
+        assert (still["frame"], still["frames"], still["first"], nearest(still)) == (0, 3, 0, pytest.approx(4.0))
+        assert nearest(page.change(frame=1)) == pytest.approx(3.5)
+        newest = page.change(live=True)
+        assert (newest["live"], newest["frame"], newest["first"]) == (True, 2, 3)
+        assert nearest(newest) == pytest.approx(1.5)
+        assert heard(page, "survey", lambda m: m["first"] == 3)["frames"] == 3
+
+
+def test_the_scores_follow_the_scans(peer: RosBridgePeer, tmp_path: Path):
+    with watching(peer.url, tmp_path) as server, page_of(server) as page:
+        page.say(type="hello")
+        send(peer, page, 4.0)
+        for distance in (3.5, 3.0, 2.5):
+            peer.publish("/scan", scan_message(wall(distance)))
+        surveyed = heard(page, "survey", lambda m: m["frames"] == 4)
+        assert surveyed["scores"]["segments"].tolist() == [1, 1, 1, 1]
+
+
+def test_a_robot_that_went_away_is_told_and_found_again(tmp_path: Path):
+    first = RosBridgePeer()
+    with watching(first.url, tmp_path) as server, page_of(server) as page:
+        page.say(type="hello")
+        send(first, page, 4.0)
+        first.close()
+        lost = heard(page, "live", lambda m: m["connection"] == "lost")
+        assert "trying again in" in lost["message"]
+        assert page.change(params={"epsilon": 0.04})["frames"] == 1
+        again = RosBridgePeer(port=first.port)
+        try:
+            state = send(again, page, 2.0)
+            assert state["frames"] == 2
+            assert heard(page, "live", lambda m: m["total"] == 2)["connection"] == "open"
+        finally:
+            again.close()
+
+
+def test_a_robot_that_is_not_there_is_named_and_another_recording_can_be_opened(tmp_path: Path):
+    gone = RosBridgePeer()
+    gone.close()
+    with watching(gone.url, tmp_path) as server, page_of(server) as page:
+        page.say(type="hello")
+        waiting = heard(page, "loading", lambda m: "listens" in m["note"])
+        assert f"nothing listens at 127.0.0.1:{gone.port}; trying again in" in waiting["note"]
+        assert page.change(recording="sample:hallway")["live"] is None
+
+
+@pytest.mark.parametrize(
+    ("topic", "peer_of", "sentence"),
+    [
+        ("/chatter", {}, "/chatter is std_msgs/msg/String; a sensor_msgs/LaserScan is needed; there is /scan"),
+        ("/rear", {}, "the robot has no topic /rear; of laser scans it has /scan"),
+        (None, {"topics": {"/chatter": TEXT}}, "no sensor_msgs/LaserScan topic; it has /chatter (std_msgs/String)"),
+        (
+            None,
+            {"rosapi": False},
+            "the robot does not list its topics (Service /rosapi/topics does not exist); name one",
+        ),
+        (
+            "/chatter",
+            {"rosapi": False},
+            "/chatter: Tried to subscribe to topic /chatter with type sensor_msgs/LaserScan",
+        ),
+    ],
+)
+def test_a_topic_that_cannot_be_had_is_named(tmp_path: Path, topic: str | None, peer_of: dict, sentence: str):
+    peer = RosBridgePeer(**peer_of)
+    try:
+        with watching(peer.url, tmp_path, topic=topic) as server, page_of(server) as page:
+            page.say(type="hello")
+            assert sentence in heard(page, "loading", lambda m: sentence in m["note"])["note"]
+    finally:
+        peer.close()
+
+
+def test_without_a_topic_the_first_of_laser_scans_is_taken(peer: RosBridgePeer, tmp_path: Path):
+    with watching(peer.url, tmp_path, topic=None) as server, page_of(server) as page:
+        page.say(type="hello")
+        assert send(peer, page, 4.0)["topic"] == "/scan"
+
+
+def test_what_is_no_scan_is_counted_and_the_next_scan_is_taken(peer: RosBridgePeer, tmp_path: Path):
+    with watching(peer.url, tmp_path) as server, page_of(server) as page:
+        page.say(type="hello")
+        assert peer.subscribed.wait(60)
+        peer.publish("/scan", {"data": "hello"})
+        peer.publish("/scan", scan_message([1.0, 2.0], angle_min=math.nan))
+        refused = heard(page, "live", lambda m: m["refused"] == 2)
+        assert "a message of /scan is no scan: its angle_min is nan" in refused["message"]
+        state = send(peer, page, 3.0)
+        peer.publish("/scan", scan_message([math.nan, math.inf, *wall(2.5)[2:]]))
+        state = drawn(page, lambda s: s["frames"] == 2)
+        assert state["beams"] - state["valid"] == 2
+
+
+def test_segments_go_back_with_the_stamp_and_the_frame_of_their_scan(peer: RosBridgePeer, tmp_path: Path):
+    with watching(peer.url, tmp_path) as server, page_of(server) as page:
+        page.say(type="hello")
+        session = {"session": page.hear_a("welcome")["session"]}
+        send(peer, page, 4.0)
+        assert server.post("/api/robot/segments", json=session | {"on": True, "topic": "/walls"}).status_code == 200
+        peer.publish("/scan", scan_message(wall(3.0), second=77))
+        topic, message = peer.received.get(timeout=20)
+        (marker,) = message["markers"]
+        assert (topic, marker["header"]["frame_id"], marker["type"], marker["action"]) == ("/walls", "laser", 5, 0)
+        assert marker["header"]["stamp"] == {"sec": 77, "nanosec": 123456789}
+        assert [point["x"] for point in marker["points"]] == pytest.approx([3.0, 3.0], abs=1e-3)
+        page.change(params={"min_length": 30.0})
+        peer.publish("/scan", scan_message(wall(3.0)))
+        assert peer.received.get(timeout=20)[1]["markers"][0]["action"] == 2
+        assert server.post("/api/robot/segments", json=session | {"on": False}).status_code == 200
+
+
+def test_ros_1_is_answered_in_its_own_words(peer: RosBridgePeer, tmp_path: Path):
+    peer.topics = {"/scan": "sensor_msgs/LaserScan"}
+    header = {"seq": 4, "stamp": {"secs": 9, "nsecs": 5}, "frame_id": "laser"}
+    with watching(peer.url, tmp_path, topic=None) as server, page_of(server) as page:
+        page.say(type="hello")
+        session = page.hear_a("welcome")["session"]
+        assert peer.subscribed.wait(60)
+        peer.publish("/scan", scan_message(wall(3.0), header=header))
+        assert page.hear_a("drawn")["state"]["stamp"] == pytest.approx(9.0)
+        assert server.post("/api/robot/segments", json={"session": session, "on": True}).status_code == 200
+        peer.publish("/scan", scan_message(wall(3.0), header=header))
+        topic, message = peer.received.get(timeout=20)
+        assert topic == "/lineseg/segments"
+        assert message["markers"][0]["header"]["stamp"] == {"secs": 9, "nsecs": 5}
+
+
+def test_two_tabs_do_not_publish_at_once_and_a_closed_tab_does_no_longer(peer: RosBridgePeer, tmp_path: Path):
+    with watching(peer.url, tmp_path) as server, page_of(server) as page, page_of(server) as other:
+        sessions = []
+        for each in (page, other):
+            each.say(type="hello")
+            sessions.append(each.hear_a("welcome")["session"])
+        send(peer, page, 3.0)
+        asked = [{"session": session, "on": True} for session in sessions]
+        assert server.post("/api/robot/segments", json=asked[0]).status_code == 200
+        refused = server.post("/api/robot/segments", json=asked[1])
+        assert (refused.status_code, "another tab publishes" in refused.text) == (400, True)
+        assert heard(page, "live", lambda m: m["publisher"])["publisher"] == "this"
+        assert heard(other, "live", lambda m: m["publisher"])["publisher"] == "another"
+        page.say(type="close")
+        heard(other, "live", lambda m: m["publisher"] == "")
+        assert server.post("/api/robot/segments", json=asked[1]).status_code == 200
+
+
+def test_what_no_bridge_would_send_ends_the_connection_and_not_the_program(peer: RosBridgePeer, tmp_path: Path):
+    peer._service = lambda service, args: {"topics": 3, "types": None}  # type: ignore[method-assign]
+    with watching(peer.url, tmp_path) as server, page_of(server) as page:
+        page.say(type="hello")
+        note = heard(page, "loading", lambda m: "trying again" in m["note"])["note"]
+        assert "sent what cannot be understood" in note
+
+
+def test_what_cannot_be_published_is_said(server: Address, page: Page):
+    page.hello()
+    for asked, sentence in [
+        ({"session": "nobody", "on": True}, "reload the page"),
+        ({"session": page.welcome["session"], "on": True}, "for a live source only"),
+    ]:
+        answer = server.post("/api/robot/segments", json=asked)
+        assert answer.status_code in (400, 404)
+        assert sentence in answer.json()["message"]

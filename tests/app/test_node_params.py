@@ -1,0 +1,81 @@
+"""Thresholds sent to a node over rosbridge, and read back."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import pytest
+from live import Address
+from rosbridge_peer import RosBridgePeer
+
+from lineseg import Params
+
+NAMES = [knob.ros for _, _, knob in Params.knobs() if knob.ros]
+NODE = {"least_thresh": 0.04, "predict_distance": 0.1, "seed_line_points": 6, "min_line_points": 12}
+
+
+@pytest.fixture
+def peer() -> Iterator[RosBridgePeer]:
+    peer = RosBridgePeer(nodes={"/line_extraction": NODE | {"min_line_length": 0.5}})
+    yield peer
+    peer.close()
+
+
+def sent(server: Address, peer: RosBridgePeer, **asked) -> list[dict]:
+    values = {"address": peer.url, "node": "/line_extraction", "params": {"epsilon": 0.02, "seed_points": 7}} | asked
+    answer = server.post("/api/robot/params", json=values)
+    assert answer.status_code == 200, answer.text
+    return answer.json()["sent"]
+
+
+def test_the_node_has_the_thresholds_afterwards(server: Address, peer: RosBridgePeer):
+    rows = sent(server, peer)
+    assert [row["name"] for row in rows] == NAMES
+    assert all(row["taken"] and row["now"] == row["value"] and not row["reason"] for row in rows)
+    assert peer.nodes["/line_extraction"]["least_thresh"] == 0.02
+    assert peer.nodes["/line_extraction"]["seed_line_points"] == 7
+
+
+def test_what_the_node_refuses_is_shown_in_its_own_words_with_what_it_has(server: Address, peer: RosBridgePeer):
+    peer.nodes["/line_extraction"]["seed_line_points"] = 6.0
+    rows = {row["threshold"]: row for row in sent(server, peer, extensions=True)}
+    assert rows["epsilon"]["taken"]
+    wrong, undeclared = rows["seed_points"], rows["max_gap"]
+    assert (wrong["taken"], wrong["value"], wrong["now"]) == (False, 7, 6.0)
+    assert wrong["reason"] == "Wrong parameter type, parameter {seed_line_points} is of type {double}"
+    assert (undeclared["taken"], undeclared["now"]) == (False, None)
+    assert undeclared["reason"] == "parameter 'max_gap' cannot be set because it was not declared"
+
+
+def test_a_robot_of_ros_1_has_them_on_its_parameter_server(server: Address, peer: RosBridgePeer):
+    rows = sent(server, peer, ros=1)
+    assert all(row["taken"] for row in rows)
+    assert peer.store["/line_extraction/least_thresh"] == "0.02"
+    assert peer.store["/line_extraction/seed_line_points"] == "7"
+
+
+@pytest.mark.parametrize(
+    ("asked", "status", "sentence"),
+    [
+        ({"node": "/nobody"}, 400, "says: Service /nobody/set_parameters does not exist"),
+        ({"address": "http://robot:9090"}, 400, "no address of a robot; an address is like ws://robot:9090"),
+        ({"address": "ws://127.0.0.1:1"}, 502, "nothing listens at 127.0.0.1:1"),
+        ({"address": "ws://" + 300 * "r"}, 422, "address: string should have at most 300 characters"),
+        ({"turbo": True}, 422, "turbo: extra inputs are not permitted"),
+        ({"node": "../etc"}, 400, "a name of ROS is like /line_extraction"),
+        ({"params": {"epsilon": -1}}, 400, "epsilon is -1"),
+        ({"params": {"gamma": 1}}, 400, "there is no threshold 'gamma'"),
+    ],
+)
+def test_what_cannot_be_sent_is_said(server: Address, peer: RosBridgePeer, asked: dict, status: int, sentence: str):
+    values = {"address": peer.url, "node": "/line_extraction", "params": {}} | asked
+    answer = server.post("/api/robot/params", json=values)
+    assert answer.status_code == status
+    assert sentence in answer.json()["message"]
+
+
+def test_a_peer_that_speaks_no_rosbridge_is_said(server: Address):
+    values = {"address": server.ws, "node": "/line_extraction", "params": {}}
+    answer = server.post("/api/robot/params", json=values)
+    assert answer.status_code == 502
+    assert "speaks no WebSocket that can be used" in answer.json()["message"]

@@ -1,0 +1,178 @@
+"""Curves, maps and auto-tuning over the page's socket: the numbers of the library, stage after stage, until stopped."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from lineseg_app.places import data_folder
+from lineseg_app.server import Settings
+from live import SECONDS, Address, Page, page_of, serving
+from websockets.sync.client import connect
+
+from lineseg import Params, open_recording
+from lineseg.readers import save_npz
+from lineseg.sweep import Batch, slider_values
+
+FRAMES = 60
+
+
+@pytest.fixture(scope="module")
+def hall(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    file = tmp_path_factory.mktemp("hall") / "hall.npz"
+    save_npz(open_recording(data_folder("sample_scans") / "hallway.npz").only(np.arange(FRAMES)), file)
+    return file
+
+
+@pytest.fixture(scope="module")
+def bench(hall: Path) -> Iterator[Address]:
+    with serving(Settings(files=(hall,), data_folder=hall.parent)) as address:
+        yield address
+
+
+class Bench:
+    """What the page does on the socket of long work."""
+
+    def __init__(self, socket: Any) -> None:
+        self._socket, self._job = socket, 0
+        self.measures = self.hear()["measures"]
+
+    def hear(self) -> dict[str, Any]:
+        return json.loads(self._socket.recv(timeout=SECONDS))
+
+    def ask(self, kind: str, **wish: Any) -> int:
+        self._job += 1
+        self._socket.send(json.dumps({"type": kind, "job": self._job, "params": {}} | wish))
+        return self._job
+
+    def stop(self, kind: str) -> None:
+        self._socket.send(json.dumps({"type": "stop", "what": kind}))
+
+    def answers(self, job: int) -> list[dict[str, Any]]:
+        """All of a job, the last of which says that it is done."""
+        found: list[dict[str, Any]] = []
+        while not (found and found[-1].get("done")):
+            answer = self.hear()
+            assert answer["type"] != "error", answer["message"]
+            if answer["job"] == job:
+                found.append(answer)
+        return found
+
+    def tune(self, **wish: Any) -> int:
+        return self.ask("auto", **({"objective": "truth", "thresholds": ["epsilon", "delta"], "trials": 15} | wish))
+
+
+@pytest.fixture
+def tab(bench: Address) -> Iterator[tuple[Page, Bench]]:
+    with page_of(bench) as page:
+        page.hello()
+        session = page.welcome["session"]
+        with connect(f"{bench.ws}/api/tuning?session={session}", max_size=None, proxy=None) as socket:
+            yield page, Bench(socket)
+
+
+def test_curves_come_coarse_first_and_end_with_what_the_library_says_of_all_frames(tab, hall: Path):
+    _, bench = tab
+    *stages, end = bench.answers(bench.ask("curves", params={"min_points": 12}))
+    assert [stage["frames"] for stage in stages] == [40, FRAMES]
+    assert end == {"type": "curves", "job": 1, "done": True}
+    values = slider_values("epsilon", 17)
+    found = stages[-1]["curves"]["epsilon"]
+    whole = Batch(open_recording(hall), False).measure([Params(min_points=12, epsilon=each) for each in values])
+    assert found["values"] == list(values)
+    for name in ("coverage", "segments", "true_rate", "false_rate", "completeness"):
+        expected = [None if np.isnan(each) else round(each, 5) for each in whole.measure(name).tolist()]
+        assert found[name] == expected, name
+    assert set(stages[0]["curves"]) == {name for name, _, _ in Params.knobs()}
+
+
+def test_the_newest_curves_win(tab):
+    _, bench = tab
+    jobs = [bench.ask("curves", params={"epsilon": 0.02 + 0.001 * k}) for k in range(8)]
+    *_, stage, end = bench.answers(jobs[-1])
+    assert stage["params"]["epsilon"] == 0.027
+    assert end["done"]
+
+
+def test_a_map_gets_finer_and_can_be_stopped(tab, hall: Path):
+    _, bench = tab
+    job = bench.ask("map", x="epsilon", y="min_length", measure="f_score")
+    *stages, _ = bench.answers(job)
+    assert [len(stage["xs"]) for stage in stages] == [7, 13, 25]
+    last = stages[-1]
+    params = [Params(epsilon=each, min_length=last["ys"][3]) for each in last["xs"]]
+    row = Batch(open_recording(hall), False).measure(params).measure("f_score")
+    np.testing.assert_allclose(np.array(last["heights"][3], float), row, atol=1e-5)
+    job = bench.ask("map", x="epsilon", y="delta", measure="coverage")
+    bench.stop("map")
+    assert bench.answers(job)[-1].get("stopped")
+
+
+def test_auto_tuning_tells_trials_and_verdict_and_goes_on_later(tab, hall: Path):
+    _, bench = tab
+    first, *answers, end = bench.answers(bench.tune())
+    assert "Maximises the harmonic mean" in first["text"]
+    assert first["trials"] == []
+    trials = [trial for answer in answers for trial in answer.get("trials", [])]
+    assert [trial["number"] for trial in trials] == list(range(15))
+    assert trials[0]["params"]["epsilon"] == 0.03
+    verdicts = [answer["verdict"] for answer in answers if "verdict" in answer]
+    assert "that were held back" in verdicts[-1]["text"]
+    assert set(answers[-1]["importance"]) == {"epsilon", "delta"}
+    assert end["done"]
+    again, *_ = bench.answers(bench.tune(trials=1))
+    assert again["trials"] == trials
+    anew, *_ = bench.answers(bench.tune(trials=1, anew=True))
+    assert anew["trials"] == []
+    assert list((hall.parent / "studies").glob("*.db"))
+
+
+def test_auto_tuning_stops_when_told_and_judges_what_it_has(tab):
+    _, bench = tab
+    job = bench.tune(objective="label-free", thresholds=["epsilon"], trials=2000, anew=True)
+    while not bench.hear().get("trials"):
+        pass
+    bench.stop("auto")
+    *_, verdict, end = bench.answers(job)
+    assert "verdict" in verdict
+    assert end["done"]
+
+
+@pytest.mark.parametrize(
+    ("wish", "said"),
+    [
+        ({"type": "map", "x": "epsilon", "y": "epsilon", "measure": "coverage"}, "a map needs two thresholds"),
+        ({"type": "map", "x": "epsilon", "y": "delta", "measure": "beauty"}, "a map needs two thresholds"),
+        ({"type": "curves", "params": {"epsilon": 0}}, "epsilon is 0; a distance of 0"),
+        ({"type": "curves", "params": {"epsilon": "much"}}, "epsilon"),
+        ({"type": "dance"}, "dance"),
+    ],
+)
+def test_what_cannot_be_is_said_and_the_socket_stays(tab, wish: dict[str, Any], said: str):
+    _, bench = tab
+    kind = wish.pop("type")
+    bench.ask(kind, **wish)
+    error = bench.hear()
+    assert error["type"] == "error"
+    assert said in error["message"]
+    assert bench.answers(bench.ask("curves"))[-1]["done"]
+
+
+def test_without_trials_with_a_score_the_page_is_told_why(tab):
+    page, bench = tab
+    page.change(recording="sample:hallway.log")
+    message = bench.answers(bench.tune())[-1]["message"]
+    assert "has no truth; tune it with the label-free objective" in message
+    page.change(recording="lesson:1_perfect_corner")
+    assert "4 or more frames" in bench.answers(bench.tune())[-1]["message"]
+
+
+def test_a_tab_that_is_not_there_gets_a_sentence(bench: Address):
+    with connect(f"{bench.ws}/api/tuning?session=gone", max_size=None, proxy=None) as socket:
+        lonely = Bench(socket)
+        lonely.ask("curves")
+        assert "reload the page" in lonely.hear()["message"]

@@ -1,0 +1,232 @@
+"""A real server and a real browser; a `Tab` is what a person does in one."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import shutil
+import socket
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from lineseg_app.server import Settings
+from live import Address, serving
+
+try:
+    from playwright.sync_api import Browser, ConsoleMessage, Error, Frame, Page, sync_playwright
+except ImportError:
+    pytest.skip("pip install playwright", allow_module_level=True)
+
+SECONDS = 20
+FLAGS = (
+    "--no-sandbox",
+    "--use-angle=swiftshader",
+    "--enable-unsafe-swiftshader",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    "--no-first-run",
+    "--disable-quic",
+)
+SLIDER = "[data-knob={}] input[type=range]"
+FIELD = "[data-knob={}] input.number"
+
+
+class Tab:
+    """A page, and what it complained about."""
+
+    def __init__(self, page: Page, address: str) -> None:
+        self.page = page
+        self.address = address
+        self.complaints: list[str] = []
+        page.on("console", self._hear)
+        page.on("pageerror", lambda error: self.complaints.append(f"page error: {error}"))
+        page.on("request", lambda request: self._watch(request.url))
+        page.on("websocket", lambda opened: self._watch(opened.url))
+
+    def _hear(self, message: ConsoleMessage) -> None:
+        if message.type == "error":
+            self.complaints.append(f"console: {message.text}")
+
+    def _watch(self, url: str) -> None:
+        host = re.sub(r"^\w+://", "", self.address).split("/")[0]
+        if re.match(r"(http|ws)s?://", url) and url.split("/")[2] != host:
+            self.complaints.append(f"foreign request: {url}")
+
+    def forgive(self, *words: str) -> None:
+        """Complaints that the test has provoked."""
+        self.complaints[:] = [said for said in self.complaints if not any(word in said for word in words)]
+
+    def open(self, hash: str = "") -> Tab:
+        self.page.goto(self.address + hash)
+        # The very first picture may wait for the kernels to be compiled.
+        self.until("true", seconds=120)
+        return self
+
+    def until(self, condition: str, seconds: int = SECONDS) -> dict[str, Any]:
+        """The drawn state `s` once `condition` holds for it and nothing is under way."""
+        script = f"""async () => {{
+            const late = Date.now() + {1000 * seconds};
+            for (;;) {{
+                const s = window.lineseg?.state;
+                if (s && window.lineseg.settled && ({condition})) return s;
+                if (Date.now() > late) throw new Error("waited in vain for " + {json.dumps(condition)});
+                await new Promise((go) => setTimeout(go, 10));
+            }}
+        }}"""
+        return self.page.evaluate(script)
+
+    @property
+    def state(self) -> dict[str, Any]:
+        return self.until("true")
+
+    @property
+    def scene(self) -> Frame:
+        """viser's frame, once its camera is there."""
+        script = "() => Boolean(window.__viserMutable?.cameraControl)"
+
+        def frame_with_camera() -> Frame | None:
+            frames = [frame for frame in self.page.frames if "/viser/" in frame.url]
+            return frames[0] if frames and frames[0].evaluate(script) else None
+
+        return self.eventually(frame_with_camera, "no camera in the scene")
+
+    def eventually(self, check: Callable[[], Any], why: str) -> Any:
+        """What `check` returns as soon as it is true; a frame may not be ready to answer yet."""
+        late = time.monotonic() + SECONDS
+        while time.monotonic() < late:
+            try:
+                if found := check():
+                    return found
+            except Error:
+                pass
+            # Not time.sleep: playwright learns of new frames only while it is asked something.
+            self.page.wait_for_timeout(20)
+        raise AssertionError(why)
+
+    def slider(self, name: str):
+        return self.page.locator(SLIDER.format(name))
+
+    def field(self, name: str):
+        return self.page.locator(FIELD.format(name))
+
+    def type_value(self, name: str, text: str) -> None:
+        self.field(name).fill(text)
+        self.field(name).press("Enter")
+
+    def drag(self, name: str, by: float) -> None:
+        """Press the slider's thumb and move it, without letting go."""
+        slider = self.slider(name)
+        box = slider.bounding_box()
+        assert box is not None
+        place = slider.evaluate("(input) => input.valueAsNumber / input.max")
+        x, y = box["x"] + 7 + place * (box["width"] - 14), box["y"] + box["height"] / 2
+        self.page.mouse.move(x, y)
+        self.page.mouse.down()
+        for k in range(1, 11):
+            self.page.mouse.move(x + by * k / 10, y)
+
+    def choose_recording(self, label: str) -> None:
+        self.page.locator(".recording").click()
+        self.page.get_by_role("menuitemradio", name=label, exact=True).click()
+
+    def upload(self, *files: Path) -> None:
+        with self.page.expect_file_chooser() as chooser:
+            self.page.locator(".recording").click()
+            self.page.get_by_role("menuitem", name=re.compile("Open file")).click()
+        chooser.value.set_files(list(files))
+
+    def drop(self, name: str, content: str) -> None:
+        script = """([name, content]) => {
+            const data = new DataTransfer();
+            data.items.add(new File([content], name));
+            for (const kind of ["dragenter", "dragover", "drop"])
+                document.body.dispatchEvent(
+                    new DragEvent(kind, { dataTransfer: data, bubbles: true, cancelable: true }));
+        }"""
+        self.page.evaluate(script, [name, content])
+
+
+@pytest.fixture(scope="session")
+def browser() -> Iterator[Browser]:
+    chromium = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+    if chromium is None:
+        pytest.skip("apt-get install chromium")
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=chromium, args=list(FLAGS))
+        yield browser
+        browser.close()
+
+
+@pytest.fixture(scope="session")
+def address(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Address]:
+    with serving(Settings(data_folder=tmp_path_factory.mktemp("recent"))) as address:
+        yield address
+
+
+@pytest.fixture
+def new_tab(browser: Browser, address: Address) -> Iterator[Callable[..., Tab]]:
+    """Opens tabs of one browser profile; at the end none may have complained."""
+    context = browser.new_context(viewport={"width": 1280, "height": 800}, accept_downloads=True)
+    tabs: list[Tab] = []
+
+    def open_tab(hash: str = "", at: str = f"{address.http}/") -> Tab:
+        tab = Tab(context.new_page(), at)
+        tabs.append(tab)
+        return tab.open(hash)
+
+    yield open_tab
+    context.close()
+    assert [complaint for tab in tabs for complaint in tab.complaints] == []
+
+
+@pytest.fixture
+def tab(new_tab: Callable[..., Tab]) -> Tab:
+    return new_tab()
+
+
+class KillableServer:
+    """A server in a process of its own, on a port that stays the same."""
+
+    def __init__(self, folder: Path) -> None:
+        with socket.socket() as free:
+            free.bind(("127.0.0.1", 0))
+            self.port = free.getsockname()[1]
+        self._folder = folder
+        self._process: subprocess.Popen[str] | None = None
+
+    @property
+    def http(self) -> str:
+        return f"http://127.0.0.1:{self.port}/"
+
+    def start(self) -> None:
+        command = [sys.executable, "-m", "lineseg_app", "view", "--no-browser", "--port", str(self.port)]
+        environment = {**os.environ, "XDG_DATA_HOME": str(self._folder), "XDG_STATE_HOME": str(self._folder)}
+        self._process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env=environment)
+        late = time.monotonic() + SECONDS
+        while not self._answers():
+            assert time.monotonic() < late, "the server does not start"
+            time.sleep(0.02)
+
+    def _answers(self) -> bool:
+        with socket.socket() as probe:
+            return probe.connect_ex(("127.0.0.1", self.port)) == 0
+
+    def kill(self) -> None:
+        if self._process is not None:
+            self._process.kill()
+            self._process.wait()
+
+
+@pytest.fixture
+def killable_server(tmp_path: Path) -> Iterator[KillableServer]:
+    server = KillableServer(tmp_path)
+    server.start()
+    yield server
+    server.kill()

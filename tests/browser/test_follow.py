@@ -1,0 +1,31 @@
+"""A class that looks at what its teacher shows."""
+
+from __future__ import annotations
+
+
+def test_a_class_follows_its_teacher_leaves_and_returns(new_tab):
+    teacher = new_tab("#mode=learn&step=0&recording=lesson:1_perfect_corner")
+    teacher.page.get_by_role("button", name="Export").click()
+    teacher.page.get_by_role("menuitem", name="Copy a link that follows this tab").click()
+    teacher.page.get_by_text("Whoever opens it sees what you do").wait_for()
+    link = teacher.page.evaluate("window.lineseg.followLink")
+    pupil = new_tab(link[link.index("#") :])
+    assert pupil.until("s.following === 'here' && s.recording === 'lesson:1_perfect_corner'")["mode"] == "learn"
+    teacher.page.bring_to_front()
+    teacher.page.keyboard.press("s")
+    step = teacher.until("s.step > 0")["step"]
+    assert pupil.until(f"s.step === {step}")["decision"] == teacher.state["decision"]
+    pupil.page.keyboard.press("ArrowRight")
+    pupil.page.keyboard.press("f")
+    assert pupil.until("true")["step"] == step
+    assert teacher.state["step"] == step
+    pupil.page.get_by_role("button", name="Stop following").click()
+    pupil.until("s.following === null")
+    pupil.page.keyboard.press("ArrowRight")
+    pupil.until(f"s.step === {step + 1}")
+    assert teacher.state["step"] == step
+    pupil.page.get_by_role("button", name="Follow again").click()
+    pupil.until(f"s.step === {step}")
+    teacher.page.close()
+    pupil.until("s.following === 'away'")
+    pupil.page.get_by_text("who is away for the moment").wait_for()

@@ -1,0 +1,208 @@
+"""The mode Inspect: frames by doubt, two results side by side, what would change an answer, the truth."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+from lineseg_app.places import data_folder
+
+from lineseg import (
+    EXTRACTORS,
+    WEIGHTS,
+    Agreement,
+    Params,
+    agreements,
+    difference,
+    extract,
+    open_recording,
+    survey,
+    what_if,
+    why,
+    with_stability,
+    worst_first,
+)
+
+HALLWAY = data_folder("sample_scans") / "hallway.npz"
+
+
+@pytest.fixture(scope="module")
+def hallway():
+    return open_recording(HALLWAY)
+
+
+def scored(tab) -> dict:
+    """The strip once it is complete."""
+    script = """async () => {
+        const late = Date.now() + 30000;
+        while (!window.lineseg.strip?.complete) {
+            if (Date.now() > late) throw new Error("waited in vain for the scores");
+            await new Promise((go) => setTimeout(go, 10));
+        }
+        return { ...window.lineseg.strip, values: [...window.lineseg.strip.values] };
+    }"""
+    return tab.page.evaluate(script)
+
+
+def test_frames_are_listed_worst_first_filtered_and_walked_by_key(new_tab):
+    tab = new_tab("#mode=inspect")
+    values = scored(tab)["values"]
+    worst = sorted(range(len(values)), key=lambda frame: (values[frame], frame))
+    rows = tab.page.locator(".frames-row")
+    tab.eventually(lambda: rows.count() > 5, "no rows")
+    assert rows.first.get_attribute("data-frame") == str(worst[0])
+    tab.page.keyboard.press("n")
+    tab.until(f"s.frame === {worst[0]}")
+    tab.page.keyboard.press("n")
+    tab.until(f"s.frame === {worst[1]}")
+    tab.page.get_by_role("listbox").press("ArrowDown")
+    tab.until(f"s.frame === {worst[2]}")
+    few = sum(value >= 0.96 for value in values)
+    limit = tab.page.get_by_label("Only frames with this score from")
+    limit.fill("0.96")
+    limit.press("Enter")
+    tab.eventually(lambda: tab.page.get_by_text(f"{few} of 300 frames").count() == 1, "the filter shows no count")
+    tab.page.keyboard.press("Tab")
+    tab.page.locator(".frames-row").first.click()
+    assert values[tab.until("true")["frame"]] >= 0.96
+    tab.page.get_by_label("Sorted by").select_option("misses")
+    tab.until("s.score === 'misses'")
+    assert tab.page.locator(".timeline").get_by_label("Score of the frames").input_value() == "misses"
+
+
+def test_a_pinned_result_stands_beside_the_present_one(new_tab, hallway):
+    tab = new_tab("#frame=200")
+    tab.page.keyboard.press("b")
+    assert tab.until("s.against !== null")["difference"]["lost"] == 0
+    tab.type_value("epsilon", "0.015")
+    state = tab.until("s.params.epsilon === 0.015")
+    scan, mine = hallway[200], Params(epsilon=0.015)
+    assert state["difference"] == difference(extract(scan), extract(scan, mine)).counts
+    assert sum(state["difference"].values()) > state["difference"]["kept"]
+    totals = dict.fromkeys(("kept", "lost", "gained", "split", "merged"), 0)
+    for each in hallway:
+        for name, count in difference(extract(each), extract(each, mine)).counts.items():
+            totals[name] += count
+    cells = tab.page.locator(".ab tbody tr").nth(1).locator("td")
+    shown = [f"{count:,}" for count in totals.values()]
+    tab.eventually(lambda: cells.all_inner_texts() == shown, f"the totals are not {shown}")
+    tab.page.get_by_role("button", name="Next difference").click()
+    tab.until("s.frame !== 200 && Object.entries(s.difference).some(([fate, n]) => fate !== 'kept' && n > 0)")
+    tab.page.get_by_role("button", name="Swap").click()
+    swapped = tab.until("s.params.epsilon === 0.03")
+    assert swapped["against"]["params"]["epsilon"] == 0.015
+    tab.page.wait_for_function("location.hash.includes('epsilon:0.015')")
+    again = new_tab(tab.page.evaluate("location.hash"))
+    assert again.state["against"] == swapped["against"]
+    tab.page.get_by_role("button", name="Back to A").click()
+    assert tab.until("s.against === null")["params"]["epsilon"] == 0.015
+    tab.page.keyboard.press("Control+z")
+    tab.until("s.params.epsilon === 0.03")
+
+
+def test_the_strip_shows_where_the_two_differ(new_tab, hallway):
+    tab = new_tab("#score=difference&epsilon=0.02")
+    hint = tab.page.get_by_text("Pin a result as A first")
+    tab.eventually(hint.is_visible, "nothing says what to do")
+    tab.page.keyboard.press("b")
+    tab.type_value("epsilon", "0.04")
+    state = tab.until("s.params.epsilon === 0.04")
+    expected = []
+    for scan in hallway:
+        counts = difference(extract(scan, Params(epsilon=0.02)), extract(scan, Params(epsilon=0.04))).counts
+        expected.append(sum(counts.values()) - counts["kept"])
+    tab.eventually(
+        lambda: (strip := scored(tab))["params"] == state["params"] and strip["values"] == expected,
+        "the strip does not show the differences",
+    )
+
+
+def test_what_would_change_an_answer_is_marked_on_the_slider_and_done_by_a_click(new_tab, hallway):
+    tab = new_tab("#mode=inspect&frame=20&beam=300")
+    (change,) = (each for each in what_if(hallway[20], 300) if each.name == "epsilon")
+    assert change.value
+    button = tab.page.locator(".what-if-change").filter(has_text="ε")
+    button.wait_for()
+    tab.page.get_by_role("tab", name="Thresholds").click()
+    mark = tab.page.locator("[data-knob=epsilon] .what-if-mark")
+    assert mark.get_attribute("aria-label") == change.text
+    before = tab.state["explanation"]["segment"]
+    button.click()
+    state = tab.until(f"s.params.epsilon === {change.value}")
+    assert state["explanation"]["segment"] == change.segment != before
+
+
+def test_segments_are_judged_by_the_truth_in_numbers_and_in_the_scene(new_tab, hallway):
+    tab = new_tab("#mode=inspect&frame=250")
+    tab.page.get_by_role("tab", name="Truth").click()
+    state = tab.until("s.agreement !== null")
+    total = Agreement.of_all(each for each in agreements(hallway) if each is not None)
+    of_frame = list(agreements(hallway))[250]
+    assert of_frame is not None
+    assert (state["agreement"]["matches"], state["agreement"]["trueLines"]) == (of_frame.matches, of_frame.true_lines)
+    row = tab.page.locator(".truth-table tr:has(th:text-is('TR'))")
+    shown = f"{100 * total.true_rate:.1f} %"
+    tab.eventually(lambda: row.locator("td").nth(1).inner_text() == shown, f"TR of all frames is not {shown}")
+    tab.page.get_by_role("checkbox", name="Show in the scene").check()
+    tab.until("s.layers.verdicts")
+    assert tab.page.locator(".verdict-key").all_inner_texts() == ["matched", "false", "missed"]
+
+
+def test_a_recording_without_truth_says_so(new_tab):
+    tab = new_tab("#mode=inspect&recording=sample:hallway.log")
+    tab.page.get_by_role("tab", name="Truth").click()
+    tab.eventually(lambda: tab.page.get_by_text("are not known").is_visible(), "nothing says that the truth is unknown")
+    tab.page.get_by_role("tab", name="Frames").click()
+    assert tab.state["agreement"] is None
+
+
+def test_the_most_suspicious_frame_says_what_looks_wrong_and_weights_change_the_order(new_tab, hallway):
+    tab = new_tab()
+    tab.page.get_by_role("button", name="Inspect").click()
+    tab.until("s.mode === 'inspect' && s.score === 'suspicion'")
+    found = with_stability(hallway, survey(hallway))
+    assert found.scores is not None
+    worst = int(worst_first(found.scores)[0])
+    row = tab.page.locator(".frames-row").first
+    tab.eventually(lambda: row.get_attribute("data-frame") == str(worst), f"frame {worst} is not the first")
+    first = why(hallway, worst)[0].text
+    tab.eventually(lambda: first in row.locator(".frames-words").inner_text(), f"the row does not say: {first}")
+    only_gap = dict.fromkeys(WEIGHTS, 0.0) | {"gap": 1.0}
+    tab.page.evaluate(
+        "(w) => { location.hash += '&weights=' + Object.entries(w).map((pair) => pair.join(':')).join(',') }", only_gap
+    )
+    other = int(worst_first(found.scores, only_gap)[0])
+    tab.eventually(lambda: row.get_attribute("data-frame") == str(other), f"frame {other} is not the first")
+    tab.page.locator(".weights-holder summary").click()
+    tab.page.get_by_role("button", name="Usual weights").click()
+    tab.eventually(lambda: row.get_attribute("data-frame") == str(worst), "the usual weights do not come back")
+
+
+@pytest.mark.parametrize("other", ["split-and-merge", "hough"])
+def test_another_method_is_compared_explained_and_asked_what_would_change_it(new_tab, hallway, other):
+    tab = new_tab(f"#mode=inspect&frame=20&score=gap&method={other}&beam=300")
+    tab.page.keyboard.press("b")
+    tab.page.get_by_label("Method", exact=True).select_option("region-growing")
+    state = tab.until("s.method === 'region-growing' && s.difference !== null")
+    mine = extract(hallway[20], EXTRACTORS[other].params_type())
+    assert state["difference"] == difference(mine, extract(hallway[20])).counts
+    card = tab.page.get_by_role("region", name="A/B")
+    assert EXTRACTORS[other].label in card.inner_text()
+    tab.eventually(lambda: "…" not in card.locator("tbody").inner_text(), "the recording is never compared")
+    card.get_by_role("button", name="Swap").click()
+    state = tab.until(f"s.method === {other!r}")
+    assert state["against"]["method"] == "region-growing"
+    assert state["explanation"]["text"] in tab.page.get_by_role("region", name="Why").inner_text()
+    tab.eventually(
+        lambda: re.search("Another answer with|No threshold alone", tab.page.locator(".what-if").inner_text()),
+        "nothing says what would change the answer",
+    )
+    row = tab.page.locator(".frames-row").first
+
+    def says_what_looks_wrong() -> bool:
+        remarks = why(hallway, int(row.get_attribute("data-frame")), EXTRACTORS[other].params_type())
+        return remarks[0].text in row.inner_text()
+
+    tab.eventually(says_what_looks_wrong, "the worst frame does not say what looks wrong by this method")
+    card.get_by_role("button", name="Back to A").click()
+    tab.until("s.method === 'region-growing' && s.against === null")

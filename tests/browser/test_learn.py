@@ -1,0 +1,325 @@
+"""Mode Learn: stepping, and what the page says at each step."""
+
+from __future__ import annotations
+
+import re
+from functools import partial
+
+import numpy as np
+import pytest
+from lineseg_app.places import data_folder
+
+from lineseg import open_recording, trace
+
+
+def learn(new_tab, sample: str, **places):
+    more = "".join(f"&{name}={value}" for name, value in places.items())
+    tab = new_tab(f"#mode=learn&recording={sample}{more}")
+    tab.eventually(lambda: tab.page.locator(".code-line").count() > 30, "no pseudocode")
+    return tab
+
+
+def text_of(tab, selector: str) -> str:
+    return tab.page.locator(selector).text_content() or ""
+
+
+@pytest.mark.parametrize("level", ["phase", "line"])
+def test_a_level_steps_by_whole_stretches_both_ways(new_tab, level):
+    starts = trace(open_recording(data_folder("sample_scans") / "laboratory.npz")[0]).starts(level)
+    tab = learn(new_tab, "sample:laboratory", step=0)
+    tab.page.get_by_label("What → goes on by").select_option(level)
+    tab.page.keyboard.press("Tab")
+    for expected in starts[1:6]:
+        tab.page.keyboard.press("ArrowRight")
+        tab.until(f"s.step === {expected}")
+    for expected in starts[4::-1]:
+        tab.page.keyboard.press("ArrowLeft")
+        tab.until(f"s.step === {expected}")
+
+
+def test_jumps_lead_to_the_next_of_their_kind_and_end_with_the_last(new_tab):
+    kinds = {
+        "seed": ("s", {"seed found"}),
+        "refusal": ("x", {"seed rejected", "growth stopped"}),
+        "line": ("n", {"line kept"}),
+        "drop": ("d", {"line dropped"}),
+        "merge": ("m", {"lines merged"}),
+        "cut": ("c", {"overlap cut"}),
+    }
+    samples = {"sample:hallway": "hallway", "lesson:1_perfect_corner": "lessons/1_perfect_corner"}
+    for recording, file in samples.items():
+        traced = trace(open_recording(data_folder("sample_scans") / f"{file}.npz")[0])
+        tab = learn(new_tab, recording, step=0)
+        for jump, (key, wanted) in kinds.items():
+            button = tab.page.locator(f"#stepper [data-jump={jump}]")
+            for way in (partial(tab.page.keyboard.press, key), button.click):
+                later = [decision.index for decision in traced if decision.kind in wanted and decision.index > 0]
+                tab.page.keyboard.press("Home")
+                tab.until("s.step === 0")
+                assert button.is_disabled() is (not later)
+                if later:
+                    way()
+                    tab.until(f"s.step === {later[0]}")
+        tab.page.keyboard.press("End")
+        tab.until(f"s.step === {len(traced) - 1}")
+        assert all(tab.page.locator(f"#stepper [data-jump={jump}]").is_disabled() for jump in kinds)
+
+
+def test_the_trail_draws_every_fit_of_the_growing_line_up_to_the_step(new_tab):
+    tab = learn(new_tab, "lesson:1_perfect_corner", step=0)
+    fits = tab.page.locator(".overlay-trail line")
+    tab.page.get_by_role("button", name="Trail").click()
+    for step, way in [(1, "Right"), (2, "Right"), (3, "Right"), (2, "Left"), (1, "Left"), (0, "Left")]:
+        tab.page.keyboard.press(f"Arrow{way}")
+        tab.until(f"s.step === {step}")
+        tab.eventually(lambda step=step: fits.count() == step + 1, f"not {step + 1} fits")
+    tab.page.keyboard.press("End")
+    tab.eventually(lambda: fits.count() == 0, "no line grows there")
+
+
+def test_nothing_moves_by_itself_for_who_wants_less_motion(new_tab):
+    tab = learn(new_tab, "sample:hallway", step=0)
+    moving = """() => [...document.querySelectorAll("*")].filter((part) => {
+        const style = getComputedStyle(part);
+        return parseFloat(style.transitionDuration) > 0 || parseFloat(style.animationDuration) > 0;
+    }).map((part) => part.className)"""
+    assert tab.page.evaluate(moving) != []
+    tab.page.emulate_media(reduced_motion="reduce")
+    assert tab.page.evaluate(moving) == []
+    tab.page.get_by_role("button", name="Play (Space)").first.click()
+    tab.until("s.step >= 2")
+    assert tab.page.evaluate("document.getAnimations().length") == 0
+
+
+def test_a_loop_plays_between_its_ends(new_tab):
+    tab = learn(new_tab, "lesson:1_perfect_corner", step=10)
+    tab.page.get_by_role("button", name="Loop: from here").click()
+    tab.page.keyboard.press("ArrowRight")
+    tab.page.keyboard.press("ArrowRight")
+    tab.until("s.step === 12")
+    tab.page.get_by_role("button", name="Loop: to here").click()
+    tab.page.get_by_label("Steps a second").select_option("40")
+    tab.page.get_by_role("button", name="Play (Space)").first.click()
+    for _ in range(2):
+        tab.until("s.step === 10")
+        tab.until("s.step === 12")
+    tab.page.keyboard.press("Escape")
+
+
+def test_a_beam_leads_to_the_decisions_about_it(new_tab):
+    tab = learn(new_tab, "lesson:1_perfect_corner", step=0)
+    run_to(tab, 40)
+    drawn = tab.until("s.selected === 40 && s.step > 0")
+    assert (drawn["decision"]["kind"], drawn["decision"]["beam"]) == ("point added", 40)
+    run_to(tab, 86)
+    drawn = tab.until("s.selected === 86 && s.decision.beam === 86")
+    # The same again and again: its line is kept, a second one takes it too, and they are cut.
+    for kind in ("line kept", "point added", "line kept", "overlap cut"):
+        run_to(tab, 86)
+        drawn = tab.until(f"s.step > {drawn['step']}")
+        assert drawn["decision"]["kind"] == kind
+    assert "the cut at beam 87 left it to this one" in text_of(tab, ".explanation")
+
+
+def test_the_formula_shows_the_numbers_of_the_decision_and_its_geometry(new_tab):
+    traced = trace(open_recording(data_folder("sample_scans") / "lessons" / "8_noise_burst.npz")[0])
+    rejected = next(d for d in traced if d.kind == "seed rejected" and d.check == "delta")
+    tab = learn(new_tab, "lesson:8_noise_burst", step=rejected.index)
+    tab.eventually(lambda: f"{rejected.value:.3f}>δ" in text_of(tab, ".formulas"), "no formula")
+    assert tab.page.locator(".overlay-term").count() == 0
+    tab.page.locator(".term-chip[data-term=predicted]").focus()
+    tab.eventually(lambda: tab.page.locator(".overlay-term circle").count() == 1, "nothing lights up")
+
+
+def test_the_angle_of_a_merge_follows_from_the_numbers_put_in(new_tab):
+    traced = trace(open_recording(data_folder("sample_scans") / "lessons" / "5_shallow_corner.npz")[0])
+    (merge,) = traced.indices("lines merged")
+    (a, b, _), (a2, b2, _) = (line.line for line in traced.lines_at(merge - 1))
+    assert np.arcsin(abs(a * b2 - b * a2)) == pytest.approx(traced[merge].value, abs=1e-6)
+    tab = learn(new_tab, "lesson:5_shallow_corner", step=merge)
+    put_in = [f"{abs(value):.3f}" for value in (a, b2, b, a2)]
+    tab.eventually(lambda: f"{np.degrees(traced[merge].value):.1f}°" in text_of(tab, ".formulas"), "no formula")
+    assert re.findall(r"\d\.\d{3}", text_of(tab, ".formulas .formula-row >> nth=1")) == put_in
+
+
+def test_geometry_under_the_pointer_lights_its_term(new_tab):
+    tab = learn(new_tab, "lesson:8_noise_burst", step=0)
+    for _ in range(3):
+        tab.page.keyboard.press("x")
+    tab.until("s.decision.kind === 'seed rejected'")
+    assert tab.scene
+    lit = """() => [...new Set([...document.querySelectorAll(".formulas .lit")].map((part) => part.dataset.term))]"""
+    scene = tab.page.locator("iframe.scene").bounding_box()
+    for term, shape, x, y in [("point", "circle", "cx", "cy"), ("normal", "line", "x1", "y1")]:
+        tab.page.locator(f".term-chip[data-term={term}]").hover()
+        mark = tab.page.locator(f".overlay-term {shape}").first
+        left, top = (float(mark.get_attribute(name)) for name in (x, y))
+        tab.page.mouse.move(5, 5)
+        tab.eventually(lambda: tab.page.evaluate(lit) == [], "a term stays lit")
+        tab.page.mouse.move(scene["x"] + left, scene["y"] + top, steps=3)
+        tab.eventually(lambda term=term: tab.page.evaluate(lit) == [term], f"{term} does not light up")
+        tab.eventually(lambda: tab.page.locator(".overlay-term").count() == 1, "nothing is drawn")
+    tab.page.mouse.move(scene["x"] + 8, scene["y"] + 8)
+    tab.eventually(lambda: tab.page.evaluate(lit) == [], "a term stays lit")
+    assert tab.page.locator(".overlay-term").count() == 0
+
+
+def test_charts_are_walked_through_by_keyboard(new_tab):
+    tab = learn(new_tab, "lesson:1_perfect_corner", step=5)
+    chart = tab.page.locator(".charts canvas").first
+    start = tab.state["decision"]["beam"]
+    chart.focus()
+    tab.page.keyboard.press("Home")
+    tab.page.keyboard.press("End")
+    tab.page.keyboard.press("ArrowLeft")
+    words = chart.get_attribute("aria-valuetext")
+    beam = int(words.split(":")[0].removeprefix("Beam "))
+    assert beam != start
+    assert tab.state["step"] == 5
+    assert tab.page.locator(".overlay-beam circle").count() == 1
+    tab.page.keyboard.press("Enter")
+    tab.until(f"s.selected === {beam} && s.decision.beam === {beam}")
+    tab.page.get_by_role("button", name="All steps").click()
+    windows = tab.page.get_by_role("slider", name="Every window tried")
+    windows.focus()
+    tab.page.keyboard.press("Home")
+    tab.page.keyboard.press("ArrowRight")
+    fate = windows.get_attribute("aria-valuetext")
+    assert fate in text_of(tab, ".ladder figcaption >> nth=0")
+    tab.page.keyboard.press("Enter")
+    decision = tab.until("s.decision.phase === 'seed' && s.step > 0")["decision"]
+    assert fate.startswith(f"Beams {decision['first']} to {decision['last']}: ")
+
+
+def test_what_does_not_come_is_missed_where_it_belongs_and_comes_when_asked_again(new_tab):
+    tab = learn(new_tab, "sample:hallway", step=0)
+    places = {
+        "**/api/lessons": ("The lessons did not come.", ".lesson-item >> nth=5"),
+        "**/learn/listing.json": ("The pseudocode did not come.", ".code-line >> nth=5"),
+        "**/api/sweep?**": ("This picture could not be made.", ".sweep-canvas[aria-label*=lines]"),
+    }
+    for path in places:
+        tab.page.route(path, lambda route: route.fulfill(status=503, body='{"message": "Too busy."}'))
+    tab.page.reload()
+    tab.until("true")
+    tab.page.get_by_role("button", name="All steps").click()
+    for path, (words, there) in places.items():
+        trouble = tab.page.locator(".trouble-here", has_text=words)
+        trouble.wait_for()
+        assert "Too busy." in trouble.text_content()
+        assert tab.page.locator(there).count() == 0
+        tab.page.unroute(path)
+        trouble.get_by_role("button", name="Try again").click()
+        tab.page.locator(there).wait_for()
+        trouble.wait_for(state="detached")
+    tab.forgive("503")
+    tab.page.goto(f"{tab.address}?lesson=none_such")
+    tab.page.get_by_text("There is no lesson “none_such”").wait_for()
+
+
+def test_predictions_are_asked_before_the_decision_and_counted(new_tab):
+    tab = learn(new_tab, "lesson:1_perfect_corner", step=0)
+    tab.page.get_by_role("button", name="Predict").click()
+    tab.page.keyboard.press("ArrowRight")
+    assert text_of(tab, "#stepper .decision").startswith("Beam 15: does it join")
+    assert tab.state["step"] == 0
+    tab.page.keyboard.press("1")
+    tab.until("s.step === 1")
+    assert text_of(tab, "#stepper .decision").startswith("Right.")
+    tab.page.keyboard.press("ArrowRight")
+    tab.page.keyboard.press("2")
+    tab.until("s.step === 2")
+    assert text_of(tab, "#stepper .decision").startswith("No.")
+    assert text_of(tab, ".predict-score") == "1 of 2 right"
+
+
+def test_the_picture_of_a_threshold_takes_a_click_back_to_its_value(new_tab):
+    tab = learn(new_tab, "sample:hallway", step=0)
+    tab.page.get_by_role("button", name="All steps").click()
+    picture = tab.page.locator(".sweep-canvas")
+    tab.eventually(lambda: "7 lines" in (picture.get_attribute("aria-label") or ""), "no sweep")
+    box = picture.bounding_box()
+    picture.click(position={"x": box["width"] * 0.9, "y": 10})
+    assert tab.until("s.params.epsilon > 0.1")["params"]["delta"] == 0.1
+
+
+def test_words_fit_and_controls_have_names_on_a_small_screen(new_tab):
+    tab = learn(new_tab, "sample:hallway", step=900)
+    tab.page.set_viewport_size({"width": 1024, "height": 700})
+    tab.page.locator(".lesson-item").first.click()
+    tab.until("s.recording === 'lesson:8_noise_burst'")
+    controls = "#stepper :is(button, input, select, canvas[tabindex]), #learn :is(button, input, select)"
+    nameless = f"""() => [...document.querySelectorAll("{controls}")]
+        .filter((e) => e.checkVisibility() && !(e.getAttribute("aria-label") || e.textContent.trim()))
+        .map((e) => e.outerHTML)"""
+    assert tab.page.evaluate(nameless) == []
+    wide = """() => ["#stepper", "#learn", ".topbar"].filter((name) => {
+        const part = document.querySelector(name); return part.scrollWidth > part.clientWidth + 1; })"""
+    assert tab.page.evaluate(wide) == []
+
+
+def to_the_task(new_tab, lesson: str):
+    """A tab with a lesson, turned page by page to its task."""
+    tab = new_tab(f"?lesson={lesson}")
+    tab.eventually(lambda: tab.page.locator(".lesson-title").is_visible(), "the lesson does not open")
+    while tab.page.get_by_role("button", name="Hint").is_hidden():
+        tab.until("true")
+        tab.page.locator(".lesson-foot .primary").click()
+    says(tab, "Not yet.")
+    return tab
+
+
+def says(tab, words: str) -> None:
+    """Wait until the task is judged so."""
+    judged = tab.page.locator(".lesson-verdict")
+    tab.eventually(lambda: (judged.text_content() or "").startswith(words), f"the task never said {words!r}")
+
+
+def jump(tab, name: str, times: int = 1) -> None:
+    for _ in range(times):
+        tab.page.locator(f"#stepper [data-jump={name}]").click()
+
+
+def run_to(tab, beam: int) -> None:
+    tab.page.locator(".beam-number").fill(str(beam))
+    tab.page.locator(".beam-number").press("Enter")
+
+
+def value(name: str, number: float):
+    def type_it(tab) -> None:
+        field = tab.page.locator(f".lesson-knobs [data-knob={name}] input.number")
+        field.fill(str(number))
+        field.press("Enter")
+
+    return type_it
+
+
+TASKS = {
+    "01_seed": (lambda tab: jump(tab, "refusal", 3), lambda tab: jump(tab, "refusal", 2)),
+    "02_delta": (value("epsilon", 0.05), lambda tab: (value("epsilon", 0.03)(tab), value("delta", 0.2)(tab))),
+    "03_growth": (lambda tab: jump(tab, "refusal"), lambda tab: run_to(tab, 102)),
+    "04_collinear": (value("epsilon", 0.1), value("epsilon", 0.02)),
+    "05_corner": (lambda tab: run_to(tab, 60), lambda tab: run_to(tab, 87)),
+    "06_endpoints": (lambda tab: jump(tab, "line"), lambda tab: tab.page.keyboard.press("End")),
+    "07_epsilon": (value("epsilon", 0.08), value("epsilon", 0.15)),
+    "08_how_much": (value("min_points", 5), lambda tab: (value("min_points", 10)(tab), value("min_length", 0.1)(tab))),
+    "09_shallow": (value("epsilon", 0.1), lambda tab: (value("epsilon", 0.03)(tab), value("merge_angle", 0.05)(tab))),
+    "10_curve": (value("min_length", 3.6), value("min_length", 2.0)),
+    "11_doorway": (value("max_dropout", 20), value("max_dropout", 30)),
+    "12_split_and_merge": (lambda tab: run_to(tab, 60), lambda tab: run_to(tab, 36)),
+}
+
+
+@pytest.mark.parametrize("lesson", TASKS)
+def test_a_task_refuses_the_wrong_answer_and_takes_the_right_one(new_tab, lesson):
+    wrong, right = TASKS[lesson]
+    tab = to_the_task(new_tab, lesson)
+    wrong(tab)
+    tab.until("true")
+    says(tab, "Not yet.")
+    right(tab)
+    says(tab, "Done.")
+
+
+def test_every_lesson_has_a_task_in_these_tests():
+    assert set(TASKS) == {path.stem for path in (data_folder("sample_scans") / "lessons").glob("*.json")}

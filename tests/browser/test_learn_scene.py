@@ -1,0 +1,98 @@
+"""What the page says at each step, what the scene draws for it, and what the trace knows: the same, both ways."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from lineseg_app.places import data_folder
+
+from lineseg import Decision, Scan, Trace, open_recording, trace
+
+# Goes from step to step with the arrow keys. At each it waits until the buffers that the browser's scene draws from
+# hold what is expected there, and then notes what the page says.
+WALK = """async ([from, to, expected]) => {
+    const nodes = document.querySelector("iframe.scene").contentWindow.__viserMutable.nodeRefFromName;
+    const drawn = (name) => {
+        const node = nodes[`/${name}`];
+        if (!node.visible) return [];
+        let found = null;
+        node.traverse((part) => (found = part.geometry?.attributes ?? found));
+        const flat = [...(found.instanceStart ? found.instanceStart.data : found.position).array];
+        return flat.filter((_, k) => k % 3 < 2);
+    };
+    const near = (value, other) => Math.abs(value - other) < 1e-4;
+    const off = (one, other) => one.length !== other.length || !one.every((value, k) => near(value, other[k]));
+    const lacks = ({ exactly, onLine }) => {
+        for (const [name, numbers] of Object.entries(exactly))
+            if (off(drawn(name), numbers)) return `${name}: ${drawn(name)} instead of ${numbers}`;
+        if (!onLine) return drawn("growing").length ? "a line is drawn, but none was fitted" : null;
+        const [[a, b, c], [x1, y1, x2, y2]] = [onLine, drawn("growing")];
+        const along = near(a * x1 + b * y1 + c, 0) && near(a * x2 + b * y2 + c, 0);
+        return along ? null : "the drawn line is not the fitted one";
+    };
+    const seen = [];
+    const late = Date.now() + 150000;
+    for (let step = from; ; step += Math.sign(to - from)) {
+        const why = () => {
+            const s = window.lineseg.state;
+            return s?.step !== step || !window.lineseg.settled ? "the state is another" : lacks(expected[step]);
+        };
+        while (why()) {
+            if (Date.now() > late) throw new Error(`step ${step}: ${why()}`);
+            await new Promise((go) => setTimeout(go, 4));
+        }
+        seen.push({
+            scene: window.lineseg.state.decision,
+            said: document.querySelector("#stepper .decision").textContent,
+            number: document.querySelector("#stepper .stepper-scrubber .frame-number").value,
+            lit: document.querySelectorAll(".code-line.lit").length,
+        });
+        if (step === to) return seen;
+        const key = to > from ? "ArrowRight" : "ArrowLeft";
+        document.body.dispatchEvent(new KeyboardEvent("keydown", { key, bubbles: true, cancelable: true }));
+    }
+}"""
+
+
+def on_line(xy, line) -> np.ndarray:
+    a, b, c = line
+    return xy - (xy @ (a, b) + c) * np.array((a, b))
+
+
+def expected_at(scan: Scan, traced: Trace, decision: Decision) -> dict[str, Any]:
+    """What the scene is to draw after a decision, from the trace alone: x, y, x, y, … of each node; [] if nothing."""
+    lines = traced.lines_at(decision.index)
+    ends = [on_line(scan.xy[beam], line.line) for line in lines for beam in (line.first, line.last)]
+    candidate = [decision.beam] if decision.beam >= 0 else [decision.first, decision.last] if decision.ends else []
+    tried = decision.phase == "seed" or decision.kind == "line dropped"
+    exactly = {
+        "segments": np.ravel(ends).tolist(),
+        "candidate": scan.xy[candidate].ravel().tolist(),
+        "window": scan.xy[traced.beams(decision.first, decision.last)].ravel().tolist() if tried else [],
+    }
+    if decision.ends:
+        exactly["growing"] = list(decision.ends)
+    fitted = np.isfinite(decision.line).all() and np.hypot(*decision.line[:2]) > 0.5
+    return {"exactly": exactly, "onLine": list(decision.line) if fitted else None}
+
+
+@pytest.mark.parametrize("name", ["1_perfect_corner", "3_collinear_overlap", "7_doorway"])
+def test_page_scene_and_trace_agree_on_every_step_both_ways(new_tab, name):
+    scan = open_recording(data_folder("sample_scans") / "lessons" / f"{name}.npz")[0]
+    traced = trace(scan)
+    expected = [expected_at(scan, traced, decision) for decision in traced]
+    tab = new_tab(f"#mode=learn&recording=lesson:{name}&step=0")
+    tab.eventually(lambda: tab.page.locator(".code-line").count() > 30, "no pseudocode")
+    assert tab.scene
+    last = len(traced) - 1
+    forward = tab.page.evaluate(WALK, [0, last, expected])
+    for step, (seen, decision) in enumerate(zip(forward, traced, strict=True)):
+        assert (seen["scene"]["index"], seen["scene"]["kind"]) == (step, decision.kind)
+        assert (seen["number"], seen["lit"]) == (str(step + 1), 1)
+        if decision.beam >= 0:
+            assert str(decision.beam) in seen["said"]
+        if decision.kind in ("point added", "line kept"):
+            assert f"{decision.value:.3f}\u00a0m" in seen["said"]
+    assert tab.page.evaluate(WALK, [last, 0, expected]) == forward[::-1]

@@ -1,0 +1,164 @@
+"""The scene in its frame: a locked camera, picking, and a layout that holds."""
+
+from __future__ import annotations
+
+import pytest
+
+CAMERA = """() => {
+    const { cameraControl: control, camera } = window.__viserMutable;
+    const at = control.getTarget(camera.position.clone());
+    const eye = control.getPosition(camera.position.clone());
+    const { up } = control.camera;
+    return { at: [at.x, at.y, at.z], eye: [eye.x, eye.y, eye.z], up: [up.x, up.y, up.z], fov: control.camera.fov };
+}"""
+PLAN_UP = pytest.approx([-1, 0, 0], abs=1e-6)
+
+
+def looks_straight_down(camera: dict) -> bool:
+    aside = max(abs(camera["eye"][0] - camera["at"][0]), abs(camera["eye"][2] - camera["at"][2]))
+    return aside < 1e-3 * (camera["eye"][1] - camera["at"][1])
+
+
+def camera_when(tab, condition) -> dict:
+    """The camera of the scene as soon as it meets the condition."""
+    scene = tab.scene
+    return tab.eventually(lambda: (now := scene.evaluate(CAMERA)) and condition(now) and now, "the camera stays")
+
+
+def camera_at_rest(tab) -> dict:
+    """The camera once ten looks in a row find the same: viser sets its own at first, and the page puts that right."""
+    looks: list[dict] = []
+
+    def same() -> bool:
+        looks.append(tab.scene.evaluate(CAMERA))
+        return len(looks) > 10 and all(look["eye"] == pytest.approx(looks[-1]["eye"]) for look in looks[-10:])
+
+    tab.eventually(same, "the camera never comes to rest")
+    return looks[-1]
+
+
+def middle_of_scene(tab) -> tuple[float, float]:
+    box = tab.page.locator("iframe").bounding_box()
+    return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+
+
+def test_the_camera_looks_straight_down_and_a_drag_moves_but_never_turns_it(tab):
+    before = camera_when(tab, looks_straight_down)
+    assert before["up"] == PLAN_UP
+    assert before["fov"] == pytest.approx(10)
+    for button in ("left", "right"):
+        x, y = middle_of_scene(tab)
+        tab.page.mouse.move(x, y)
+        tab.page.mouse.down(button=button)
+        tab.page.mouse.move(x + 60, y + 40, steps=5)
+        tab.page.mouse.up(button=button)
+        last = before["at"]
+        before = camera_when(tab, lambda camera, last=last: camera["at"] != last)
+        assert looks_straight_down(before)
+        assert before["up"] == PLAN_UP
+
+
+def test_the_wheel_zooms(tab):
+    before = camera_when(tab, looks_straight_down)
+    tab.page.mouse.move(*middle_of_scene(tab))
+    tab.page.mouse.wheel(0, -240)
+    after = camera_when(tab, lambda camera: camera["eye"][1] < 0.95 * before["eye"][1])
+    assert looks_straight_down(after)
+
+
+def test_keys_in_the_scene_are_the_pages_and_do_not_move_the_camera(tab):
+    before = camera_at_rest(tab)
+    tab.scene.locator("body").press("ArrowRight")
+    tab.until("s.frame === 1")
+    for key in ("w", "a", "q", "ArrowUp"):
+        tab.scene.locator("body").press(key)
+    tab.scene.locator("body").press("ArrowRight")
+    tab.until("s.frame === 2")
+    after = tab.scene.evaluate(CAMERA)
+    for name in ("at", "eye", "up", "fov"):
+        assert after[name] == pytest.approx(before[name], abs=1e-3), name
+
+
+def test_the_free_view_turns_and_the_plan_comes_back(tab):
+    before = camera_at_rest(tab)
+    assert looks_straight_down(before)
+    tab.page.keyboard.press("v")
+    tab.until("s.camera === 'free'")
+    camera_when(tab, lambda camera: not looks_straight_down(camera))
+    tab.page.keyboard.press("v")
+    tab.until("s.camera === 'plan'")
+    after = camera_when(tab, looks_straight_down)
+    assert after["at"] == pytest.approx(before["at"], abs=1e-6)
+    assert after["up"] == PLAN_UP
+
+
+def test_a_click_on_a_point_asks_why(tab):
+    tab.choose_recording("1 perfect corner")
+    state = tab.until("s.frames === 1")
+    # The view fits the bounds of the recording anew.
+    middle = [(state["bounds"][0] + state["bounds"][2]) / 2, (state["bounds"][1] + state["bounds"][3]) / 2]
+    camera = camera_when(tab, lambda camera: camera["at"] == pytest.approx([-middle[1], 0, -middle[0]], abs=1e-6))
+    segment = state["segments"][0]
+    x, y = ((segment["start"][k] + segment["end"][k]) / 2 for k in (0, 1))
+    box = tab.page.locator("iframe").bounding_box()
+    metres = 2 * (camera["eye"][1] - camera["at"][1]) * 0.08748866352592401 / box["height"]
+    left, top = middle_of_scene(tab)
+    tab.page.mouse.click(left + (x - middle[0]) / metres, top - (y - middle[1]) / metres)
+    chosen = tab.until("s.selected !== null")
+    assert chosen["explanation"]["segment"] == 0
+    assert chosen["explanation"]["text"] in tab.page.locator(".explanation").inner_text()
+
+
+def test_visers_own_panel_is_hidden(tab):
+    camera_when(tab, looks_straight_down)
+    assert tab.scene.locator("[data-floating-window]").first.is_hidden()
+
+
+@pytest.mark.parametrize("size", [(1440, 900), (1024, 700)])
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_nothing_overlaps_overflows_or_jumps(tab, size, scheme):
+    tab.page.set_viewport_size({"width": size[0], "height": size[1]})
+    tab.page.emulate_media(color_scheme=scheme)
+    overflow = """() => {
+        const { scrollWidth, scrollHeight } = document.scrollingElement;
+        return [scrollWidth - innerWidth, scrollHeight - innerHeight];
+    }"""
+    assert tab.page.evaluate(overflow) == [0, 0]
+    parts = """() => Object.fromEntries(["topbar", "stage", "replay", "panel", "timeline", "status"].map((id) => {
+        const { x, y, width, height } = document.getElementById(id).getBoundingClientRect();
+        return [id, [x, y, width, height]];
+    }))"""
+    places = """() => [...document.querySelectorAll(".threshold, .threshold *, .figure, #timeline > *")]
+        .filter((element) => !element.closest("svg") && !element.closest("[hidden]"))
+        .map((element) => { const box = element.getBoundingClientRect(); return [box.x, box.y]; })"""
+    before = tab.page.evaluate(parts), tab.page.evaluate(places)
+    boxes = list(before[0].values())
+    for one in boxes:
+        assert one[2] > 0
+        for other in boxes:
+            apart = (
+                one is other
+                or one[0] + one[2] <= other[0] + 0.5
+                or other[0] + other[2] <= one[0] + 0.5
+                or one[1] + one[3] <= other[1] + 0.5
+                or other[1] + other[3] <= one[1] + 0.5
+            )
+            assert apart, (one, other)
+    tab.type_value("min_points", "100")
+    tab.type_value("epsilon", "0.2")
+    tab.page.keyboard.press("End")
+    tab.until("s.frame === 299 && s.params.epsilon === 0.2")
+    assert (tab.page.evaluate(parts), tab.page.evaluate(places)) == before
+
+
+def test_every_control_has_a_name(tab):
+    tab.page.keyboard.press("r")
+    tab.until("s.step === 0")
+    unnamed = tab.page.evaluate(
+        """() => [...document.querySelectorAll("button, input, select, textarea, iframe")]
+            .filter((element) => !element.closest("[hidden]") && element.type !== "file")
+            .filter((element) => !(element.ariaLabel || element.title || element.innerText?.trim()))
+            .filter((element) => !element.labels?.length)
+            .map((element) => element.outerHTML.slice(0, 120))"""
+    )
+    assert unnamed == []

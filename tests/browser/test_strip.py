@@ -1,0 +1,167 @@
+"""The timeline's strip: a score of every frame, under the thresholds at hand."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import Any
+
+import numpy as np
+import pytest
+from lineseg_app.server import Settings
+from live import Address, serving
+from long import long_hallway
+
+from lineseg import Params, Recording, open_recording
+from lineseg.readers import save_npz
+from lineseg.score import SCORES
+from lineseg.stability import with_stability
+from lineseg.survey import survey
+
+FRAMES = 10_000
+SECONDS = 30
+
+
+@pytest.fixture(scope="module")
+def long(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[Recording, Address]]:
+    """A recording of 10,000 frames as it is read from its file, and a server that shows it."""
+    folder = tmp_path_factory.mktemp("long")
+    save_npz(long_hallway(FRAMES), folder / "long.npz")
+    with serving(Settings(files=(folder / "long.npz",), data_folder=folder)) as address:
+        yield open_recording(folder / "long.npz"), address
+
+
+def strip_of(tab, condition: str = "true") -> dict[str, Any]:
+    """The strip `t` once it is complete, belongs to the thresholds of the picture, and `condition` holds."""
+    script = f"""async () => {{
+        const late = Date.now() + {1000 * SECONDS};
+        for (;;) {{
+            const s = window.lineseg.state, t = window.lineseg.strip;
+            const same = t?.complete && Object.entries(t.params).every(([name, value]) => s.params[name] === value);
+            if (same && window.lineseg.settled && ({condition})) return {{ ...t, values: [...t.values] }};
+            if (Date.now() > late) throw new Error("waited in vain for the strip");
+            await new Promise((go) => setTimeout(go, 10));
+        }}
+    }}"""
+    return tab.page.evaluate(script)
+
+
+def colours(tab) -> list[list[int]]:
+    """Red, green and blue of every pixel of the strip, as painted."""
+    script = """() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => {
+        const strip = document.querySelector(".strip");
+        const data = strip.getContext("2d").getImageData(0, 0, strip.width, 1).data;
+        done(Array.from({ length: strip.width }, (_, x) => [...data.slice(4 * x, 4 * x + 3)]));
+    })))"""
+    return tab.page.evaluate(script)
+
+
+def test_after_a_drag_the_strip_and_the_frame_agree(new_tab: Callable[..., Any], long: tuple[Recording, Address]):
+    recording, address = long
+    tab = new_tab("#frame=4321", at=f"{address.http}/")
+    before = strip_of(tab)
+    tab.drag("epsilon", by=-60)
+    tab.page.mouse.up()
+    tab.until("s.params.epsilon < 0.025")
+    strip, state = strip_of(tab), tab.state
+    params = Params().but(**state["params"])
+    assert state["frame"] == 4321
+    assert strip["params"] == state["params"] != before["params"]
+    assert strip["values"][4321] == pytest.approx(state["covered"] / state["valid"], abs=1e-6)
+    expected = with_stability(recording, survey(recording, params))
+    np.testing.assert_array_equal(np.float32(strip["values"]), expected.score("coverage"))
+    for name in SCORES:
+        tab.page.get_by_label("Score of the frames").select_option(name)
+        shown = strip_of(tab, f"t.score === '{name}' && s.score === '{name}'")
+        np.testing.assert_array_equal(np.float32(shown["values"]), expected.score(name), err_msg=name)
+
+
+def test_the_strip_moves_while_the_slider_is_dragged(new_tab: Callable[..., Any], long: tuple[Recording, Address]):
+    tab = new_tab(at=f"{long[1].http}/")
+    strip_of(tab)
+    tab.drag("epsilon", by=-60)
+    tab.eventually(
+        lambda: tab.page.evaluate("() => window.lineseg.strip.params.epsilon < 0.03"), "the strip stood still"
+    )
+    tab.page.mouse.up()
+    strip_of(tab)
+
+
+def test_a_click_on_the_strip_goes_to_the_worst_frame_under_the_pixel(
+    new_tab: Callable[..., Any], long: tuple[Recording, Address]
+):
+    tab = new_tab(at=f"{long[1].http}/")
+    values = np.array(strip_of(tab)["values"])
+    worst = int(values.argmin())
+    box = tab.page.locator(".strip").bounding_box()
+    x = box["x"] + (int(worst / (FRAMES - 1) * box["width"]) + 0.5)
+    tab.page.mouse.move(x, box["y"] + 5)
+    hint = tab.page.locator(".strip-hint")
+    assert hint.inner_text() == f"Frame {worst + 1:,}: coverage {values[worst]:.2f}"
+    tab.page.mouse.click(x, box["y"] + 5)
+    tab.until(f"s.frame === {worst}")
+    painted = colours(tab)
+    darkest = int(np.argmin(np.sum(painted, axis=1)))
+    assert darkest == int(worst / (FRAMES - 1) * len(painted))
+
+
+def test_a_click_goes_to_the_frame_that_the_hint_named(new_tab: Callable[..., Any], long: tuple[Recording, Address]):
+    tab = new_tab(at=f"{long[1].http}/")
+    strip_of(tab)
+    box = tab.page.locator(".strip").bounding_box()
+    for share in (0.0, 0.13, 0.42, 0.61, 0.87, 0.999):
+        x = box["x"] + int(share * box["width"])
+        tab.page.mouse.move(x, box["y"] + 5)
+        named = tab.page.locator(".strip-hint").inner_text().split(":")[0].removeprefix("Frame ").replace(",", "")
+        tab.page.mouse.click(x, box["y"] + 5)
+        tab.until(f"s.frame === {int(named) - 1}")
+
+
+def test_keys_go_through_the_worst_frames(tab):
+    values = np.array(strip_of(tab)["values"])
+    ranking = np.argsort(values, kind="stable")
+    for key, rank in [("n", 0), ("n", 1), ("n", 2), ("Shift+N", 1)]:
+        tab.page.keyboard.press(key)
+        tab.until(f"s.frame === {ranking[rank]}")
+    spoken = tab.page.get_by_role("slider", name="Frame").get_attribute("aria-valuetext")
+    assert spoken.endswith(f"coverage {values[ranking[1]]:.2f}")
+
+
+def test_the_chosen_score_is_part_of_the_link(tab, new_tab: Callable[..., Any]):
+    tab.page.get_by_label("Score of the frames").select_option("misses")
+    tab.until("s.score === 'misses'")
+    tab.eventually(lambda: "score=misses" in tab.page.url, "the score is not in the address")
+    other = new_tab(tab.page.url[len(tab.address) :])
+    assert strip_of(other)["score"] == "misses"
+    assert other.page.get_by_label("Score of the frames").input_value() == "misses"
+
+
+def test_colours_keep_their_values_until_they_are_fitted_again(tab):
+    strip_of(tab)
+    legend = tab.page.locator(".legend")
+    before = legend.inner_text()
+    tab.type_value("min_length", "3")
+    strip_of(tab, "s.params.min_length === 3")
+    colours(tab)
+    wider = legend.inner_text()
+    assert wider.split()[-1] == before.split()[-1]
+    assert float(wider.split()[0]) < float(before.split()[0])
+    tab.page.get_by_role("button", name="Reset all").click()
+    strip_of(tab, "s.params.min_length === 0.6")
+    colours(tab)
+    assert legend.inner_text() == wider
+    legend.click()
+    colours(tab)
+    assert legend.inner_text() == before
+
+
+def test_a_recording_of_one_frame_says_why_there_is_no_strip(tab):
+    strip_of(tab)
+    tab.choose_recording("1 perfect corner")
+    tab.until("s.frames === 1")
+    note = tab.page.locator(".strip-note")
+    tab.eventually(lambda: note.inner_text() == "one frame: nothing to compare", "the strip does not say why")
+    assert tab.page.locator(".strip").is_hidden()
+    tab.choose_recording("Hallway (simulated)")
+    tab.until("s.frames > 1")
+    strip_of(tab)
+    tab.eventually(note.is_hidden, "the note stays")

@@ -1,0 +1,150 @@
+"""Sensitivity curves, the map of two thresholds, and auto-tuning, as a person meets them."""
+
+from __future__ import annotations
+
+import csv
+import io
+import re
+from pathlib import Path
+
+from lineseg_app.__main__ import main
+
+HALLWAY = Path(__file__).parents[2] / "sample_scans" / "hallway.npz"
+# Kernels may have to be compiled first, and the work is done behind everything else.
+PATIENCE_MS = 120_000
+
+
+def curves_of(tab, note: str = "all 300 frames") -> None:
+    script = "(note) => document.querySelector('.curves-note')?.textContent === note"
+    tab.page.wait_for_function(script, arg=note, timeout=PATIENCE_MS)
+
+
+def tuner(tab, part: str, condition: str) -> dict:
+    """Of `map` or `auto` what scripts are told, once a condition holds for it."""
+    script = f"() => {{ const s = window.lineseg.tuner.{part}; return s && ({condition}) ? s : null; }}"
+    return tab.page.wait_for_function(script, timeout=PATIENCE_MS).json_value()
+
+
+def test_curves_stand_under_the_sliders_follow_and_are_ways_to_go(tab):
+    curves_of(tab)
+    curve = tab.page.locator("[data-knob=epsilon] .curve")
+    coverage = curve.locator("path[data-line=coverage]")
+    delta = tab.page.locator("[data-knob=delta] path[data-line=coverage]")
+    assert tab.page.locator(".curve:visible").count() == 5
+    assert curve.locator("path[data-line=true_rate]").get_attribute("d")
+    before, other = coverage.get_attribute("d"), delta.get_attribute("d")
+
+    box = curve.bounding_box()
+    mark = curve.locator(".curve-mark")
+    place = float(mark.get_attribute("x1")) / 1000
+    thumb = tab.slider("epsilon").evaluate("(input) => input.valueAsNumber / input.max")
+    assert abs(place - thumb) < 0.005
+
+    tab.page.mouse.click(box["x"] + 0.25 * box["width"], box["y"] + box["height"] / 2)
+    epsilon = tab.until("s.params.epsilon < 0.02")["params"]["epsilon"]
+    assert abs(epsilon - 0.005 * 40**0.25) < 0.001
+    # The curve of ε stays what it is, that of δ belongs to another ε.
+    tab.eventually(lambda: delta.get_attribute("d") != other, "the curve of δ stands still")
+    curves_of(tab)
+    assert coverage.get_attribute("d") == before
+
+    key = tab.page.locator(".curve-key[data-line=coverage]")
+    key.click()
+    assert coverage.is_hidden()
+    key.click()
+    tab.page.get_by_role("button", name="Sensitivity").click()
+    assert tab.page.locator(".curve:visible").count() == 0
+    tab.page.get_by_role("button", name="Sensitivity").click()
+    assert tab.page.locator(".curve:visible").count() == 5
+
+    tab.choose_recording("Hallway (log)")
+    tab.until("s.recording.endsWith('.log')")
+    tab.eventually(
+        lambda: tab.page.locator(".curve-key[data-line=true_rate]").is_hidden(), "rates are offered without truth"
+    )
+
+
+def test_a_click_on_the_map_sets_both_thresholds(tab):
+    curves_of(tab)
+    tab.page.get_by_role("tab", name="Map").click()
+    finest = tuner(tab, "map", "s.side === 25 && !s.running")
+    assert (finest["measure"], finest["x"], finest["y"]) == ("f_score", "epsilon", "delta")
+    assert all(height is not None for row in finest["heights"] for height in row)
+    tab.page.get_by_label("Up", exact=True).select_option("min_length")
+    tuner(tab, "map", "s.y === 'min_length' && s.side === 25 && !s.running")
+    box = tab.page.locator(".map-canvas").bounding_box()
+    tab.page.mouse.click(box["x"] + 0.5 * box["width"], box["y"] + 0.5 * box["height"])
+    params = tab.until("s.params.min_length > 1.4 && s.params.min_length < 1.6")["params"]
+    assert 0.029 <= params["epsilon"] <= 0.034
+    # The map spans these two: it need not be computed again.
+    assert not tab.page.evaluate("() => window.lineseg.tuner.map.running")
+    tab.page.keyboard.press("Control+z")
+    tab.until("s.params.min_length === 0.6 && s.params.epsilon === 0.03")
+
+
+def test_the_table_of_a_sweep_is_a_map_and_a_click_takes_its_setting(tab, tmp_path):
+    files = [str(HALLWAY), str(HALLWAY.with_name("laboratory.npz"))]
+    axes = ["--epsilon", "0.02,0.03,0.05", "--delta", "0.05,0.1", "--min-points", "8,16"]
+    assert main(["sweep", *files, *axes, "-o", str(tmp_path / "fleet.csv")]) == 0
+    content = (tmp_path / "fleet.csv").read_text()
+    curves_of(tab)
+    tab.drop("fleet.csv", content)
+    shown = tuner(tab, "map", "s.sweep === 'fleet.csv'")
+    assert (shown["x"], shown["y"], shown["measure"]) == ("epsilon", "delta", "f_score")
+    rows = list(csv.DictReader(io.StringIO(content)))
+    scored = [(row["file"], float(row["epsilon"]), float(row["delta"]), float(row["f_score"])) for row in rows]
+
+    def best(file, epsilon, delta):
+        return max(score for name, *at, score in scored if name == file and at == [epsilon, delta])
+
+    tab.page.get_by_label("File", exact=True).select_option(label="laboratory.npz")
+    shown = tuner(tab, "map", f"s.heights[0][0] === {best(files[1], 0.02, 0.05)}")
+    assert shown["heights"] == [[best(files[1], e, d) for e in (0.02, 0.03, 0.05)] for d in (0.05, 0.1)]
+    assert tab.page.get_by_text("fleet.csv: 12 settings of 2 files").is_visible()
+    box = tab.page.locator(".map-canvas").bounding_box()
+    tab.page.mouse.click(box["x"] + 0.95 * box["width"], box["y"] + 0.05 * box["height"])
+    tab.until("s.params.epsilon === 0.05 && s.params.delta === 0.1 && [8, 16].includes(s.params.min_points)")
+
+    tab.drop("worse.csv", content.replace("0.02", "wide"))
+    tab.page.get_by_text("worse.csv is not the table of a sweep: epsilon of row 1 is 'wide'").wait_for()
+    assert tuner(tab, "map", "true")["sweep"] == "fleet.csv"
+    tab.forgive("400")
+    tab.page.get_by_role("button", name="Back to the recording").click()
+    tuner(tab, "map", "!s.sweep && s.side === 25 && !s.running")
+
+
+def test_auto_tuning_shows_its_trials_stops_goes_on_and_is_adopted(tab):
+    curves_of(tab)
+    tab.page.get_by_role("tab", name="Auto").click()
+    panel = tab.page.locator(".auto-page")
+    panel.get_by_label("Objective").select_option("label-free")
+    checked = panel.locator("input:checked").evaluate_all("(boxes) => boxes.map((box) => box.value)")
+    assert checked == ["epsilon", "delta", "seed_points"]
+    panel.get_by_label("Objective").select_option("truth")
+    panel.get_by_role("button", name="Start").click()
+    tuner(tab, "auto", "s.trials >= 12")
+    assert "harmonic mean of TR and 1 − FR" in panel.inner_text()
+    panel.get_by_role("button", name="Stop").click()
+    stopped = tuner(tab, "auto", "!s.running")
+    assert re.search(r"^(No gain|Gain \+)", stopped["verdict"])
+    assert stopped["trials"] < 100
+    lines = panel.locator(".auto-parallel .trial")
+    # The picture is painted with the browser's next frame.
+    tab.eventually(lambda: lines.count() == stopped["trials"], "the picture lacks trials")
+    assert panel.locator(".auto-row").count() == 5
+
+    panel.get_by_role("button", name="Go on").click()
+    tuner(tab, "auto", f"s.trials > {stopped['trials']}")
+    panel.get_by_role("button", name="Stop").click()
+    found = tuner(tab, "auto", "!s.running")
+    tab.page.get_by_role("tab", name="Thresholds").click()
+    tab.type_value("epsilon", "0.09")
+    tab.until("s.params.epsilon === 0.09")
+    tab.page.get_by_role("tab", name="Auto").click()
+    panel.get_by_role("button", name=re.compile("Adopt the best")).click()
+    adopted = tab.until("s.params.epsilon !== 0.09")["params"]
+    assert adopted == found["best"]
+    panel.get_by_role("button", name="Begin anew").click()
+    tuner(tab, "auto", "s.running && s.trials >= 1")
+    panel.get_by_role("button", name="Stop").click()
+    tuner(tab, "auto", "!s.running")

@@ -1,0 +1,43 @@
+"""Where the real recordings and the reference outputs are."""
+
+import os
+from pathlib import Path
+
+import pytest
+from hypothesis import settings
+
+# How long an example takes says nothing about its truth.
+settings.register_profile("lineseg", settings.default, deadline=None)
+settings.load_profile("lineseg")
+
+
+def _folder(variable: str) -> Path:
+    folder = os.environ.get(variable)
+    if not folder:
+        pytest.skip(f"set {variable} to the folder that holds them")
+    return Path(folder)
+
+
+@pytest.fixture(scope="session")
+def data_dir() -> Path:
+    """Real recordings."""
+    return _folder("LINESEG_DATA")
+
+
+@pytest.fixture(scope="session")
+def reference_dir() -> Path:
+    """Outputs of other programs."""
+    return _folder("LINESEG_REFERENCE")
+
+
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
+    """Where everything is installed, nothing may be skipped."""
+    skipped = terminalreporter.stats.get("skipped", [])
+    if skipped and os.environ.get("LINESEG_NOTHING_SKIPPED"):
+        terminalreporter.write_line(f"{len(skipped)} tests were skipped, and LINESEG_NOTHING_SKIPPED is set", red=True)
+
+
+def pytest_sessionfinish(session: pytest.Session) -> None:
+    reporter = session.config.pluginmanager.get_plugin("terminalreporter")
+    if os.environ.get("LINESEG_NOTHING_SKIPPED") and reporter and reporter.stats.get("skipped"):
+        session.exitstatus = pytest.ExitCode.TESTS_FAILED

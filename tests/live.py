@@ -1,0 +1,147 @@
+"""A real server in a thread, and a page that speaks with it over a real WebSocket."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import json
+import threading
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from typing import Any
+
+import httpx
+import numpy as np
+from lineseg_app.server import Settings, create_app, listen, server_of
+from websockets.sync.client import ClientConnection, connect
+
+from lineseg.score import SCORES
+
+# The first test on a machine waits for the kernels to be compiled.
+SECONDS = 120
+
+
+@dataclass(frozen=True)
+class Address:
+    port: int
+
+    @property
+    def http(self) -> str:
+        return f"http://127.0.0.1:{self.port}"
+
+    @property
+    def ws(self) -> str:
+        return f"ws://127.0.0.1:{self.port}"
+
+    def get(self, path: str, **options: Any) -> httpx.Response:
+        return httpx.get(self.http + path, timeout=SECONDS, trust_env=False, **options)
+
+    def post(self, path: str, **options: Any) -> httpx.Response:
+        return httpx.post(self.http + path, timeout=SECONDS, trust_env=False, **options)
+
+    def put(self, path: str, **options: Any) -> httpx.Response:
+        return httpx.put(self.http + path, timeout=SECONDS, trust_env=False, **options)
+
+    def upload(self, name: str, content: bytes, **options: Any) -> httpx.Response:
+        return self.post("/api/upload", params={"name": name}, content=content, **options)
+
+
+@contextlib.contextmanager
+def serving(settings: Settings) -> Iterator[Address]:
+    """A server on a free port, stopped at the end."""
+    settings = replace(settings, port=0, open_browser=False)
+    listening = threading.Event()
+    listener = listen("127.0.0.1", 0)
+    server = server_of(create_app(settings), listening.set)
+    # A loop of our own, so that nothing of it outlives the thread.
+    thread = threading.Thread(target=lambda: asyncio.run(server.serve([listener])), name="server under test")
+    thread.start()
+    try:
+        assert listening.wait(SECONDS)
+        yield Address(listener.getsockname()[1])
+    finally:
+        server.should_exit = True
+        thread.join(SECONDS)
+        listener.close()
+    assert not thread.is_alive()
+
+
+class Page:
+    """What the browser's page does on its socket."""
+
+    def __init__(self, socket: ClientConnection) -> None:
+        self._socket = socket
+        self._rev = 0
+        self.welcome: dict[str, Any] = {}
+        self.state: dict[str, Any] = {}
+
+    def say(self, **message: Any) -> None:
+        self._socket.send(json.dumps(message))
+
+    def hear(self) -> dict[str, Any]:
+        data = self._socket.recv(timeout=SECONDS)
+        message = json.loads(data) if isinstance(data, str) else surveyed(data)
+        self.state = message.get("state", self.state)
+        return message
+
+    def hear_a(self, *types: str) -> dict[str, Any]:
+        """The next message of one of these types."""
+        while (message := self.hear())["type"] not in types:
+            pass
+        return message
+
+    def hello(self, session: str | None = None, follow: str | None = None, **view: Any) -> dict[str, Any]:
+        """Say hello; the first picture's state."""
+        self.say(type="hello", session=session, view=view, follow=follow)
+        self.welcome = self.hear_a("welcome")
+        return self.hear_a("drawn")["state"]
+
+    def ask(self, **patch: Any) -> int:
+        """Ask for a change without waiting; its revision."""
+        self._rev += 1
+        self.say(type="view", rev=self._rev, patch=patch)
+        return self._rev
+
+    def drawn(self, rev: int) -> dict[str, Any]:
+        """The message of the first picture that contains revision `rev`."""
+        while True:
+            message = self.hear_a("drawn", "error")
+            if message["type"] == "error":
+                raise AssertionError(message["message"])
+            if message["rev"] >= rev:
+                return message
+
+    def change(self, **patch: Any) -> dict[str, Any]:
+        """Change the View; the state of the picture that shows it."""
+        return self.drawn(self.ask(**patch))["state"]
+
+    def until(self, condition: Callable[[dict[str, Any]], bool]) -> dict[str, Any]:
+        """The state that was drawn last, or the first from now on, for which the condition holds."""
+        while not self.state or not condition(self.state):
+            self.hear_a("drawn")
+        return self.state
+
+    def refused(self, **patch: Any) -> dict[str, Any]:
+        """Ask for what cannot be; the error."""
+        self.ask(**patch)
+        return self.hear_a("error")
+
+    def close(self) -> None:
+        self._socket.close()
+
+
+def surveyed(message: bytes) -> dict[str, Any]:
+    """A binary message; its `scores` by name, each of every stride-th frame."""
+    start = 4 + int.from_bytes(message[:4], "little")
+    head = json.loads(message[4:start])
+    names = [*SCORES, "suspicion", "difference"]
+    known = -(-head["frames"] // head["stride"])
+    values = np.frombuffer(message, "<f4", offset=start).reshape(-1, known)
+    rows = [*values, *[np.empty(0, np.float32)] * (len(names) - len(values))]
+    return head | {"scores": dict(zip(names, rows, strict=True))}
+
+
+@contextlib.contextmanager
+def page_of(address: Address, **options: Any) -> Iterator[Page]:
+    with connect(f"{address.ws}/api/session", max_size=None, proxy=None, **options) as socket:
+        yield Page(socket)

@@ -1,0 +1,197 @@
+"""The method once more: slow, literal, and independent of the kernels. The tests hold the kernels against it.
+
+Positions count the valid points in scan order; on a full circle they go on counting past the seam, in both directions.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from lineseg import Params, Scan
+
+
+def extract(scan: Scan, params: Params) -> list[tuple[int, int]]:
+    """(first, last) beam of each segment, sorted."""
+    method = RegionGrowing(scan, params)
+    return sorted((method.beam(first), method.beam(last)) for first, last in method.lines())
+
+
+class RegionGrowing:
+    def __init__(self, scan: Scan, params: Params) -> None:
+        self.beams = [k for k in range(len(scan)) if scan.valid[k]]
+        self.points = [
+            scan.ranges[k] * np.array([np.cos(scan.bearings[k]), np.sin(scan.bearings[k])]) for k in self.beams
+        ]
+        self.n, self.width, self.params = len(self.beams), len(scan), params
+        # A line may have crossed these steps, whatever was lost there: positions of the points before them.
+        self.passed = set()
+        self.circle = scan.full_circle and self.n >= 3
+        if params.max_occluder > 0 and self.n > 2:
+            self.look_past()
+        if self.circle:
+            gaps = [np.linalg.norm(self.points[(k + 1) % self.n] - self.points[k]) for k in range(self.n)]
+            self.turn(int(np.argmax(gaps)) + 1)
+
+    def turn(self, start):
+        """On a full circle: begin with another point."""
+        self.points = self.points[start:] + self.points[:start]
+        self.beams = self.beams[start:] + [k + self.width for k in self.beams[:start]]
+        self.passed = {(k - start) % self.n for k in self.passed}
+
+    def look_past(self):
+        if self.circle:
+            self.turn(int(np.argmax([np.linalg.norm(point) for point in self.points])))
+        points = self.points + self.points[:1] * self.circle
+        kept, k = [], 0
+        while k < len(points):
+            kept.append(k)
+            behind = next((j for j in range(k + 2, len(points)) if self.is_thing(points, k, j)), k + 1)
+            if behind > k + 1:
+                self.passed.add(len(kept) - 1)
+            k = behind
+        if self.circle:
+            kept.pop()
+        self.points, self.beams, self.n = [points[k] for k in kept], [self.beams[k] for k in kept], len(kept)
+
+    def is_thing(self, points, k, j):
+        """Whether the points between k and j are a thin thing in front of these two."""
+        ahead, widest = max(self.params.delta, 2 * self.params.epsilon), self.params.max_occluder
+        ranges = np.linalg.norm(points[k : j + 1], axis=1)
+        if ranges[0] - ranges[1] <= ahead or ranges[-1] - ranges[-2] <= ahead:
+            return False
+        inner = points[k + 2 : j - 1]
+        if any(np.linalg.norm(point - inner[0]) > widest for point in inner):
+            return False
+        chord = points[j] - points[k]
+        if np.linalg.norm(chord) > widest:
+            return False
+        normal = np.array([-chord[1], chord[0]])
+        predicted = [r * (normal @ points[k]) / (normal @ p) for r, p in zip(ranges, points[k : j + 1], strict=True)]
+        return all(far - near > ahead for far, near in zip(predicted[1:-1], ranges[1:-1], strict=True))
+
+    def at(self, k):
+        return self.points[k % self.n]
+
+    def number(self, k):
+        turns, k = divmod(k, self.n)
+        return self.beams[k] + turns * self.width
+
+    def beam(self, k):
+        return self.number(k) % self.width
+
+    def fit(self, first, last):
+        xy = np.array([self.at(k) for k in range(first, last + 1)])
+        centre = xy.mean(axis=0)
+        normal = np.linalg.svd(xy - centre)[2][1]
+        return normal, -normal @ centre
+
+    def distance(self, k, line):
+        return abs(line[0] @ self.at(k) + line[1])
+
+    def joined(self, k, j):
+        lost = abs(self.number(j) - self.number(k)) - 1 > self.params.max_dropout
+        if lost and min(k, j) % self.n not in self.passed:
+            return False
+        return np.linalg.norm(self.at(j) - self.at(k)) <= self.params.max_gap
+
+    def length(self, first, last, line):
+        along = np.array([-line[0][1], line[0][0]])
+        return abs(along @ (self.at(last) - self.at(first)))
+
+    def is_seed(self, i):
+        j = i + self.params.seed_points - 1
+        if not all(self.joined(k, k + 1) for k in range(i, j)):
+            return False
+        normal, c = line = self.fit(i, j)
+        for k in range(i, j + 1):
+            point = self.at(k)
+            bearing = point / np.linalg.norm(point)
+            predicted = -c / (normal @ bearing) * bearing
+            if np.linalg.norm(point - predicted) > self.params.delta or self.distance(k, line) > self.params.epsilon:
+                return False
+        return True
+
+    def may_take(self, here, there, first, last):
+        if not self.circle and not 0 <= there < self.n:
+            return False
+        if last - first + 1 >= self.n or not self.joined(here, there):
+            return False
+        return self.distance(there, self.fit(first, last)) < self.params.epsilon
+
+    def grow(self, first):
+        last = first + self.params.seed_points - 1
+        while self.may_take(last, last + 1, first, last):
+            last += 1
+        while self.may_take(first, first - 1, first, last):
+            first -= 1
+        return first, last
+
+    def suffices(self, first, last):
+        if last - first + 1 < max(2, self.params.min_points):
+            return False
+        return self.length(first, last, self.fit(first, last)) >= self.params.min_length
+
+    def lines(self):
+        params, n = self.params, self.n
+        if n < params.seed_points or (self.circle and n < 2 * params.seed_points):
+            return []
+        found, i = [], 0
+        stop = n if self.circle else n - max(params.min_points, params.seed_points) + 1
+        while i < stop:
+            if not self.is_seed(i):
+                i += 1
+                continue
+            first, last = self.grow(i)
+            if self.suffices(first, last):
+                found.append((first, last))
+            i = last + 1 if last - first + 1 >= params.min_points else i + 1
+        return [line for line in self.cut(self.merge(found)) if self.suffices(*line)]
+
+    def pairs(self, lines):
+        """Neighbours (i, j, turn); on a full circle also the last and the first, one turn further on."""
+        yield from ((i, i + 1, 0) for i in range(len(lines) - 1))
+        if self.circle and len(lines) > 1:
+            yield len(lines) - 1, 0, self.n
+
+    def collinear(self, one, two):
+        cross = np.cross(np.append(self.fit(*one)[0], 0), np.append(self.fit(*two)[0], 0))[2]
+        return np.arcsin(min(1, abs(cross))) < self.params.merge_angle
+
+    def merge(self, lines):
+        lines = list(lines)
+        i = 0
+        while True:
+            pair = next(((a, b, turn) for a, b, turn in self.pairs(lines) if a == i), None)
+            if pair is None:
+                return lines
+            _, j, turn = pair
+            (m1, n1), (m2, n2) = lines[i], (lines[j][0] + turn, lines[j][1] + turn)
+            if m2 <= n1 and ((m1, n1) == (m2, n2) or self.collinear(lines[i], lines[j])):
+                first, last = min(m1, m2), max(n1, n2)
+                lines[i] = first, min(last, first + self.n - 1)
+                del lines[j]
+                if turn:
+                    return lines
+            else:
+                i += 1
+
+    def cut(self, lines):
+        lines, fits, i = list(lines), [self.fit(*line) for line in lines], 0
+        while (pair := next((p for p in self.pairs(lines) if p[0] == i), None)) is not None:
+            _, j, turn = pair
+            (m1, n1), (m2, n2) = lines[i], (lines[j][0] + turn, lines[j][1] + turn)
+            shared = range(max(m1, m2), min(n1, n2) + 1)
+            not_nearer = (k for k in shared if self.distance(k, fits[i]) >= self.distance(k, fits[j]))
+            k = next(not_nearer, min(n1, n2) + 1)
+            if shared and k in (m1, n2 + 1):
+                swallowed = i if k == m1 else j
+                del lines[swallowed], fits[swallowed]
+                i = i - 1 if turn or i > 0 else 0
+                continue
+            if shared:
+                lines[i], lines[j] = (m1, k - 1), (k - turn, lines[j][1])
+                for line in (i, j):
+                    if lines[line][1] > lines[line][0]:
+                        fits[line] = self.fit(*lines[line])
+            i += 1
+        return lines

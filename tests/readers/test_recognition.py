@@ -1,0 +1,63 @@
+"""Which reader gets a file, and what is said when none does."""
+
+import gzip
+
+import pytest
+
+from lineseg.readers import READERS, open_recording
+
+FLASER = b"FLASER 3 1.0 2.0 3.0 0 0 0 0 0 0 1.0 x 1.0\n"
+
+
+def test_content_decides_before_the_suffix(tmp_path):
+    for name in ("walk.bag", "walk.npz", "walk.csv", "walk"):
+        path = tmp_path / name
+        path.write_bytes(FLASER)
+        assert open_recording(path).format == "CARMEN log"
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "sentence"),
+    [
+        ("empty.bag", b"", "empty.bag is empty; a ROS 1 bag has #ROSBAG V2.0 at its beginning."),
+        ("blank.log", b" \n\n", "blank.log is empty; a CARMEN log has lines that begin with FLASER"),
+        ("junk.mcap", b"\0\1\2\3" * 50, "junk.mcap begins with b'.*', which is no known recording; a MCAP has"),
+        (
+            "junk",
+            b"\0\1\2\3" * 50,
+            "junk begins with .* Formats read: ROS 1 bag, ROS 2 bag, MCAP, failure pack, NPZ, CARMEN log, text",
+        ),
+        ("words.log", b"Hello world\n", "words.log has no laser line; a CARMEN log has lines that begin with FLASER"),
+        (
+            "walk.bag.gz",
+            gzip.compress(b"#ROSBAG V2.0\n"),
+            "walk.bag.gz: a ROS 1 bag packed by gzip; unpack it with `gunzip`",
+        ),
+        ("short.log.gz", gzip.compress(FLASER)[:12], "short.log.gz: the gzip data break off"),
+        ("short.npz", b"PK\x03\x04" + b"\0" * 20, "short.npz: a damaged NPZ file"),
+        ("short.db3", b"SQLite format 3\0" + b"\0" * 99, "short.db3: a damaged ROS 2 bag"),
+        ("short.mcap", b"\x89MCAP0\r\n" + b"\0" * 9, "short.mcap: a damaged MCAP"),
+        ("new.bag", b"#ROSBAG VX\n", "new.bag begins with '#ROSBAG VX'; a ROS bag begins with #ROSBAG V2.0"),
+    ],
+)
+def test_what_cannot_be_read_gives_one_sentence(tmp_path, name, content, sentence):
+    path = tmp_path / name
+    path.write_bytes(content)
+    with pytest.raises(ValueError, match=f"^{sentence}") as raised:
+        open_recording(path)
+    assert "\n" not in str(raised.value)
+
+
+def test_a_folder_without_bag_says_what_a_bag_has(tmp_path):
+    with pytest.raises(ValueError, match="is a folder without recordings of ROS 2; a bag's folder holds"):
+        open_recording(tmp_path)
+
+
+def test_a_missing_file_is_named(tmp_path):
+    with pytest.raises(FileNotFoundError, match=r"nowhere.bag: there is no such file or folder\.$"):
+        open_recording(tmp_path / "nowhere.bag")
+
+
+def test_no_two_formats_claim_a_suffix():
+    suffixes = [suffix for reader in READERS for suffix in reader.suffixes]
+    assert len(suffixes) == len(set(suffixes))

@@ -1,0 +1,201 @@
+"""Bags written by `rosbags`, read back by us: the decoder is held against an independent encoder."""
+
+import shutil
+import sqlite3
+import struct
+
+import numpy as np
+import pytest
+from rosbags.rosbag1 import Writer as Writer1
+from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin
+from rosbags.rosbag2 import Writer as Writer2
+from rosbags.typesys import Stores, get_typestore
+
+from lineseg.readers import Cancelled, open_recording
+from lineseg.readers.laser_scan import decode_cdr, decode_ros1
+
+SCAN, TEXT = "sensor_msgs/msg/LaserScan", "std_msgs/msg/String"
+STORES = {1: get_typestore(Stores.ROS1_NOETIC), 2: get_typestore(Stores.ROS2_HUMBLE)}
+
+
+def message(
+    version, ranges, stamp=12.5, frame_id="laser", angle_min=-1.5, increment=0.01, angle_max=0.0, limits=(0.1, 30.0)
+):
+    types = STORES[version].types
+    seconds = int(stamp)
+    time = types["builtin_interfaces/msg/Time"](sec=seconds, nanosec=round((stamp - seconds) * 1e9))
+    sequence = {"seq": 0} if version == 1 else {}
+    return types[SCAN](
+        header=types["std_msgs/msg/Header"](stamp=time, frame_id=frame_id, **sequence),
+        angle_min=angle_min,
+        angle_max=angle_max,
+        angle_increment=increment,
+        time_increment=0.0,
+        scan_time=0.025,
+        range_min=limits[0],
+        range_max=limits[1],
+        ranges=np.asarray(ranges, np.float32),
+        intensities=np.full(len(ranges), 7, np.float32),
+    )
+
+
+def encoded(version, scan):
+    store = STORES[version]
+    return bytes(store.serialize_ros1(scan, SCAN) if version == 1 else store.serialize_cdr(scan, SCAN))
+
+
+def bag1(path, *publishers, text=(), stamps=(12.5, 12.6, 12.7)):
+    """A ROS 1 bag; each publisher is (topic, ranges) and sends its scan once for each stamp."""
+    with Writer1(path) as writer:
+        if text:
+            noise = writer.add_connection("/chatter", TEXT, typestore=STORES[1])
+            for word in text:
+                writer.write(noise, 1, STORES[1].serialize_ros1(STORES[1].types[TEXT](data=word), TEXT))
+        connections = [
+            writer.add_connection(topic, SCAN, typestore=STORES[1], callerid=f"/driver_{number}")
+            for number, (topic, _) in enumerate(publishers)
+        ]
+        for number, stamp in enumerate(stamps):
+            for connection, (_, ranges) in zip(connections, publishers, strict=True):
+                writer.write(connection, 10**9 * (100 + number), encoded(1, message(1, ranges, stamp)))
+    return path
+
+
+def bag2(path, *publishers, plugin=StoragePlugin.SQLITE3, compression=None, stamps=(12.5, 12.6, 12.7)):
+    writer = Writer2(path, version=8, storage_plugin=plugin)
+    if compression:
+        writer.set_compression(compression, CompressionFormat.ZSTD)
+    with writer:
+        connections = [writer.add_connection(topic, SCAN, typestore=STORES[2]) for topic, _ in publishers]
+        for number, stamp in enumerate(stamps):
+            for connection, (_, ranges) in zip(connections, publishers, strict=True):
+                writer.write(connection, 10**9 * (100 + number), encoded(2, message(2, ranges, stamp)))
+    return path
+
+
+@pytest.mark.parametrize("frame_id", ["", "l", "la", "las", "lase", "laser_link", "Läser"])
+@pytest.mark.parametrize(("version", "decode"), [(1, decode_ros1), (2, decode_cdr)])
+def test_a_message_is_decoded_whatever_the_length_of_its_frame_name(version, decode, frame_id):
+    ranges = [1.0, np.nan, np.inf, 0.0, 2.5]
+    scan = decode(encoded(version, message(version, ranges, 1.25e9 + 0.5, frame_id)))
+    assert (scan.frame_id, scan.stamp) == (frame_id, 1.25e9 + 0.5)
+    assert np.array_equal(scan.ranges, np.array(ranges, np.float32), equal_nan=True)
+    assert scan[3:7] == pytest.approx((-1.5, 0.01, 0.1, 30.0))
+
+
+def test_an_increment_of_0_is_taken_from_the_angles(tmp_path):
+    scan = decode_ros1(encoded(1, message(1, [1.0] * 11, increment=0.0, angle_min=-1.0, angle_max=1.0)))
+    assert scan.angle_increment == pytest.approx(0.2)
+
+
+def test_a_maximum_of_0_bounds_nothing():
+    assert decode_ros1(encoded(1, message(1, [1.0], limits=(0.0, 0.0)))).range_max == np.inf
+
+
+def test_a_message_that_breaks_off_is_refused():
+    data = encoded(1, message(1, [1.0] * 100))
+    with pytest.raises(ValueError, match="announces 100 ranges"):
+        decode_ros1(data[:200])
+
+
+def test_two_publishers_on_one_topic_are_one_recording_in_the_order_of_time(tmp_path):
+    recording = open_recording(bag1(tmp_path / "two.bag", ("/scan", [1.0, 2.0]), ("/scan", [3.0, 4.0, 5.0])))
+    assert (len(recording), recording.beams) == (6, (2, 3))
+    assert [topic.name for topic in recording.topics] == ["/scan"]
+    assert np.all(np.diff(recording.stamps) >= 0)
+
+
+def test_only_messages_of_the_laser_are_read(tmp_path):
+    recording = open_recording(bag1(tmp_path / "bag.bag", ("/scan", [1.0, 2.0]), text=["a", "b"]))
+    assert len(recording) == 3
+    with pytest.raises(ValueError, match=r"has no sensor_msgs/LaserScan topic; it has /chatter \(std_msgs/String\)\."):
+        open_recording(bag1(tmp_path / "text.bag", text=["a"]))
+
+
+def test_stamps_that_are_all_zero_give_way_to_the_times_of_recording(tmp_path):
+    recording = open_recording(bag1(tmp_path / "zero.bag", ("/scan", [1.0]), stamps=(0.0, 0.0)))
+    assert recording.stamps.tolist() == [100.0, 101.0]
+
+
+@pytest.mark.parametrize("compression", [None, CompressionMode.MESSAGE, CompressionMode.FILE])
+@pytest.mark.parametrize("plugin", list(StoragePlugin))
+def test_a_bag_of_ros_2_opens_packed_or_not_with_metadata_or_without(tmp_path, plugin, compression):
+    folder = bag2(tmp_path / "bag", ("/scan", [1.0, 2.0]), ("/rear", [3.0]), plugin=plugin, compression=compression)
+    for _ in range(2):
+        recording = open_recording(folder, topic="/rear")
+        assert recording.ranges.tolist() == [3.0, 3.0, 3.0]
+        assert {topic.name: topic.scans for topic in recording.topics} == {"/scan": 3, "/rear": 3}
+        (folder / "metadata.yaml").unlink(missing_ok=True)
+
+
+def test_the_files_of_a_split_bag_are_joined_in_the_order_of_their_numbers(tmp_path):
+    folder = tmp_path / "split"
+    folder.mkdir()
+    for number in (2, 10, 1):
+        bag2(tmp_path / f"part_{number}", ("/scan", [float(number)]), stamps=(float(number),))
+        shutil.move(tmp_path / f"part_{number}" / f"part_{number}.db3", folder / f"split_{number}.db3")
+    recording = open_recording(folder)
+    assert recording.stamps.tolist() == [1.0, 2.0, 10.0]
+    assert recording.topics[0].scans == 3
+
+
+def test_a_name_with_marks_of_an_address_is_a_name(tmp_path):
+    folder = bag2(tmp_path / "bag", ("/scan", [1.0]))
+    odd = tmp_path / "50% of a? #1.db3"
+    shutil.copy(folder / "bag.db3", odd)
+    assert len(open_recording(odd)) == 3
+
+
+def test_messages_still_in_the_write_ahead_log_are_read(tmp_path):
+    folder = bag2(tmp_path / "bag", ("/scan", [1.0]))
+    database = sqlite3.connect(folder / "bag.db3")
+    database.execute("PRAGMA journal_mode=WAL")
+    database.execute(
+        "INSERT INTO messages (topic_id, timestamp, data) SELECT topic_id, timestamp + 1, data FROM messages"
+    )
+    database.commit()
+    cut_short = tmp_path / "cut_short"
+    cut_short.mkdir()
+    for name in ("bag.db3", "bag.db3-wal"):
+        shutil.copy(folder / name, cut_short / name)
+    database.close()
+    assert len(open_recording(cut_short)) == 6
+    assert not (cut_short / "bag.db3-shm").exists()
+
+
+def test_a_callback_sees_progress_and_can_cancel(tmp_path):
+    path = bag1(tmp_path / "long.bag", ("/scan", [1.0]), stamps=np.arange(500.0))
+    seen = []
+    open_recording(path, progress=lambda done, total: seen.append((done, total)))
+    assert seen[-1] == (500, 500)
+    assert len(seen) > 5
+    assert seen == sorted(seen)
+
+    def cancel(done, total):
+        if done > 100:
+            raise Cancelled
+
+    with pytest.raises(Cancelled):
+        open_recording(path, progress=cancel)
+
+
+def test_a_bag_without_index_names_the_tool_that_makes_one(tmp_path):
+    data = bytearray(bag1(tmp_path / "whole.bag", ("/scan", [1.0])).read_bytes())
+    place = data.index(b"index_pos=") + len(b"index_pos=")
+    data[place : place + 8] = struct.pack("<Q", 0)
+    path = tmp_path / "active.bag"
+    path.write_bytes(data)
+    with pytest.raises(ValueError, match="`rosbag reindex`"):
+        open_recording(path)
+
+
+@pytest.mark.parametrize("share", [0.3, 0.9])
+def test_a_bag_that_breaks_off_is_damaged(tmp_path, share):
+    for path in (
+        bag1(tmp_path / "whole.bag", ("/scan", [1.0] * 500)),
+        bag2(tmp_path / "b", ("/scan", [1.0] * 999)) / "b.db3",
+    ):
+        broken = tmp_path / f"broken{path.suffix}"
+        broken.write_bytes(path.read_bytes()[: int(path.stat().st_size * share)])
+        with pytest.raises(ValueError, match=rf"^broken\{path.suffix}: a damaged"):
+            open_recording(broken)

@@ -1,0 +1,134 @@
+import numpy as np
+import pytest
+
+from lineseg.readers import TextOptions, open_recording
+
+TURN = np.linspace(-180, 179, 360)
+
+
+@pytest.fixture
+def text(tmp_path):
+    def write(content, name="scan.csv"):
+        path = tmp_path / name
+        path.write_text(content, encoding="utf-8")
+        return path
+
+    return write
+
+
+def rows(beams, scans=3, separator=","):
+    return "\n".join(separator.join(f"{1 + scan + beam / 1000:.3f}" for beam in range(beams)) for scan in range(scans))
+
+
+@pytest.mark.parametrize("separator", [",", ";", " ", "\t", ", ", "  "])
+def test_a_row_is_a_scan_whatever_parts_its_numbers(text, separator):
+    recording = open_recording(text(rows(181, separator=separator)), text=TextOptions(skip_columns=0))
+    assert (len(recording), recording.beams, recording.format) == (3, (181, 181), "text")
+    assert recording.ranges[181] == 2.0
+
+
+@pytest.mark.parametrize(
+    ("beams", "first", "last"), [(181, -90, 90), (361, -90, 90), (541, -135, 135), (1081, -135, 135), (682, -120, 120)]
+)
+def test_the_number_of_beams_tells_the_laser(text, beams, first, last):
+    assert np.rad2deg(open_recording(text(rows(beams)))[0].bearings[[0, -1]]) == pytest.approx([first, last])
+
+
+def test_an_unknown_number_of_beams_needs_the_angles(text):
+    path = text(rows(100))
+    with pytest.raises(ValueError, match=r"scan.csv: rows of 100 numbers, and nothing says at which angles"):
+        open_recording(path)
+    bearings = open_recording(path, text=TextOptions(angle_increment=0.01))[0].bearings
+    assert bearings[[0, -1]].tolist() == pytest.approx([-0.495, 0.495])
+
+
+def test_options_win_over_comments_and_comments_over_guesses(text):
+    path = text("# angle_min = 0.5, angle_increment: 0.25 unit=cm\n" + rows(181))
+    recording = open_recording(path)
+    assert (recording.angle_min[0], recording.angle_increment[0], recording.ranges[0]) == (0.5, 0.25, 0.01)
+    assert open_recording(path, text=TextOptions(angle_min=1.0)).angle_min[0] == 1.0
+
+
+def test_whole_numbers_too_large_for_metres_are_millimetres(text):
+    numbers = " ".join(["1500"] * 180 + ["0"])
+    assert open_recording(text(numbers)).ranges[0] == 1.5
+    assert open_recording(text(numbers), text=TextOptions(unit="m")).ranges[0] == 1500
+
+
+def test_numbers_before_a_double_space_are_not_ranges(text):
+    assert open_recording(text("7 8 9  " + rows(181, 1, " "))).beams == (181, 181)
+
+
+def test_two_columns_are_angle_and_distance(text):
+    recording = open_recording(text("0.0, 1.0\n0.1, 1.1\n0.3, 1.2\n"))
+    assert (len(recording), recording.bearings.tolist()) == (1, [0.0, 0.1, 0.3])
+    assert recording.ranges.tolist() == [1.0, 1.1, 1.2]
+
+
+def test_columns_are_found_by_name_and_degrees_by_their_size(text):
+    content = "quality angle distance_mm\n" + "\n".join(f"15 {angle} 2500" for angle in TURN)
+    recording = open_recording(text(content, "rplidar.txt"))
+    assert np.rad2deg(recording.bearings) == pytest.approx(TURN)
+    assert set(recording.ranges) == {2.5}
+    assert recording[0].full_circle
+
+
+def test_an_angle_that_leaps_back_begins_the_next_scan(text):
+    content = "\n".join(f"{angle} 2.5" for _ in range(3) for angle in TURN)
+    assert np.diff(open_recording(text(content)).offsets).tolist() == [360, 360, 360]
+
+
+def test_a_table_with_lists_gives_geometry_stamp_and_frame_of_each_scan(text):
+    header = "{'stamp': {'secs': 774, 'nsecs': 500000000}, 'frame_id': 'base'}"
+    content = (
+        "time,header,angle_min,angle_increment,range_min,range_max,ranges\n"
+        f'1,"{header}",0.0,0.1,0.2,20.0,"[1.0, nan, inf]"\n2,"{header}",0.5,0.2,0.2,20.0,"[1.0, 2.0]"\n'
+    )
+    recording = open_recording(text(content))
+    assert (recording.beams, recording.stamps[0], recording.frame_ids) == ((2, 3), 774.5, ("base", "base"))
+    assert recording[0].valid.tolist() == [True, False, False]
+    assert recording[1].bearings.tolist() == [0.5, 0.7]
+
+
+def test_what_rostopic_echo_writes_opens(text):
+    content = (
+        "%time,field.header.seq,field.header.stamp,field.header.frame_id,field.angle_min,field.angle_increment,"
+        "field.range_min,field.range_max,field.ranges0,field.ranges1,field.intensities0\n"
+        "1500000000,0,1500000000,laser,-0.5,0.25,0.1,10.0,1.5,2.5,47\n"
+    )
+    scan = open_recording(text(content))[0]
+    assert (scan.ranges.tolist(), scan.bearings.tolist(), scan.frame_id) == ([1.5, 2.5], [-0.5, -0.25], "laser")
+    assert (scan.stamp, scan.range_min, scan.range_max) == (1.5, 0.1, 10.0)
+
+
+@pytest.mark.parametrize(
+    ("content", "sentence"),
+    [
+        (rows(181) + "\n1.0, 2.0", r"scan.csv:4: 2 ranges, but the scans before have 181; is the line complete\?"),
+        ("0.0, 1.0\n0.1\n", r"scan.csv:2: 1 of 2 columns \(angle, distance\); is the line complete\?"),
+        ("1.0, 2.0, x\n", "scan.csv:1: 'x' is not a number; a text file has one scan a row"),
+        ("Dear reader,\nthis is a letter.\n", "scan.csv begins with 'dear reader', which names no column angle"),
+        ("# nothing but words\n", "scan.csv has no line of numbers"),
+        ("angle,distance\n", "scan.csv has column names, but no line of numbers"),
+        ('time,ranges\n1,"[1.0]"\n', "scan.csv:2: there is no angle_min; a column or an option must give it"),
+        ("# unit = ell\n1 2 3\n", "scan.csv: unit is 'ell'; it can be m, cm, mm"),
+        ("# angle_min = left\n1 2 3\n", "scan.csv: its comments say angle_min = 'left'; it must be a number"),
+    ],
+)
+def test_what_is_no_table_of_scans_is_named_with_its_line(text, content, sentence):
+    with pytest.raises(ValueError, match=f"^{sentence}"):
+        open_recording(text(content))
+
+
+@pytest.mark.parametrize(
+    ("options", "sentence"),
+    [
+        ({"unit": "ft"}, "unit is 'ft'"),
+        ({"angle_increment": 0.0}, "one ray"),
+        ({"skip_columns": -1}, "never negative"),
+        ({"angle_min": np.inf}, "finite"),
+    ],
+)
+def test_options_without_sense_are_refused(options, sentence):
+    with pytest.raises(ValueError, match=sentence):
+        TextOptions(**options)

@@ -1,0 +1,40 @@
+"""What tests with a robot share: scans of a wall, a server that watches the robot, and what its page hears."""
+
+from __future__ import annotations
+
+import contextlib
+import math
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+from lineseg_app.live import Address as RobotAddress
+from lineseg_app.server import Settings
+from live import Address, Page, serving
+
+
+def wall(distance: float) -> list[float]:
+    """Ranges of 91 beams, one degree apart, to a wall straight ahead."""
+    return [distance / math.cos(math.radians(beam - 45)) for beam in range(91)]
+
+
+@contextlib.contextmanager
+def watching(url: str, tmp_path: Path, topic: str | None = "/scan", **settings: Any) -> Iterator[Address]:
+    robots = (RobotAddress(url, topic),)
+    with serving(Settings(robots=robots, data_folder=tmp_path, **settings)) as server:
+        yield server
+
+
+def heard(page: Page, of: str, until: Callable[[dict[str, Any]], Any]) -> dict[str, Any]:
+    """The first message of a type for which `until` holds."""
+    while not until(message := page.hear_a(of)):
+        pass
+    return message
+
+
+def drawn(page: Page, until: Callable[[dict[str, Any]], Any]) -> dict[str, Any]:
+    return heard(page, "drawn", lambda message: until(message["state"]))["state"]
+
+
+def nearest(state: dict[str, Any]) -> float:
+    return -state["segments"][0]["line"][2] if state["segments"] else math.inf

@@ -1,0 +1,167 @@
+"""Auto-tuning: real studies on disk, judged on what was held back."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from lineseg_app.__main__ import main
+
+from lineseg import Params, Recording, open_recording, read_params
+from lineseg.readers import save_npz
+from lineseg.sweep import Batch, Totals, pool
+from lineseg.sweep.workers import Pool
+from lineseg.tuning import FileBlocks, Objective, RecordingBlocks, Tuning
+
+SAMPLES = Path(__file__).parents[2] / "sample_scans"
+
+
+@pytest.fixture(scope="module")
+def hallway() -> Recording:
+    return open_recording(SAMPLES / "hallway.npz").only(np.arange(80))
+
+
+@pytest.fixture
+def workers() -> Iterator[Pool]:
+    with pool() as workers:
+        yield workers
+
+
+def totals_of(recording: Recording, params: Params) -> Totals:
+    return Totals(Batch(recording, scored=True).measure([params]).sums[0])
+
+
+def test_the_objective_with_truth_is_the_f_score(hallway: Recording):
+    totals = totals_of(hallway, Params())
+    assert Objective("truth").score(totals) == pytest.approx(float(totals.measure("f_score")))
+    true, false = float(totals.measure("true_rate")), float(totals.measure("false_rate"))
+    plain = Objective("truth", completeness=0).score(totals)
+    assert plain == pytest.approx(2 / (1 / true + 1 / (1 - false)))
+    assert Objective("truth", completeness=0, recall=1000).score(totals) == pytest.approx(true, abs=1e-4)
+
+
+def test_no_segment_scores_nothing_and_no_truth_has_no_score(hallway: Recording):
+    none = totals_of(hallway, Params(min_length=900))
+    assert Objective("truth").score(none) == Objective("label-free").score(none) == 0.0
+    blind = totals_of(replace(hallway, wall=None), Params())
+    assert math.isnan(Objective("truth").score(blind))
+    assert 0 < Objective("label-free").score(blind) < 1
+
+
+def test_tuning_from_bad_thresholds_finds_better_ones_and_says_what_it_gained(hallway: Recording, workers: Pool):
+    noisy = hallway.ranges + np.random.default_rng(0).normal(0, 0.03, len(hallway.ranges))
+    blocks = RecordingBlocks(replace(hallway, ranges=noisy.astype(np.float32)), workers, scored=False)
+    tuning = Tuning(blocks, Objective("truth"))
+    for _ in tuning.run(40):
+        pass
+    verdict = tuning.verdict()
+    assert verdict.gained
+    assert verdict.text.startswith("Gain +")
+    assert verdict.params.epsilon > 0.03
+    assert verdict.frames == 40
+    importance = tuning.importance()
+    assert set(importance) == set(Objective("truth").thresholds)
+    assert sum(importance.values()) == pytest.approx(1)
+
+
+def test_where_nothing_is_gained_that_is_said(hallway: Recording, workers: Pool):
+    tuning = Tuning(RecordingBlocks(hallway, workers, scored=False), Objective("truth"))
+    for _ in tuning.run(1):
+        pass
+    verdict = tuning.verdict()
+    assert (verdict.params, verdict.gain) == (Params(), 0.0)
+    assert verdict.text.startswith("No gain")
+
+
+def test_training_and_held_back_frames_are_apart_and_together_all(hallway: Recording, workers: Pool):
+    blocks = RecordingBlocks(hallway, workers, scored=True)
+    assert set(blocks.train) & set(blocks.held_back) == set()
+    parts = blocks.totals(Params(), sorted([*blocks.train, *blocks.held_back]))
+    np.testing.assert_allclose(np.sum([part.sums for part in parts], axis=0), totals_of(hallway, Params()).sums)
+
+
+def test_a_study_on_disk_goes_on_where_it_was(hallway: Recording, workers: Pool, tmp_path: Path):
+    blocks = RecordingBlocks(hallway, workers, scored=False)
+    file = tmp_path / "study.db"
+    first = list(Tuning(blocks, Objective("truth"), file).run(5))
+    assert first[0].params == Params()
+    again = Tuning(blocks, Objective("truth"), file)
+    assert [trial.params for trial in again.trials()] == [trial.params for trial in first]
+    assert [trial.number for trial in again.run(2)] == [5, 6]
+    assert again.best() == max(again.trials(), key=lambda trial: trial.score)
+
+
+def test_a_study_of_something_else_is_refused_and_stays_whole(hallway: Recording, workers: Pool, tmp_path: Path):
+    blocks = RecordingBlocks(hallway, workers, scored=True)
+    file = tmp_path / "study.db"
+    list(Tuning(blocks, Objective("truth"), file).run(2))
+    with pytest.raises(ValueError, match=r"study.db: a study of another objective, truth .* this one is of label-free"):
+        Tuning(blocks, Objective("label-free"), file)
+    with pytest.raises(ValueError, match="a study of another set of thresholds"):
+        Tuning(blocks, Objective("truth"), file, ["epsilon"])
+    other = RecordingBlocks(replace(hallway, name="other"), workers, scored=True)
+    with pytest.raises(ValueError, match=r"a study of another recording, hallway.*, and this one is of other"):
+        Tuning(other, Objective("truth"), file)
+    assert len(Tuning(blocks, Objective("truth"), file).trials()) == 2
+    (tmp_path / "notes.db").write_text("no database, but a text that is longer than a header" * 20)
+    with pytest.raises(ValueError, match=r"notes.db: no study can be kept there"):
+        Tuning(blocks, Objective("truth"), tmp_path / "notes.db")
+
+
+def test_trials_without_a_score_lose_nothing(hallway: Recording, workers: Pool):
+    nowhere = replace(hallway, wall=np.full(len(hallway.ranges), -1))
+    tuning = Tuning(RecordingBlocks(nowhere, workers, scored=False), Objective("truth"))
+    assert all(math.isnan(trial.score) for trial in tuning.run(3))
+    assert len(tuning.trials()) == 3
+    with pytest.raises(ValueError, match="no trial has a score: these frames hold no true line"):
+        tuning.verdict()
+    assert tuning.importance() == {}
+
+
+def test_truth_that_is_not_there_cannot_be_the_objective(hallway: Recording, workers: Pool):
+    blocks = RecordingBlocks(replace(hallway, wall=None), workers, scored=True)
+    with pytest.raises(ValueError, match="has no truth; tune it with the label-free objective"):
+        Tuning(blocks, Objective("truth"))
+    assert "misleads" in Objective("label-free").caution
+
+
+def test_the_command_line_tunes_files_and_goes_on(hallway: Recording, tmp_path: Path, capsys, monkeypatch):
+    for name, frames in [("one", range(40)), ("two", range(40, 80))]:
+        save_npz(hallway.only(np.array(frames)), tmp_path / f"{name}.npz")
+    files = [str(tmp_path / "one.npz"), str(tmp_path / "two.npz")]
+    study = ["--study", str(tmp_path / "study.db"), "--split", "files"]
+    assert main(["tune", *files, *study, "--trials", "3", "--to", "flags"]) == 0
+    out, err = capsys.readouterr()
+    assert read_params(out).epsilon > 0
+    assert "Maximises the harmonic mean of TR and 1 − FR" in err
+    assert "on 40 frames that were held back" in err
+    assert main(["tune", *files, *study, "--trials", "2", "-o", str(tmp_path / "found.yaml")]) == 0
+    assert "least_thresh" in (tmp_path / "found.yaml").read_text()
+    assert main(["tune", *files, *study, "--objective", "label-free"]) == 2
+    assert "a study of another objective" in capsys.readouterr().err
+    assert main(["tune", files[0], "--split", "files"]) == 2
+    assert "with one, split by frames" in capsys.readouterr().err
+
+
+def test_files_and_memory_hold_the_same_blocks(hallway: Recording, workers: Pool, tmp_path: Path):
+    save_npz(hallway, tmp_path / "mine.npz")
+    files = FileBlocks([tmp_path / "mine.npz"], workers, scored=True)
+    memory = RecordingBlocks(hallway, workers, scored=True)
+    assert list(files.frames) == list(memory.frames)
+    for one, other in zip(
+        files.totals(Params(), files.held_back), memory.totals(Params(), memory.held_back), strict=True
+    ):
+        np.testing.assert_array_equal(one.sums, other.sums)
+
+
+def test_a_jackknife_needs_more_than_one_block(hallway: Recording, workers: Pool):
+    blocks = RecordingBlocks(hallway.only(np.arange(4)), workers, scored=False)
+    tuning = Tuning(blocks, Objective("truth"))
+    tuning.step()
+    verdict = tuning.verdict()
+    assert verdict.error == math.inf
+    assert not verdict.gained
+    with pytest.raises(ValueError, match="4 or more frames"):
+        RecordingBlocks(hallway.only(np.arange(3)), workers, scored=False)
