@@ -2,7 +2,7 @@ PYTHON ?= python3
 BIN := .venv/bin
 .PHONY: run test check clean
 
-run: .venv/installed
+run: .venv/installed stale-kernels
 	$(BIN)/lineseg $(ARGS)
 
 test: .venv/installed-dev stale-kernels

@@ -30,6 +30,14 @@ def reference_dir() -> Path:
     return _folder("LINESEG_REFERENCE")
 
 
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """A test of a server or a browser is run again once if it fails, and listed as RERUN: it shares the machine."""
+    tests = Path(__file__).parent
+    for item in items:
+        if item.path.is_relative_to(tests / "app") or item.path.is_relative_to(tests / "browser"):
+            item.add_marker(pytest.mark.flaky(reruns=1))
+
+
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
     """Where everything is installed, nothing may be skipped."""
     skipped = terminalreporter.stats.get("skipped", [])

@@ -26,9 +26,10 @@ def watching(url: str, tmp_path: Path, topic: str | None = "/scan", **settings: 
 
 
 def heard(page: Page, of: str, until: Callable[[dict[str, Any]], Any]) -> dict[str, Any]:
-    """The first message of a type for which `until` holds."""
-    while not until(message := page.hear_a(of)):
-        pass
+    """The last message of a type, or the first from now on, for which `until` holds."""
+    message = page.last.get(of)
+    while message is None or not until(message):
+        message = page.hear_a(of)
     return message
 
 
