@@ -13,10 +13,16 @@ export function takeSession() {
   sessionStorage.removeItem(KEY);
   try {
     const { id, rev, shown, hash } = JSON.parse(kept ?? "");
-    return { id: String(id), rev: Number(rev) || 0, hash: shown === location.hash ? String(hash) : location.hash };
+    return { id: String(id), rev: Number(rev) || 0, hash: shown === location.hash || reloaded() ? String(hash) : location.hash };
   } catch {
     return { id: null, rev: 0, hash: location.hash };
   }
+}
+
+/** A reload begins with the address of the moment when it was asked for, and the page may have written a newer one since. */
+function reloaded() {
+  const [navigation] = /** @type {PerformanceNavigationTiming[]} */ (performance.getEntriesByType("navigation"));
+  return navigation?.type === "reload";
 }
 
 /** @param {() => {id: string | null, rev: number, hash: string}} current */

@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 from hypothesis import settings
 
-# How long an example takes says nothing about its truth.
-settings.register_profile("lineseg", settings.default, deadline=None)
+# How long an example takes says nothing about its truth, and what passes here is to pass everywhere.
+settings.register_profile("lineseg", settings.default, deadline=None, derandomize=True)
 settings.load_profile("lineseg")
 
 
