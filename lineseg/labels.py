@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from .region_growing import thin_things
 from .scan import Recording, Scan
 from .segment import Extraction
 from .truth import true_ends
@@ -29,11 +30,12 @@ class TrueLine:
     def over(cls, scan: Scan, first: int, last: int) -> TrueLine:
         """The line of these beams; its endpoints are the outermost points on the fitted line, NaN without points.
 
-        Beams that are not there are left to `check_labels`.
+        Points of thin things before the line are none of its own. Beams that are not there are left to `check_labels`.
         """
         truth = np.full(len(scan), -1)
         if first < len(scan) and last < len(scan):
             truth[beams_between(first, last, len(scan))] = 0
+            truth[thin_things(scan)] = -1
         ends = true_ends(scan, truth) if (truth >= 0).any() else np.full((1, 2, 2), math.nan)
         (x1, y1), (x2, y2) = ends[0].tolist()
         return cls(first, last, (x1, y1), (x2, y2))
@@ -62,13 +64,17 @@ class FrameLabels:
         return np.array([(line.start, line.end) for line in self.lines or ()], np.float64).reshape(-1, 2, 2)
 
     def truth(self, scan: Scan) -> NDArray[np.int32] | None:
-        """(n,) for each beam its true line or −1, as `true_lines` gives it; None where nobody has said."""
+        """(n,) for each beam its true line or −1, as `true_lines` gives it; None where nobody has said.
+
+        What stands before a line and is thin, such as a chair's leg, does not belong to it.
+        """
         if self.lines is None:
             return None
         labels = np.full(len(scan), -1, np.int32)
         for label, line in enumerate(self.lines):
             beams = beams_between(line.first, line.last, len(scan))
             labels[beams[scan.valid[beams]]] = label
+        labels[thin_things(scan)] = -1
         return labels
 
 

@@ -91,10 +91,21 @@ class Params(Thresholds):
             "α_merge", 0.0, 0.5, "rad", 0.005, least=0.0, most=math.pi / 2,
             label="merge angle",
             why="two lines are never more than a right angle apart",
-            help="Overlapping lines that differ by less than this angle become one. 0: none do.",
+            help="Neighbouring lines that overlap and differ by less than this angle become one. 0: none do.",
             extension=True,
         ),
     ] = 0.10  # fmt: skip
+    merge_rms: Annotated[
+        float,
+        Knob(
+            "γ_merge", 0.0, 3.0, "", 0.05, least=0.0, most=1e6,
+            label="growth of the rms by a merge",
+            why="a factor is never negative",
+            help="Most times that the rms distance of two lines may grow where they become one. With it, up to D_max "
+            "stray points may part them. 0: neither, as in the paper.",
+            extension=True,
+        ),
+    ] = 1.2  # fmt: skip
     max_occluder: Annotated[
         float,
         Knob(
@@ -105,4 +116,4 @@ class Params(Thresholds):
             "0: none, as in the paper.",
             extension=True,
         ),
-    ] = 0.0  # fmt: skip
+    ] = 0.3  # fmt: skip

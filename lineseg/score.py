@@ -21,7 +21,7 @@ SPLIT_ANGLE = 0.1
 SPLIT_GAP = 0.3
 LOOSER = 2.0
 NEAR_EPSILON = 0.5
-LEAST_GAP = 0.1
+LEAST_GAP = 0.3
 CHANGE_OF_THRESHOLD = 0.05
 
 
@@ -240,6 +240,7 @@ def probable_misses(lines, count, points, limits, dropped):
         limits.max_dropout,
         limits.max_gap,
         limits.merge_angle,
+        limits.merge_rms,
         limits.max_occluder,
     )
     found = 0

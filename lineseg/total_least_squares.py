@@ -111,6 +111,15 @@ def signed_distance(line, x, y):
     return a * x + b * y + c
 
 
+@summing_kernel
+def squares_of(x, y, first, last, line):
+    """Sum of the squared distances of the points first..last to a line with unit normal (Eq. 2)."""
+    total = 0.0
+    for k in range(first, last + 1):
+        total += signed_distance(line, x[k], y[k]) ** 2
+    return total
+
+
 @kernel
 def project(line, x, y):
     """Foot of the perpendicular from (x, y) to a line with unit normal (Eqs. 7, 8)."""

@@ -21,6 +21,7 @@ from .region_growing.log import (
     LINES_KEPT_APART,
     LINES_MERGED,
     MAX_DROPOUT,
+    MERGE_RMS,
     OVERLAP_CUT,
     POINT_ADDED,
     SEED_FOUND,
@@ -115,8 +116,10 @@ class GrowthTrace(Trace):
             return f"line dropped: {span}; {lack(CHECKS[check], value, limit)}"
         if kind == LINES_MERGED:
             return f"lines merged: {_degrees(value)} apart, less than {_degrees(limit)}; now {span}"
+        if kind == LINES_KEPT_APART and check == MERGE_RMS:
+            return f"neighbouring lines stay two: as one they have an rms of {metres(value)}, more than {metres(limit)}"
         if kind == LINES_KEPT_APART:
-            return f"overlapping lines stay two: {_degrees(value)} apart, not less than {_degrees(limit)}"
+            return f"neighbouring lines stay two: {_degrees(value)} apart, not less than {_degrees(limit)}"
         if kind == OVERLAP_CUT and value < limit:
             return f"overlap cut behind beam {last}: every shared point is nearer to the first line; it keeps {span}"
         if kind == OVERLAP_CUT:

@@ -153,9 +153,30 @@ class RegionGrowing:
         if self.circle and len(lines) > 1:
             yield len(lines) - 1, 0, self.n
 
-    def collinear(self, one, two):
+    def are_one(self, one, two):
+        """Whether two neighbours, the second counted on where a full circle has been turned, become one line."""
+        if one == two:
+            return True
+        last, first, strict = one[1], two[0], self.params.merge_rms > 0
+        touch = first <= last
+        if strict and first - last - 1 <= self.params.max_dropout:
+            touch = touch or all(self.joined(k, k + 1) for k in range(last, first))
         cross = np.cross(np.append(self.fit(*one)[0], 0), np.append(self.fit(*two)[0], 0))[2]
-        return np.arcsin(min(1, abs(cross))) < self.params.merge_angle
+        if not touch or np.arcsin(min(1, abs(cross))) >= self.params.merge_angle:
+            return False
+        squares, points = (sum(of_each) for of_each in zip(self.squares(*one), self.squares(*two), strict=True))
+        common, number = self.squares(*self.both(one, two))
+        least = 0.1 * self.params.epsilon
+        return not strict or np.sqrt(common / number) <= self.params.merge_rms * max(np.sqrt(squares / points), least)
+
+    def both(self, one, two):
+        first = min(one[0], two[0])
+        return first, min(max(one[1], two[1]), first + self.n - 1)
+
+    def squares(self, first, last):
+        """Sum of the squared distances of these points to their line, and how many they are."""
+        line = self.fit(first, last)
+        return sum(self.distance(k, line) ** 2 for k in range(first, last + 1)), last - first + 1
 
     def merge(self, lines):
         lines = list(lines)
@@ -165,10 +186,9 @@ class RegionGrowing:
             if pair is None:
                 return lines
             _, j, turn = pair
-            (m1, n1), (m2, n2) = lines[i], (lines[j][0] + turn, lines[j][1] + turn)
-            if m2 <= n1 and ((m1, n1) == (m2, n2) or self.collinear(lines[i], lines[j])):
-                first, last = min(m1, m2), max(n1, n2)
-                lines[i] = first, min(last, first + self.n - 1)
+            other = lines[j][0] + turn, lines[j][1] + turn
+            if self.are_one(lines[i], other):
+                lines[i] = self.both(lines[i], other)
                 del lines[j]
                 if turn:
                     return lines

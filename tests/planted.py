@@ -32,7 +32,8 @@ def split_wall(scan, rng):
     ranges = scan.ranges.copy()
     along = np.concatenate(([0.0], np.cumsum(np.hypot(*np.diff(scan.xy[wall], axis=0).T))))
     for post in np.arange(0.7, along[-1] - 0.7, 0.7):
-        ranges[wall[int(np.searchsorted(along, post))] + np.arange(4)] = np.nan
+        first = int(np.searchsorted(along, post))
+        ranges[wall[first : first + 4]] = np.nan
     return ranges
 
 

@@ -3,25 +3,32 @@
 In percent (TR, FR), true lines as in `true_lines`; the paper's five thresholds at their defaults:
 
                      hallway        laboratory
-    default          92.2   8.9     78.3  13.2
-    max_dropout = 0  85.8  12.2     65.3  15.8     as the authors' program
-    max_dropout = 1  91.0   8.6     75.8  13.6
-    max_dropout = 5  92.2   8.9     78.7  13.1
-    max_dropout = 10 92.2   9.9     78.7  13.5
-    max_gap = 0.5    92.2   7.5     78.3  13.2
-    merge_angle=0.02 94.0   8.7     78.3  13.2
-    merge_angle=0.2  92.2   8.9     78.3  13.2
-    max_occluder=0.1 92.2   8.9     81.2  12.5
-    max_occluder=0.2 92.5   8.8     89.2  10.8
-    max_occluder=0.3 92.5   8.8     96.4  10.1
-    max_occluder=0.4 92.5   8.8     97.5  11.8
-    max_occluder=0.6 91.4   9.6     96.0  13.9
+    default          95.1   8.6     96.4  10.1
+    the paper        92.2   8.9     78.3  13.2     max_occluder = merge_rms = 0
+    the authors      85.8  12.2     65.3  15.8     max_dropout = 0 as well
+    max_dropout = 0  88.4  11.9     82.7  12.6
+    max_dropout = 1  94.0   8.4     93.5  10.4
+    max_dropout = 5  95.1   8.6     96.8  10.1
+    max_dropout = 10 95.1   9.6     96.8  10.4
+    max_gap = 0.5    95.1   7.3     96.4  10.1
+    merge_angle=0.02 95.1   8.6     96.4  10.1
+    merge_angle=0.2  95.1   8.6     96.4  10.1
+    merge_rms = 0    92.5   8.8     96.4  10.1
+    merge_rms = 1.1  95.5   8.6     96.4  10.1
+    merge_rms = 1.5  93.3   8.8     96.4  10.1
+    max_occluder = 0 94.8   8.6     78.3  13.2
+    max_occluder=0.1 94.8   8.6     81.2  12.5
+    max_occluder=0.2 95.1   8.6     89.2  10.8
+    max_occluder=0.4 95.1   8.6     97.5  11.8
+    max_occluder=0.6 95.1   8.9     96.0  13.9
 
-Three lost beams do nearly all that dropouts can; more costs false lines in the hallway. A narrower max_gap, and a
-narrower merge_angle, would be a little better in the hallway and change nothing in the laboratory: the defaults stay
-those of the paper, which bridges any gap, and of the authors' program.
-Nine in ten of the true lines that are missed in the laboratory are walls behind the legs of chairs and desks. With
-max_occluder 0.3 m, which is also what the truth takes for no end of a line, they are found; more costs false lines.
+Three lost beams do nearly all that dropouts can; more costs false lines in the hallway. A narrower max_gap would be a
+little better in the hallway and change nothing in the laboratory: its default stays that of the paper, which bridges
+any gap. The angle of the authors' program does not matter once merge_rms compares the fits: doors that stand 3 cm
+behind their wall are then no longer taken for the wall. 1.1 would be as good here, but leaves more walls in pieces
+where ranges are noisy (the yard and the warehouse of `lineseg compare`).
+Nine in ten of the true lines that are missed in the laboratory without max_occluder are walls behind the legs of chairs
+and desks. With 0.3 m, which is also what the truth takes for no end of a line, they are found; more costs false lines.
 """
 
 from functools import cache
@@ -51,24 +58,33 @@ def rates(name, **thresholds):
 
 
 def test_the_figures_above_are_those_of_the_samples():
-    assert rates("hallway") == pytest.approx((92.2, 8.9), abs=0.06)
-    assert rates("laboratory") == pytest.approx((78.3, 13.2), abs=0.06)
-    assert rates("laboratory", max_occluder=0.3) == pytest.approx((96.4, 10.1), abs=0.06)
+    assert rates("hallway") == pytest.approx((95.1, 8.6), abs=0.06)
+    assert rates("laboratory") == pytest.approx((96.4, 10.1), abs=0.06)
+    assert rates("hallway", max_occluder=0.0, merge_rms=0.0) == pytest.approx((92.2, 8.9), abs=0.06)
+    assert rates("laboratory", max_occluder=0.0, merge_rms=0.0) == pytest.approx((78.3, 13.2), abs=0.06)
 
 
 def test_looking_past_thin_things_finds_the_walls_behind_them_and_no_false_lines():
-    found, wrong = rates("laboratory", max_occluder=0.3)
+    found, wrong = rates("laboratory")
     found_before, wrong_before = rates("laboratory", max_occluder=0.0)
     assert found > found_before + 15
     assert wrong < wrong_before - 2
-    found, wrong = rates("hallway", max_occluder=0.3)
+    found, wrong = rates("hallway")
     found_before, wrong_before = rates("hallway", max_occluder=0.0)
     assert found >= found_before
     assert wrong <= wrong_before
 
 
+def test_comparing_the_fits_keeps_doors_and_walls_apart():
+    found, wrong = rates("hallway")
+    found_before, wrong_before = rates("hallway", merge_rms=0.0)
+    assert found > found_before + 2
+    assert wrong < wrong_before
+    assert rates("laboratory") == rates("laboratory", merge_rms=0.0)
+
+
 def test_looking_past_wider_things_costs_false_lines():
-    assert rates("laboratory", max_occluder=0.6)[1] > rates("laboratory", max_occluder=0.3)[1] + 2
+    assert rates("laboratory", max_occluder=0.6)[1] > rates("laboratory")[1] + 2
 
 
 @BOTH
@@ -98,9 +114,6 @@ def test_bridging_any_gap_finds_as_much_and_costs_few_false_lines(name):
 
 
 @BOTH
-@pytest.mark.parametrize(("angle", "tolerance"), [(0.02, 2.0), (0.05, 0.1), (0.2, 0.1)])
-def test_the_merge_angle_of_the_authors_loses_little(name, angle, tolerance):
-    found, wrong = rates(name)
-    found_other, wrong_other = rates(name, merge_angle=angle)
-    assert found > found_other - tolerance
-    assert wrong < wrong_other + 0.3
+@pytest.mark.parametrize("angle", [0.02, 0.05, 0.2])
+def test_the_merge_angle_of_the_authors_loses_nothing(name, angle):
+    assert rates(name) == pytest.approx(rates(name, merge_angle=angle), abs=0.1)

@@ -9,9 +9,10 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from planted import PLANTS, planted
 
-from lineseg import open_recording, survey, with_stability
+from lineseg import extract, open_recording, survey, with_stability
 from lineseg.score import SCORES
 from lineseg.suspicion import MOST_DOUBT, WEIGHTS, doubts, suspicion, worst_first
+from lineseg.truth import agreement, true_lines
 
 SAMPLES = Path(__file__).parents[1] / "sample_scans"
 NAMES = list(SCORES)
@@ -24,15 +25,29 @@ def column(name, values):
     return scores
 
 
+def fails_by_itself(recording):
+    """(frames,) whether a true line is missed there, whatever else was planted elsewhere."""
+    found = (agreement(extract(scan), true_lines(scan)) for scan in recording)
+    return np.array([each.matches < each.true_lines for each in found])
+
+
 @pytest.mark.parametrize("seed", [1, 2, 3])
 @pytest.mark.parametrize("name", ["hallway", "laboratory"])
 def test_eight_of_ten_planted_failures_are_among_the_fifteen_worst(name, seed):
-    """The weights were chosen on the seeds 100 to 129."""
-    recording, where = planted(open_recording(SAMPLES / f"{name}.npz"), seed)
-    assert sorted(where.values()) == sorted(plant.__name__ for plant in PLANTS)
-    scores = with_stability(recording, survey(recording)).scores
-    found = [where[frame] for frame in worst_first(scores)[:15].tolist() if frame in where]
-    assert len(found) >= 8, set(where.values()) - set(found)
+    """The weights were chosen on the seeds 100 to 129.
+
+    Frames that fail without our doing, a third of each recording, are not counted among the fifteen: they belong there.
+    No wall of the laboratory is seen at so grazing an angle that an open door could be bridged.
+    """
+    sample = open_recording(SAMPLES / f"{name}.npz")
+    recording, where = planted(sample, seed)
+    unplantable = {"bridged_door"} if name == "laboratory" else set()
+    assert set(where.values()) == {plant.__name__ for plant in PLANTS} - unplantable
+    own = fails_by_itself(sample)
+    ranked = worst_first(with_stability(recording, survey(recording)).scores).tolist()
+    worst = [frame for frame in ranked if frame in where or not own[frame]][:15]
+    found = {where[frame] for frame in worst if frame in where}
+    assert len(found) >= 8, set(where.values()) - found
 
 
 def test_a_frame_that_stands_out_to_the_bad_side_is_doubtful_and_one_to_the_good_is_not():

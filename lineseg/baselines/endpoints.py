@@ -6,10 +6,9 @@ import math
 
 from ..kernel import kernel
 from ..log import note_pair
-from ..region_growing.endpoints import squares_of
 from ..region_growing.lines import line_at
 from ..region_growing.log import NONE
-from ..total_least_squares import project
+from ..total_least_squares import project, squares_of
 
 
 @kernel

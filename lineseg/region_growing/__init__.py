@@ -44,7 +44,7 @@ class Run(NamedTuple):
 def extract_lines(ranges, rays, range_min, range_max, circle, limits, xy, numbers, lines, dropped, log):
     """The four procedures in a row: (number of lines, of dropped candidates, of points, of valid beams).
 
-    ranges, rays, circle: of a `Scan`; limits: (9,) the fields of `Limits`; the rest is `Memory`.
+    ranges, rays, circle: of a `Scan`; limits: (10,) the fields of `Limits`; the rest is `Memory`.
     """
     limits = unpacked(limits)
     lines, dropped = lines.view(LINE), Dropping(dropped.view(DROPPED), numbers[3])
@@ -118,3 +118,10 @@ def run(scan: Scan, params: Params, logged: bool = False) -> Run:
         count, drops, points, _ = extract_lines(*scene, *memory.arguments, None)
     beams = 4 * points if scan.full_circle else points
     return Run(memory.lines[:count], memory.dropped[:drops], memory.numbers[0, :beams], points, rows)
+
+
+def thin_things(scan: Scan, params: Params | None = None) -> NDArray[np.bool_]:
+    """(n,) which valid beams end at things that lines pass behind, see `look_past`."""
+    kept = np.zeros(len(scan), np.bool_)
+    kept[run(scan, params or Params()).beam % len(scan)] = True
+    return scan.valid & ~kept

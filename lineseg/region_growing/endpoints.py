@@ -4,20 +4,11 @@ from __future__ import annotations
 
 import math
 
-from ..kernel import kernel, summing_kernel
+from ..kernel import kernel
 from ..log import note_pair
-from ..total_least_squares import project, signed_distance
+from ..total_least_squares import project, squares_of
 from .lines import line_at
 from .log import ENDPOINTS, NONE
-
-
-@summing_kernel
-def squares_of(x, y, first, last, line):
-    """Sum of the squared distances to the line (Eq. 2)."""
-    total = 0.0
-    for k in range(first, last + 1):
-        total += signed_distance(line, x[k], y[k]) ** 2
-    return total
 
 
 @kernel

@@ -6,7 +6,7 @@ import math
 
 from ..kernel import inlined_kernel, kernel
 from ..log import note, note_pair
-from ..total_least_squares import line_of, moments_of, signed_distance
+from ..total_least_squares import line_of, moments_of, signed_distance, squares_of
 from .growth import length_of
 from .lines import drop, line_at, remove
 from .log import (
@@ -14,6 +14,7 @@ from .log import (
     LINES_KEPT_APART,
     LINES_MERGED,
     MERGE_ANGLE,
+    MERGE_RMS,
     MIN_LENGTH,
     MIN_POINTS,
     NEARER,
@@ -36,7 +37,11 @@ def resolve_overlaps(points, lines, count, dropped, limits, log):
 
 @kernel
 def merge_collinear(points, lines, count, limits, log):
-    """Neighbours that overlap and differ by less than `merge_angle` become one line over all points of both."""
+    """Neighbours that overlap and differ by less than `merge_angle` become one line over all points of both.
+
+    An extension: with `merge_rms` only if the one line fits its points about as well as the two did; and then also
+    neighbours that a few stray points part.
+    """
     i = 0
     while i + 1 < count:
         if merged(points, lines, i, i + 1, 0, limits, log):
@@ -53,26 +58,41 @@ def merged(points, lines, i, j, turn, limits, log):
     """Whether line j, `turn` positions further on, was merged into line i."""
     first, last = lines[i].first, lines[i].last
     first_2, last_2 = lines[j].first + turn, lines[j].last + turn
-    if first_2 > last:
+    if first_2 > last and not parted_by_strays(points, last, first_2, limits):
         return False
     line, other = line_at(lines, i), line_at(lines, j)
-    angle = math.asin(min(1.0, abs(line[0] * other[1] - line[1] * other[0])))
     pair = lines[i].candidate, lines[j].candidate
+    start = min(first, first_2)
+    stop = min(max(last, last_2), start + points.period - 1)
+    check, limit = MERGE_ANGLE, limits.merge_angle
+    value = angle = math.asin(min(1.0, abs(line[0] * other[1] - line[1] * other[0])))
+    agree = angle < limit
+    if agree and limits.merge_rms > 0.0:
+        squares = squares_of(points.x, points.y, first, last, line)
+        squares += squares_of(points.x, points.y, first_2, last_2, other)
+        rms = math.sqrt(squares / (last - first + last_2 - first_2 + 2))
+        common = line_of(moments_of(points.x, points.y, start, stop))
+        value = math.sqrt(squares_of(points.x, points.y, start, stop, common) / (stop - start + 1))
+        # Of walls without noise the two have no rms that could grow.
+        check, limit = MERGE_RMS, limits.merge_rms * max(rms, 0.1 * limits.epsilon)
+        agree = value <= limit
     # On a full circle the same line may have grown on both sides of the seam.
-    same = first == first_2 and last == last_2
-    if angle >= limits.merge_angle and not same:
+    if not agree and not (first == first_2 and last == last_2):
         if log is not None:
-            note_pair(
-                log, LINES_KEPT_APART, MERGE_ANGLE, pair, 0, (first, last), -1, line, other, angle, limits.merge_angle
-            )
+            note_pair(log, LINES_KEPT_APART, check, pair, 0, (first, last), -1, line, other, value, limit)
         return False
-    first, last = min(first, first_2), max(last, last_2)
-    last = min(last, first + points.period - 1)
-    refit(points, lines, i, first, last)
+    refit(points, lines, i, start, stop)
     if log is not None:
         line = line_at(lines, i)
-        note_pair(log, LINES_MERGED, MERGE_ANGLE, pair, 0, (first, last), -1, line, other, angle, limits.merge_angle)
+        note_pair(log, LINES_MERGED, MERGE_ANGLE, pair, 0, (start, stop), -1, line, other, angle, limits.merge_angle)
     return True
+
+
+@kernel
+def parted_by_strays(points, last, first, limits):
+    """Whether at most `max_dropout` points lie between two lines, and no step that no line may take (an extension)."""
+    few = first - last - 1 <= limits.max_dropout
+    return limits.merge_rms > 0.0 and few and points.breaks[last] == points.breaks[first]
 
 
 @kernel

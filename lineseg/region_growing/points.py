@@ -24,6 +24,7 @@ class Limits(NamedTuple):
     max_dropout: int
     max_gap: float
     merge_angle: float
+    merge_rms: float
     max_occluder: float
 
 
@@ -31,7 +32,16 @@ class Limits(NamedTuple):
 def unpacked(limits):
     """`Limits` from an array of their fields."""
     return Limits(
-        limits[0], limits[1], int(limits[2]), int(limits[3]), limits[4], int(limits[5]), limits[6], limits[7], limits[8]
+        limits[0],
+        limits[1],
+        int(limits[2]),
+        int(limits[3]),
+        limits[4],
+        int(limits[5]),
+        limits[6],
+        limits[7],
+        limits[8],
+        limits[9],
     )
 
 

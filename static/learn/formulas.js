@@ -69,6 +69,7 @@ function formulasOf(event, trace, text) {
   if (kind === "line kept" || (kind === "line dropped" && check !== "nearer")) return [acceptance(event, trace, text)];
   const first = check === "merge_angle" && trace.compared(event);
   if (first && event.other) return [angle(event, first, event.other, text)];
+  if (check === "merge_rms") return [spread(event, text)];
   if (kind === "overlap cut") return [cut(event, text)];
   if (kind === "endpoints" && line) return [endpoint(event, trace, line, text)];
   if (check === "max_gap" || check === "max_dropout") return [broken(event, text)];
@@ -154,6 +155,17 @@ function angle({ value, limit, kind }, [a, b], [a2, b2], text) {
       math(words("sin "), "α = |", term("line", "a_1"), term("other", "b_2"), "−", term("line", "b_1"), term("other", "a_2"), "|"),
       math("= |", signed(a), "·", signed(b2), "−", signed(b), "·", signed(a2), "|"),
       math("α =", degrees(value), words("°"), value < limit ? "<" : "≥", degrees(limit), words(`°: ${kind === "lines merged" ? text.oneLine : text.twoLines}`)),
+    ],
+  };
+}
+
+/** @param {Event} event @param {Text} text @returns {Formula} */
+function spread({ value, limit }, text) {
+  return {
+    title: text.spread,
+    rows: [
+      math("rms =", root(fraction(row("Σ", power("d", "2")), "P_l")), "=", num(value), words(" m")),
+      math(num(value), ">", num(limit), words(` m, ${text.times}: ${text.twoLines}`)),
     ],
   };
 }

@@ -27,7 +27,7 @@ export function variables(event) {
 /** @param {Event} event */
 export function compared(event) {
   const { kind, check, value, limit } = event;
-  if (kind === "lines merged" || kind === "lines kept apart") return `${degrees(value)} ${value < limit ? "<" : "≥"} ${degrees(limit)}`;
+  if (check === "merge_angle") return `${degrees(value)} ${value < limit ? "<" : "≥"} ${degrees(limit)}`;
   if (kind === "overlap cut") return `${number(value)} ${value < limit ? "<" : "≥"} ${number(limit)} m`;
   if (kind === "line kept") return `${number(value)} ≥ ${number(limit)} m`;
   if (kind === "endpoints") return `${number(value)} m long`;

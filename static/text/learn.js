@@ -35,8 +35,11 @@ const SENTENCES = {
   "line kept": (e) => `The line of beams ${e.first} to ${e.last} is kept: ${e.points} points, ${m(e.value)} long.`,
   "line dropped": (e) => `The line of beams ${e.first} to ${e.last} is dropped: ${lacks(e)}.`,
   "lines merged": (e) =>
-    `Two lines share points and differ by only ${deg(e.value)}, less than ${deg(e.limit)}: they become one, beams ${e.first} to ${e.last}.`,
-  "lines kept apart": (e) => `Two lines share points, but differ by ${deg(e.value)}, not less than ${deg(e.limit)}: they stay two.`,
+    `Two neighbours differ by only ${deg(e.value)}, less than ${deg(e.limit)}: they become one, beams ${e.first} to ${e.last}.`,
+  "lines kept apart": (e) =>
+    e.check === "merge_rms"
+      ? `Two neighbours have nearly one direction, but as one line their points lie ${m(e.value)} from it (rms), more than ${m(e.limit)}: they stay two.`
+      : `Two neighbours differ by ${deg(e.value)}, not less than ${deg(e.limit)}: they stay two.`,
   "overlap cut": (e) =>
     e.value < e.limit
       ? `The overlap is cut behind beam ${e.last}: every shared point is nearer to the first line (${m(e.value)}) than to the second (${m(e.limit)}). The second begins at beam ${e.beam}.`
@@ -158,6 +161,8 @@ export const learnText = {
     fit: (/** @type {number} */ n) => `The line through ${n} points (Eq. 2)`,
     accepted: "Enough for a line?",
     angle: "Angle between the two lines",
+    spread: "Distance of all their points from one common line",
+    times: "γ times that of the two",
     cut: "Where the overlap is cut",
     endpoint: (/** @type {number} */ beam) => `Endpoint from beam ${beam} (Eqs. 7, 8)`,
     broken: "A broken way (not in the paper)",

@@ -30,6 +30,7 @@ def test_the_welcome_describes_every_threshold(page: Page):
         "max_dropout",
         "max_gap",
         "merge_angle",
+        "merge_rms",
         "max_occluder",
     ]
 

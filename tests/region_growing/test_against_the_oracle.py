@@ -23,6 +23,7 @@ def thresholds(draw):
         max_dropout=draw(st.sampled_from([0, 1, 3, 50])),
         max_gap=draw(st.sampled_from([0.2, 30.0])),
         merge_angle=draw(st.sampled_from([0.0, 0.1, 0.5])),
+        merge_rms=draw(st.sampled_from([0.0, 1.0, 1.2, 3.0])),
         max_occluder=draw(st.sampled_from([0.0, 0.1, 0.3, 1.0])),
     )
 

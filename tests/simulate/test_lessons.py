@@ -100,13 +100,15 @@ def test_lost_end_split_breaks_the_back_of_the_niche_and_region_growing_keeps_it
     assert set(found.labels[beams][back].tolist()) == {1}
 
 
-def test_shallow_corner_is_taken_for_one_wall_until_the_merge_angle_is_below_it():
+def test_shallow_corner_is_taken_for_one_wall_until_the_angle_or_the_fits_are_asked():
     scan = lesson(5)[0]
-    assert len(extract(scan, DEFAULT).segments) == 1
-    parted = extract(scan, DEFAULT.but(merge_angle=0.05))
-    assert len(parted.segments) == 2
-    first, second = (segment.theta for segment in parted.segments)
-    assert abs(first - second) == pytest.approx(np.radians(4), abs=np.radians(1.5))
+    unasked = DEFAULT.but(merge_rms=0.0)
+    assert len(extract(scan, unasked).segments) == 1
+    for params in (unasked.but(merge_angle=0.05), unasked.but(merge_rms=1.2)):
+        parted = extract(scan, params)
+        assert len(parted.segments) == 2
+        first, second = (segment.theta for segment in parted.segments)
+        assert abs(first - second) == pytest.approx(np.radians(4), abs=np.radians(1.5))
 
 
 def test_curved_wall_becomes_chords_that_are_no_walls():
