@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
@@ -325,7 +326,7 @@ class Sentence(NamedTuple):
     limit: float
 
     def fill(self, text: str) -> str:
-        span, angle = f"beams {self.first}–{self.last}", f"{np.degrees(self.value):.1f}°"
+        span, angle = f"beams {self.first}–{self.last}", f"{math.degrees(self.value):.1f}°"
         return text.format(**self._asdict(), span=span, angle=angle, lack=lack(self.check, self.value, self.limit))
 
 
@@ -339,4 +340,4 @@ def lack(check: str, value: float, limit: float) -> str:
 
 
 def metres(value: float) -> str:
-    return f"{value:.3f} m" if np.isfinite(value) else "infinitely far"
+    return f"{value:.3f} m" if math.isfinite(value) else "infinitely far"

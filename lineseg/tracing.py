@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from functools import cached_property
 
 import numpy as np
@@ -247,4 +248,4 @@ def _margin(margin: float) -> str:
 
 
 def _degrees(radians: float) -> str:
-    return f"{np.degrees(radians):.1f}°"
+    return f"{math.degrees(radians):.1f}°"
