@@ -97,10 +97,9 @@ class GrowthTrace(Trace):
         after = int(growth[-1]) + 1
         return after + int(after < len(self) and self.log["kind"][growth[-1]] == GROWTH_STOPPED)
 
-    def _sentence(self, row: Row) -> str:
+    def _sentence(self, row: Row, first: int, last: int, beam: int) -> str:
         kind, check, value, limit = row.kind, row.check, row.value, row.limit
-        last, beam = self._beam(row.last), self._beam(row.beam)
-        span = self._span(row)
+        span = f"beams {first}–{last}"
         way = _way(row)
         if kind == SEED_REJECTED:
             return f"seed rejected: {span}; {refusal(beam, check, value, limit)}"
