@@ -142,13 +142,13 @@ def span(xy: NDArray, line: Line) -> tuple[NDArray, NDArray]:
     return on_line + (places.min() - longer) * along, on_line + (places.max() + longer) * along
 
 
-def foot(xy: NDArray, line: Line) -> NDArray:
-    """Points (…, 2) projected on the line."""
+def foot(xy: NDArray, line: Line | NDArray) -> NDArray:
+    """Points (…, 2) projected on the line; points (…, n, 2), each on its own of n lines (3, n)."""
     a, b, c = line
     distance = a * xy[..., 0] + b * xy[..., 1] + c
-    return xy - distance[..., None] * np.array([a, b])
+    return xy - distance[..., None] * np.array([a, b]).T
 
 
-def is_line(line: Line) -> bool:
-    """Whether there is a line: a seed refused before its fit has none."""
-    return all(map(math.isfinite, line)) and math.hypot(line[0], line[1]) > 0.5
+def is_line(line: Line | NDArray) -> NDArray[np.bool_]:
+    """Whether there is a line, or which there are of (3, n): a seed refused before its fit has none."""
+    return np.isfinite(line).all(axis=0) & (np.hypot(line[0], line[1]) > 0.5)

@@ -46,7 +46,7 @@ def columns_of(found: Findings) -> dict[str, Any]:
         **lines,
         "value": _rounded(rows["value"], METRE_DIGITS),
         "limit": _rounded(rows["limit"], METRE_DIGITS),
-        "text": None if isinstance(trace, GrowthTrace) else [trace[index].text for index in range(len(rows))],
+        "text": None if isinstance(trace, GrowthTrace) else trace.texts(np.arange(len(rows))),
         "lines": starts[starts < len(rows)].tolist(),
         "x": _rounded(np.where(scan.valid, scan.xy[:, 0], np.nan), METRE_DIGITS),
         "y": _rounded(np.where(scan.valid, scan.xy[:, 1], np.nan), METRE_DIGITS),

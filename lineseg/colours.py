@@ -26,8 +26,9 @@ def segment_hues(segments: Sequence[Segment]) -> list[int]:
     for segment in segments:
         turn = segment.theta % (2 * math.pi) / (2 * math.pi)
         wish = round(turn * len(SEGMENTS)) + int(segment.rho / 2)
-        order = [(wish + step) % len(SEGMENTS) for step in range(3)]
-        chosen.append(next(index for index in order if index not in chosen[-2:]))
+        while wish % len(SEGMENTS) in chosen[-2:]:
+            wish += 1
+        chosen.append(wish % len(SEGMENTS))
     return chosen
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
@@ -151,6 +152,8 @@ class Trace:
             raise IndexError(f"decision {index}: the trace has the decisions 0 to {len(self) - 1}")
         index %= len(self)
         row = Row(*self.log[index].item())
+        first, last = self._beam(row.first), self._beam(row.last)
+        beam = self._beam(row.beam) if row.beam >= 0 else -1
         placed = self._effect(row) == "placed"
         return Decision(
             index=index,
@@ -159,9 +162,9 @@ class Trace:
             candidate=row.candidate,
             partner=-1 if placed else row.partner,
             direction=row.direction,
-            first=self._beam(row.first),
-            last=self._beam(row.last),
-            beam=self._beam(row.beam) if row.beam >= 0 else -1,
+            first=first,
+            last=last,
+            beam=beam,
             points=row.points,
             line=row.line,
             other=row.other if row.partner >= 0 and not placed else None,
@@ -169,16 +172,14 @@ class Trace:
             value=row.limit if placed else row.value,
             limit=row.limit,
             ends=(*row.other, row.value) if placed else None,
-            text=self._sentence(row),
+            text=self._sentence(row, first, last, beam),
         )
 
-    def kind(self, index: int) -> str:
-        """Of one decision."""
-        return self.vocabulary.names[self.log["kind"][index]]
-
-    def text(self, index: int) -> str:
-        """The sentence of one decision, for a fraction of what the whole decision costs."""
-        return self._sentence(Row(*self.log[index].item()))
+    def texts(self, indices: NDArray[np.integer]) -> list[str]:
+        """The sentences of some decisions, for a fraction of what the whole decisions cost."""
+        rows = self.log[indices]
+        beams = self.as_beams(np.array([rows["first"], rows["last"], rows["beam"]])).T.tolist()
+        return [self._sentence(Row(*row), *where) for row, where in zip(rows.tolist(), beams, strict=True)]
 
     def beams(self, first: int, last: int) -> NDArray[np.intp]:
         """The valid beams from beam `first` to beam `last`, both inclusive, across the seam where last < first."""
@@ -190,8 +191,8 @@ class Trace:
     def as_beams(self, positions: NDArray[np.integer]) -> NDArray[np.int64]:
         """Beams at the positions of `log`; what is negative, none, becomes −1."""
         if not len(self._beams):
-            return np.full(len(positions), -1, dtype=np.int64)
-        return np.where(positions < 0, -1, self._beams[np.clip(positions, 0, len(self._beams) - 1)])
+            return np.full(positions.shape, -1, dtype=np.int64)
+        return np.where(positions < 0, -1, self._beams.take(positions, mode="clip"))
 
     @cached_property
     def phases(self) -> NDArray[np.int64]:
@@ -261,8 +262,8 @@ class Trace:
     def _beam(self, position: int) -> int:
         return int(self._beams[min(max(position, 0), len(self._beams) - 1)])
 
-    def _sentence(self, row: Row) -> str:
-        first, last, beam = self._beam(row.first), self._beam(row.last), self._beam(row.beam)
+    def _sentence(self, row: Row, first: int, last: int, beam: int) -> str:
+        """first, last, beam: the beams at the row's positions; −1 for a beam: none."""
         sentence = Sentence(first, last, beam, row.points, self.vocabulary.checks[row.check], row.value, row.limit)
         return sentence.fill(self.vocabulary.kinds[row.kind].text)
 
@@ -325,7 +326,7 @@ class Sentence(NamedTuple):
     limit: float
 
     def fill(self, text: str) -> str:
-        span, angle = f"beams {self.first}–{self.last}", f"{np.degrees(self.value):.1f}°"
+        span, angle = f"beams {self.first}–{self.last}", f"{math.degrees(self.value):.1f}°"
         return text.format(**self._asdict(), span=span, angle=angle, lack=lack(self.check, self.value, self.limit))
 
 
@@ -339,4 +340,4 @@ def lack(check: str, value: float, limit: float) -> str:
 
 
 def metres(value: float) -> str:
-    return f"{value:.3f} m" if np.isfinite(value) else "infinitely far"
+    return f"{value:.3f} m" if math.isfinite(value) else "infinitely far"

@@ -18,11 +18,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from .colours import SEGMENTS, segment_hues
 from .scan import Scan
-from .segment import Dropped, Extraction
+from .segment import Dropped, Extraction, Segment
 
 try:
     import rerun as rr
@@ -52,8 +52,7 @@ def segments(extraction: Extraction) -> rr.LineStrips3D:
     found = extraction.segments
     colours = SEGMENTS[segment_hues(found)]
     labels = [f"beams {segment.first}–{segment.last}, {segment.length:.2f} m" for segment in found]
-    ends = strips([segment.start for segment in found], [segment.end for segment in found])
-    return rr.LineStrips3D(ends, colors=colours, radii=LINE, labels=labels, show_labels=False)
+    return rr.LineStrips3D(segment_strips(found), colors=colours, radii=LINE, labels=labels, show_labels=False)
 
 
 def points(scan: Scan, extraction: Extraction) -> rr.Points3D:
@@ -69,10 +68,20 @@ def dropped(scan: Scan, candidates: Sequence[Dropped]) -> rr.LineStrips3D:
     return rr.LineStrips3D(ends, colors=[NO_LINE], radii=THIN)
 
 
+def hues_of(extraction: Extraction) -> NDArray[np.uint16]:
+    """(segments,): 1 + which of SEGMENTS each has."""
+    return np.array(segment_hues(extraction.segments), dtype=np.uint16) + np.uint16(1)
+
+
 def hue_of_beams(extraction: Extraction) -> NDArray[np.uint16]:
-    """(beams,): 0 for a beam without a segment, else 1 + which of SEGMENTS its segment has."""
-    hues = np.array([*segment_hues(extraction.segments), -1], dtype=np.int32) + 1
-    return hues[extraction.labels].astype(np.uint16)
+    """(beams,): as `hues_of`; 0 for a beam without a segment."""
+    return np.append(hues_of(extraction), np.uint16(0))[extraction.labels]
+
+
+def segment_strips(found: Sequence[Segment]) -> NDArray[np.float32]:
+    """(n, 2, 3): each from its start to its end."""
+    ends = [(segment.start, segment.end) for segment in found]
+    return raised(np.array(ends, dtype=float).reshape(-1, 2, 2))
 
 
 def dropped_strips(scan: Scan, candidates: Sequence[Dropped]) -> NDArray[np.float32]:
@@ -82,12 +91,8 @@ def dropped_strips(scan: Scan, candidates: Sequence[Dropped]) -> NDArray[np.floa
     return found[np.isfinite(found).all(axis=(1, 2))]
 
 
-def strips(starts: ArrayLike, ends: ArrayLike) -> NDArray[np.float32]:
-    """(n, 2, 3): a strip of two points from each start (n, 2) to its end."""
-    both = (np.asarray(starts, float).reshape(-1, 2), np.asarray(ends, float).reshape(-1, 2))
-    return raised(np.stack(both, axis=1))
-
-
 def raised(xy: NDArray) -> NDArray[np.float32]:
     """(…, 2) → (…, 3) with z = 0."""
-    return np.concatenate((xy, np.zeros((*xy.shape[:-1], 1))), axis=-1).astype(np.float32)
+    xyz = np.zeros((*xy.shape[:-1], 3), np.float32)
+    xyz[..., :2] = xy
+    return xyz

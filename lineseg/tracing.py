@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from functools import cached_property
 
 import numpy as np
@@ -96,10 +97,9 @@ class GrowthTrace(Trace):
         after = int(growth[-1]) + 1
         return after + int(after < len(self) and self.log["kind"][growth[-1]] == GROWTH_STOPPED)
 
-    def _sentence(self, row: Row) -> str:
+    def _sentence(self, row: Row, first: int, last: int, beam: int) -> str:
         kind, check, value, limit = row.kind, row.check, row.value, row.limit
-        last, beam = self._beam(row.last), self._beam(row.beam)
-        span = self._span(row)
+        span = f"beams {first}–{last}"
         way = _way(row)
         if kind == SEED_REJECTED:
             return f"seed rejected: {span}; {refusal(beam, check, value, limit)}"
@@ -247,4 +247,4 @@ def _margin(margin: float) -> str:
 
 
 def _degrees(radians: float) -> str:
-    return f"{np.degrees(radians):.1f}°"
+    return f"{math.degrees(radians):.1f}°"

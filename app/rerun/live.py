@@ -18,13 +18,13 @@ import numpy as np
 import rerun as rr
 
 from lineseg import Recording
-from lineseg.rerun import dropped_strips, hue_of_beams, raised, strips
+from lineseg.rerun import dropped_strips, hue_of_beams, hues_of, raised, segment_strips
 
 from ..findings import Findings
 from ..replay import state_at
 from ..view import View
 from .layout import announce, parameters
-from .record import hues_of, seed_beams
+from .record import seed_beams
 from .viewer import executable, quiet_environment
 
 log = logging.getLogger(__name__)
@@ -114,9 +114,7 @@ class LiveRerun:
         stream.set_time("shown", timestamp=time.time())
         hues = hue_of_beams(found.extraction)[scan.valid]
         stream.log("laser/points", rr.Points3D.from_fields(positions=raised(scan.xy[scan.valid]), class_ids=hues))
-        segments = found.extraction.segments
-        ends = strips([segment.start for segment in segments], [segment.end for segment in segments])
-        classes = hues_of(found.extraction)
+        ends, classes = segment_strips(found.extraction.segments), hues_of(found.extraction)
         stream.log("laser/segments", rr.LineStrips3D.from_fields(strips=ends, class_ids=classes))
         dropped = dropped_strips(scan, found.extraction.dropped)
         stream.log("laser/dropped", rr.LineStrips3D.from_fields(strips=dropped))
@@ -134,13 +132,13 @@ class LiveRerun:
 
     def _send_step(self, stream: rr.RecordingStream, view: View, found: Findings) -> None:
         """The decision under view, and the lines that stand after it; nothing where the whole result is shown."""
-        starts = ends = np.empty((0, 2))
+        ends = np.empty((0, 2, 2))
         if view.step is not None:
             decision = found.trace[view.step]
             stream.log("decisions", rr.TextLog(decision.text, level="INFO"))
             state = state_at(found, view.step)
-            starts, ends = state.starts, state.ends
-        stream.log("laser/replay/lines", rr.LineStrips3D.from_fields(strips=strips(starts, ends)))
+            ends = np.stack((state.starts, state.ends), axis=1)
+        stream.log("laser/replay/lines", rr.LineStrips3D.from_fields(strips=raised(ends)))
 
 
 def _hung_up(line: socket.socket) -> bool:

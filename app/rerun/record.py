@@ -2,24 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import chain
 from pathlib import Path
 
 import numpy as np
 import rerun as rr
 from numpy.typing import NDArray
 
-from lineseg import EXTRACTORS, SCORES, Extraction, Recording, Thresholds, Trace
-from lineseg.colours import segment_hues
-from lineseg.rerun import dropped_strips, hue_of_beams, raised, strips
+from lineseg import EXTRACTORS, SCORES, Recording, Thresholds, Trace
+from lineseg.decisions import Kind
+from lineseg.rerun import dropped_strips, hue_of_beams, hues_of, raised, segment_strips
 from lineseg.survey import survey
 
 from ..palette import LIGHT
 from ..picture import truth
 from ..replay import foot, is_line
 from .layout import POINTS_OF, announce
-from .rows import Moment, Rows
+from .rows import Moments, send_rows, times
 
 BLOCK = 128
 # What becomes of lines; the other decisions come by the hundred in a frame, only a recording of all steps has them.
@@ -61,131 +62,141 @@ def save(run: Run, path: Path, progress: Progress = lambda done, total: None) ->
 def send(run: Run, stream: rr.RecordingStream, progress: Progress = lambda done, total: None) -> None:
     """Send `run` to a stream of rerun."""
     announce(stream, run.recording, run.label, run.method, run.params, run.frames, run.steps)
-    tables = Tables(run)
-    for done, frame in enumerate(run.frames):
-        progress(done, len(run.frames))
-        tables.add(frame)
-        if done % BLOCK == BLOCK - 1:
-            tables.send(stream)
-    tables.send(stream)
-    for name, values in tables.scores().items():
-        moments = [tables.moment(frame) for frame in run.frames]
-        rows = Rows(f"scores/{name}", rr.Scalars.columns)
-        for moment, value in zip(moments, values, strict=True):
-            rows.add(moment, scalars=np.array([value], dtype=np.float64))
-        rows.send(stream)
-    progress(len(run.frames), len(run.frames))
-
-
-class Tables:
-    """The rows of every entity."""
-
-    def __init__(self, run: Run) -> None:
-        self._run = run
-        stamps = np.asarray(run.recording.stamps)[run.frames.start : run.frames.stop]
-        # A file without stamps has the same for every frame.
-        self._stamped = bool(np.isfinite(stamps).all() and (np.ptp(stamps) > 0 if len(stamps) else False))
-        self._steps = 0
-        self._points = Rows(POINTS_OF["points"], rr.Points3D.columns)
-        self._seeds = Rows(POINTS_OF["seeds"], rr.Points3D.columns)
-        self._segments = Rows("laser/segments", rr.LineStrips3D.columns)
-        self._dropped = Rows("laser/dropped", rr.LineStrips3D.columns)
-        self._truth = Rows("laser/truth", rr.LineStrips3D.columns)
-        self._decisions = Rows("decisions", rr.TextLog.columns)
-        self._replay = Replay() if run.steps else None
-
-    def moment(self, frame: int, step: int | None = None) -> Moment:
-        stamp = float(self._run.recording.stamps[frame]) if self._stamped else None
-        return Moment(frame, stamp, step if self._run.steps else None)
-
-    def add(self, frame: int) -> None:
-        run = self._run
-        scan = run.recording[frame]
-        trace = EXTRACTORS[run.method].trace(scan, run.params)
-        found, here = trace.extraction, self.moment(frame)._replace(step=None)
-        hues = hue_of_beams(found)[scan.valid]
-        self._points.add(self.moment(frame, self._steps), positions=raised(scan.xy[scan.valid]), class_ids=hues)
-        starts, ends = [s.start for s in found.segments], [s.end for s in found.segments]
-        self._segments.add(here, strips=strips(starts, ends), class_ids=hues_of(found))
-        self._dropped.add(here, strips=dropped_strips(scan, found.dropped))
+    total, steps = len(run.frames), 0
+    for start in range(0, total, BLOCK):
+        frames = run.frames[start : start + BLOCK]
+        traces = []
+        for done, frame in enumerate(frames, start):
+            progress(done, total)
+            traces.append(EXTRACTORS[run.method].trace(run.recording[frame], run.params))
+        begins = steps + np.cumsum([0, *map(len, traces)])
+        steps = begins[-1]
+        here = moments_of(run, frames)
+        stepped = here._replace(step=begins[:-1]) if run.steps else here
+        send_points(stream, traces, stepped)
+        send_result(stream, traces, here)
         if run.recording.walls is not None and run.recording.poses is not None:
-            self._truth.add(here, strips=truth(run.recording, frame, LIGHT).xyz)
-        self._seeds.add(here, positions=raised(scan.xy[seed_beams(trace)]))
-        for index in range(len(trace)) if run.steps else notable(trace):
-            level = level_of(trace, trace.kind(index))
-            self._decisions.add(self.moment(frame, self._steps + index), text=[trace.text(index)], level=[level])
-        if self._replay is not None:
-            self._replay.add(trace, self._steps)
-            self._steps += len(trace)
-
-    def send(self, stream: rr.RecordingStream) -> None:
-        replay = () if self._replay is None else self._replay.rows
-        for rows in (self._points, self._seeds, self._segments, self._dropped, self._truth, self._decisions, *replay):
-            rows.send(stream)
-
-    def scores(self) -> dict[str, NDArray]:
-        """(frames,) by name."""
-        recording, frames = self._run.recording, self._run.frames
-        # Some scores compare a frame with those beside it.
-        first, stop = max(frames.start - 1, 0), min(frames.stop + 1, len(recording))
-        surveyed = survey(recording.only(np.arange(first, stop)), self._run.params)
-        return {name: surveyed.score(name)[frames.start - first : frames.stop - first] for name in SCORES}
+            walls = [truth(run.recording, frame, LIGHT).xyz for frame in frames]
+            send_rows(stream, "laser/truth", here, rr.LineStrips3D.columns, strips=walls)
+        send_decisions(stream, traces, stepped)
+        if run.steps:
+            send_replay(stream, traces, Moments(step=begins[:-1]))
+    if run.frames:
+        send_scores(stream, run)
+    progress(total, total)
 
 
-class Replay:
-    """What a decision looks at, on the timeline `step` alone."""
-
-    def __init__(self) -> None:
-        self._line = Rows("laser/replay/line", rr.LineStrips3D.columns)
-        self._beam = Rows("laser/replay/beam", rr.Points3D.columns)
-        self._lines = Rows("laser/replay/lines", rr.LineStrips3D.columns)
-
-    @property
-    def rows(self) -> tuple[Rows, ...]:
-        return self._line, self._beam, self._lines
-
-    def add(self, trace: Trace, first_step: int) -> None:
-        xy = trace.scan.xy
-        for decision in trace:
-            here = Moment(step=first_step + decision.index)
-            ends = xy[[decision.first, decision.last]]
-            shown = [foot(ends, decision.line)] if is_line(decision.line) else []
-            self._line.add(here, strips=raised(np.array(shown).reshape(-1, 2, 2)))
-            self._beam.add(here, positions=raised(xy[[decision.beam]] if decision.beam >= 0 else xy[:0]))
-            if is_notable(trace, decision.kind) or decision.index == 0:
-                lines = trace.lines_at(decision.index)
-                ends = [foot(xy[[line.first, line.last]], line.line) for line in lines]
-                self._lines.add(here, strips=raised(np.array(ends).reshape(-1, 2, 2)))
+def moments_of(run: Run, frames: range) -> Moments:
+    """Frames of the run on the timelines `frame` and, where the file has stamps, `stamp`."""
+    stamps = np.asarray(run.recording.stamps, dtype=float)
+    recorded = stamps[run.frames.start : run.frames.stop]
+    # A file without stamps has the same for every frame.
+    stamped = np.isfinite(recorded).all() and np.ptp(recorded) > 0
+    return Moments(np.array(frames), stamps[frames.start : frames.stop] if stamped else None)
 
 
-def hues_of(extraction: Extraction) -> NDArray[np.uint16]:
-    """(segments,): as `hue_of_beams`."""
-    return np.array(segment_hues(extraction.segments), dtype=np.uint16) + np.uint16(1)
+def send_points(stream: rr.RecordingStream, traces: Sequence[Trace], here: Moments) -> None:
+    """The valid points, each in the class of its segment."""
+    points = [raised(trace.scan.xy[trace.scan.valid]) for trace in traces]
+    hues = [hue_of_beams(trace.extraction)[trace.scan.valid] for trace in traces]
+    send_rows(stream, POINTS_OF["points"], here, rr.Points3D.columns, positions=points, class_ids=hues)
 
 
-def notable(trace: Trace) -> list[int]:
+def send_result(stream: rr.RecordingStream, traces: Sequence[Trace], here: Moments) -> None:
+    """The seeds, the segments, and the candidates that were dropped."""
+    seeds = [raised(trace.scan.xy[seed_beams(trace)]) for trace in traces]
+    send_rows(stream, POINTS_OF["seeds"], here, rr.Points3D.columns, positions=seeds)
+    segments = [segment_strips(trace.extraction.segments) for trace in traces]
+    hues = [hues_of(trace.extraction) for trace in traces]
+    send_rows(stream, "laser/segments", here, rr.LineStrips3D.columns, strips=segments, class_ids=hues)
+    dropped = [dropped_strips(trace.scan, trace.extraction.dropped) for trace in traces]
+    send_rows(stream, "laser/dropped", here, rr.LineStrips3D.columns, strips=dropped)
+
+
+def send_decisions(stream: rr.RecordingStream, traces: Sequence[Trace], here: Moments) -> None:
+    """What is decided, in words; every decision where frames stand on the timeline `step`."""
+    told = [notable(trace) if here.step is None else np.arange(len(trace)) for trace in traces]
+    levels = np.array([level_of(kind) for kind in traces[0].vocabulary.kinds])
+    kinds = np.concatenate([trace.log["kind"][indices] for trace, indices in zip(traces, told, strict=True)])
+    texts = [text for trace, indices in zip(traces, told, strict=True) for text in trace.texts(indices)]
+    if texts:
+        moments = times(here.of_decisions(told))
+        stream.send_columns("decisions", moments, rr.TextLog.columns(text=texts, level=levels[kinds]))
+
+
+def send_replay(stream: rr.RecordingStream, traces: Sequence[Trace], begins: Moments) -> None:
+    """What the decisions look at, and the lines there are whenever they change; begins: where each frame does."""
+    if not any(map(len, traces)):
+        return
+    steps = times(begins.of_decisions([np.arange(len(trace)) for trace in traces]))
+    lined, feet = map(np.concatenate, zip(*map(fitted_lines, traces), strict=True))
+    strips = rr.LineStrips3D.columns(strips=raised(feet))
+    stream.send_columns("laser/replay/line", steps, strips.partition(lined))
+    pointed, points = map(np.concatenate, zip(*map(decided_points, traces), strict=True))
+    positions = rr.Points3D.columns(positions=raised(points))
+    stream.send_columns("laser/replay/beam", steps, positions.partition(pointed))
+    changes = [np.union1d(np.arange(len(trace))[:1], notable(trace)) for trace in traces]
+    lines = [standing_lines(trace, index) for trace, indices in zip(traces, changes, strict=True) for index in indices]
+    send_rows(stream, "laser/replay/lines", begins.of_decisions(changes), rr.LineStrips3D.columns, strips=lines)
+
+
+def fitted_lines(trace: Trace) -> tuple[NDArray[np.bool_], NDArray[np.float64]]:
+    """(decisions,) which of them have a line; and (n, 2, 2) the part of it beside the window of each that has."""
+    log = trace.log
+    lines = np.array([log["a"], log["b"], log["c"]])
+    there = is_line(lines)
+    ends = trace.as_beams(np.array([log["first"], log["last"]]))[:, there]
+    return there, foot(trace.scan.xy[ends], lines[:, there]).swapaxes(0, 1)
+
+
+def decided_points(trace: Trace) -> tuple[NDArray[np.bool_], NDArray[np.float64]]:
+    """(decisions,) which of them are on one point; and (n, 2) those points."""
+    beams = trace.as_beams(trace.log["beam"])
+    there = beams >= 0
+    return there, trace.scan.xy[beams[there]]
+
+
+def standing_lines(trace: Trace, index: int) -> NDArray[np.float32]:
+    """(n, 2, 3): the lines there are after a decision."""
+    lines = trace.lines_at(index)
+    ends = [foot(trace.scan.xy[[line.first, line.last]], line.line) for line in lines]
+    return raised(np.array(ends).reshape(-1, 2, 2))
+
+
+def send_scores(stream: rr.RecordingStream, run: Run) -> None:
+    """The scores of every frame."""
+    recording, frames = run.recording, run.frames
+    # Some scores compare a frame with those beside it.
+    first, stop = max(frames.start - 1, 0), min(frames.stop + 1, len(recording))
+    surveyed = survey(recording.only(np.arange(first, stop)), run.params)
+    moments = times(moments_of(run, frames))
+    for name in SCORES:
+        values = surveyed.score(name)[frames.start - first : frames.stop - first]
+        stream.send_columns(f"scores/{name}", moments, rr.Scalars.columns(scalars=values))
+
+
+def notable(trace: Trace) -> NDArray[np.intp]:
     """Indices of the decisions by which lines come and go."""
-    wanted = [number for number, kind in enumerate(trace.vocabulary.names) if is_notable(trace, kind)]
-    return np.flatnonzero(np.isin(trace.log["kind"], wanted)).tolist()
+    wanted = np.array([is_notable(kind) for kind in trace.vocabulary.kinds])
+    return np.flatnonzero(wanted[trace.log["kind"]])
 
 
-def is_notable(trace: Trace, kind: str) -> bool:
-    return kind == "lines kept apart" or trace.vocabulary.jump_of(kind) in NOTABLE
+def is_notable(kind: Kind) -> bool:
+    return kind.jump in NOTABLE or kind.name == "lines kept apart"
 
 
-def level_of(trace: Trace, kind: str) -> str:
-    if trace.vocabulary.jump_of(kind) == "drop":
+def level_of(kind: Kind) -> str:
+    if kind.jump == "drop":
         return "WARN"
-    return "INFO" if is_notable(trace, kind) else "TRACE"
+    return "INFO" if is_notable(kind) else "TRACE"
 
 
 def seed_beams(trace: Trace) -> NDArray[np.int64]:
     """The beams of the windows from which the lines grew that were kept to the end; none where there are no seeds."""
     if "seed found" not in trace.vocabulary.names:
         return np.empty(0, np.int64)
-    kept = trace.log["candidate"][trace.indices("endpoints")]
+    kept = set(trace.log["candidate"][trace.indices("endpoints")].tolist())
     found = trace.log[trace.indices("seed found")]
-    windows = found[np.isin(found["candidate"], kept)]
-    first, points = windows["first"], windows["last"] - windows["first"] + 1
-    within = np.arange(points.sum()) - np.repeat(np.cumsum(points) - points, points)
-    return trace.as_beams(np.repeat(first, points) + within)
+    windows = zip(*(found[name].tolist() for name in ("candidate", "first", "last")), strict=True)
+    positions = [range(first, last + 1) for candidate, first, last in windows if candidate in kept]
+    return trace.as_beams(np.array(list(chain.from_iterable(positions)), dtype=np.int64))

@@ -1,57 +1,58 @@
-"""Rows of one entity, gathered so that many frames cross into rerun in one call."""
+"""Rows of one entity, many frames of them in one call."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any, NamedTuple
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
 
 import numpy as np
 import rerun as rr
+from numpy.typing import NDArray
 
 # Stamps later than this are seconds since 1970, by which rerun shows a date; earlier ones are a clock of their own.
 A_DATE = 1e8
 
 
-class Moment(NamedTuple):
-    """Where a row stands on each timeline; None: not on this one."""
+class Moments(NamedTuple):
+    """Where rows stand on each timeline, (rows,) each; None: not on this one."""
 
-    frame: int | None = None
-    stamp: float | None = None
-    step: int | None = None
+    frame: NDArray[np.int64] | None = None
+    stamp: NDArray[np.float64] | None = None
+    step: NDArray[np.int64] | None = None
 
-
-class Rows:
-    """Rows of `entity`: each holds any number of points, strips or texts, at a moment."""
-
-    def __init__(self, entity: str, columns: Callable[..., Any]) -> None:
-        self._entity, self._columns = entity, columns
-        self._moments: list[Moment] = []
-        self._parts: list[dict[str, Any]] = []
-
-    def add(self, moment: Moment, **values: Any) -> None:
-        """values: of one row, all of the same length."""
-        self._moments.append(moment)
-        self._parts.append(values)
-
-    def send(self, stream: rr.RecordingStream) -> None:
-        """Send what was gathered, and gather anew."""
-        if self._parts:
-            counts = [len(next(iter(part.values()))) for part in self._parts]
-            values = {name: np.concatenate([part[name] for part in self._parts]) for name in self._parts[0]}
-            stream.send_columns(self._entity, times(self._moments), self._columns(**values).partition(counts))
-        self._moments, self._parts = [], []
+    def of_decisions(self, indices: Sequence[NDArray[np.intp]]) -> Moments:
+        """Of decisions, where these are of the frames they are in; indices: of each frame, each a step."""
+        counts = [len(each) for each in indices]
+        begun = {name: np.repeat(values, counts) for name, values in self._asdict().items() if values is not None}
+        if self.step is not None:
+            begun["step"] += np.concatenate(indices)
+        return Moments(**begun)
 
 
-def times(moments: list[Moment]) -> list[rr.TimeColumn]:
-    """A column for each timeline that the first moment, and so every one, stands on."""
+def send_rows(
+    stream: rr.RecordingStream,
+    entity: str,
+    moments: Moments,
+    columns: Callable[..., rr.ComponentColumnList],
+    **values: Sequence[NDArray],
+) -> None:
+    """Send a row for each moment, which holds any number of points or strips.
+
+    values: (rows,) each; those of one row are of the same length.
+    """
+    counts = list(map(len, next(iter(values.values()))))
+    joined = {name: np.concatenate(parts) for name, parts in values.items()}
+    stream.send_columns(entity, times(moments), columns(**joined).partition(counts))
+
+
+def times(moments: Moments) -> list[rr.TimeColumn]:
+    """A column for each timeline that the rows stand on."""
     columns = []
-    for name, values in zip(Moment._fields, zip(*moments, strict=True), strict=True):
-        if values[0] is None:
-            continue
-        if name != "stamp":
-            columns.append(rr.TimeColumn(name, sequence=values))
-        elif values[0] > A_DATE:
-            columns.append(rr.TimeColumn(name, timestamp=np.array(values)))
-        else:
-            columns.append(rr.TimeColumn(name, duration=np.array(values)))
+    if moments.frame is not None:
+        columns.append(rr.TimeColumn("frame", sequence=moments.frame))
+    if moments.stamp is not None:
+        kind = "timestamp" if moments.stamp[0] > A_DATE else "duration"
+        columns.append(rr.TimeColumn("stamp", **{kind: moments.stamp}))
+    if moments.step is not None:
+        columns.append(rr.TimeColumn("step", sequence=moments.step))
     return columns

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 import rerun as rr
 from lineseg_app.__main__ import main
+from lineseg_app.replay import foot, is_line
 from lineseg_app.rerun.record import Run, notable, save
 from rerun.chunk import RrdReader
 from rrd import rows_of
@@ -104,11 +105,28 @@ def test_steps_are_a_timeline_of_all_decisions_that_ends_each_frame_in_its_segme
     traces = [trace(hallway[frame]) for frame in range(2)]
     decisions = rows_of(file, "/decisions")
     assert [row["step"] for row in decisions] == list(range(sum(map(len, traces))))
-    assert decisions[len(traces[0])]["text"] == [traces[1][0].text]
+    assert [row["text"][0] for row in decisions] == [each.text for one in traces for each in one]
     assert decisions[len(traces[0])]["frame"] == 1
     standing = [row for row in rows_of(file, "/laser/replay/lines") if row.get("step") is not None]
     last = max((row for row in standing if row["step"] < len(traces[0])), key=lambda row: row["step"])
     assert len(last["strips"]) == len(traces[0].extraction.segments)
+
+
+def test_a_step_shows_the_line_beside_its_window_and_the_point_decided_on(hallway: Recording, tmp_path: Path):
+    file = tmp_path / "steps.rrd"
+    save(Run(hallway, "hallway", "region-growing", Params(), range(5, 6), steps=True), file)
+    xy = hallway[5].xy
+    lines, points = (
+        {row["step"]: row for row in rows_of(file, f"/laser/replay/{name}") if row.get("step") is not None}
+        for name in ("line", "beam")
+    )
+    for decision in trace(hallway[5]):
+        window = xy[[decision.first, decision.last]]
+        feet = [foot(window, decision.line)] if is_line(decision.line) else []
+        shown = np.array(lines[decision.index]["strips"], dtype=float).reshape(-1, 2, 3)
+        np.testing.assert_allclose(shown[..., :2], np.reshape(feet, (-1, 2, 2)), atol=1e-5)
+        point = np.array(points[decision.index]["positions"], dtype=float).reshape(-1, 3)
+        np.testing.assert_allclose(point[:, :2], xy[[decision.beam] if decision.beam >= 0 else []], atol=1e-5)
 
 
 def test_a_recording_is_little_larger_than_the_arrays_in_it(recorded: Path, hallway: Recording):
