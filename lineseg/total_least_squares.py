@@ -114,8 +114,10 @@ def signed_distance(line, x, y):
 @summing_kernel
 def squares_of(x, y, first, last, line):
     """Sum of the squared distances of the points first..last to a line with unit normal (Eq. 2)."""
+    # Of a slice it is known that no index counts from its end: several points are then taken at a time.
+    x, y = x[first : last + 1], y[first : last + 1]
     total = 0.0
-    for k in range(first, last + 1):
+    for k in range(len(x)):
         total += signed_distance(line, x[k], y[k]) ** 2
     return total
 
