@@ -87,21 +87,22 @@ def line_of(m):
 
 @kernel
 def is_nearer(m, x, y, limit):
-    """Whether (x, y) lies nearer than `limit` to the line fitted to m (Eqs. 2, 3), without a division.
+    """Whether (x, y) lies nearer than `limit` to the line fitted to m (Eqs. 2, 3), without a division or a root.
 
     With p the point relative to the mean and φ the direction of the line, its distance d has
     2·d² = |p|² − (px² − py²)·cos 2φ − 2·px·py·sin 2φ, and (cos 2φ, sin 2φ) has the direction of (xx − yy, 2·xy) of the
-    scatter matrix. This is asked once for every point that a line takes.
+    scatter matrix. Both sides are compared by their squares, with their signs. This is asked once for every point that
+    a line takes.
     """
     px, py = m.n * (x - m.x0) - m.sx, m.n * (y - m.y0) - m.sy
     cosine = m.n * (m.sxx - m.syy) - (m.sx * m.sx - m.sy * m.sy)
     sine = 2.0 * (m.n * m.sxy - m.sx * m.sy)
-    norm = math.sqrt(cosine * cosine + sine * sine)
+    norm = cosine * cosine + sine * sine
     along = (px * px - py * py) * cosine + 2.0 * px * py * sine
     reach = limit * m.n
     beyond = px * px + py * py - 2.0 * reach * reach
     # Points that all coincide have no direction; what lies next to them joins.
-    return along > norm * beyond or (norm == 0.0 and beyond < 0.0)
+    return along * abs(along) > norm * (beyond * abs(beyond)) or (norm == 0.0 and beyond < 0.0)
 
 
 @kernel
