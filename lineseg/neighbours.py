@@ -141,8 +141,9 @@ def turn_between(here, there, votes):
     best, most = VOTES // 2, 0.0
     for k in range(1, VOTES - 1):
         total = votes[k - 1] + votes[k] + votes[k + 1]
-        # Of equals the smaller turn.
-        if total > most * (1.0 + 1e-9) or (total == most and abs(k - VOTES // 2) < abs(best - VOTES // 2)):
+        # Of equals the smaller turn; sums of the same lengths in another order are equal.
+        smaller = abs(k - VOTES // 2) < abs(best - VOTES // 2)
+        if total > most * (1.0 + 1e-9) or (smaller and total >= most * (1.0 - 1e-9)):
             best, most = k, total
     if most == 0.0:
         return 0.0
