@@ -41,17 +41,28 @@ def remove(m, x, y):
     return Moments(m.x0, m.y0, m.n - 1.0, m.sx - dx, m.sy - dy, m.sxx - dx * dx, m.sxy - dx * dy, m.syy - dy * dy)
 
 
-def _moments_of(x, y, first, last):
+@summing_kernel
+def moments_of(x, y, first, last):
     """Moments of the points first..last, about the first of them."""
+    x0, y0 = x[first], y[first]
+    # Of a slice it is known that no index counts from its end: several points are then taken at a time.
+    x, y = x[first : last + 1], y[first : last + 1]
+    sx = sy = sxx = sxy = syy = 0.0
+    for k in range(len(x)):
+        # Not by `add`, which is compiled to sum in its order.
+        dx, dy = x[k] - x0, y[k] - y0
+        sx, sy = sx + dx, sy + dy
+        sxx, sxy, syy = sxx + dx * dx, sxy + dx * dy, syy + dy * dy
+    return Moments(x0, y0, float(len(x)), sx, sy, sxx, sxy, syy)
+
+
+@inlined_kernel
+def moments_of_few(x, y, first, last):
+    """The same for so few points that adding them one by one is the fastest."""
     m = empty(x[first], y[first])
     for k in range(first, last + 1):
         m = add(m, x[k], y[k])
     return m
-
-
-moments_of = summing_kernel(_moments_of)
-# For so few points that adding them one by one is the fastest.
-moments_of_few = inlined_kernel(_moments_of)
 
 
 @kernel
