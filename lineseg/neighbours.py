@@ -50,10 +50,13 @@ def compare_frames(segments, offsets, views, start, stop, votes, brief, gone, ju
             for i in range(len(here)):
                 if is_brief(here[i], before, back, behind, forth):
                     brief[frame] += here[i].length
-            if lacks_one(before, here, come):
-                past = motion_between(before, behind, votes)
-                for i in range(len(before)):
-                    if is_gone(before[i], here, come, behind, past, views[frame]):
+            past, sought = come, False
+            for i in range(len(before)):
+                if is_lost(before[i], here, come, views[frame]):
+                    # Most frames lose nothing, and this motion need not be known.
+                    if not sought:
+                        past, sought = motion_between(before, behind, votes), True
+                    if is_among(before[i], behind, past):
                         gone[frame] += before[i].length
             jolt[frame] = abs(math.asin(forth[1] * come[0] - forth[0] * come[1]))
 
@@ -89,8 +92,13 @@ def is_brief(segment, before, back, behind, forth):
 
 @kernel
 def is_gone(segment, here, to_here, behind, to_behind, view):
-    seen = is_in_view(segment, to_here, view)
-    return seen and not is_among(segment, here, to_here) and is_among(segment, behind, to_behind)
+    return is_lost(segment, here, to_here, view) and is_among(segment, behind, to_behind)
+
+
+@kernel
+def is_lost(segment, here, to_here, view):
+    """Whether this frame lacks a segment of the frame before, though it looks there."""
+    return not is_among(segment, here, to_here) and is_in_view(segment, to_here, view)
 
 
 @kernel
@@ -98,15 +106,6 @@ def is_in_view(segment, motion, view):
     """Whether there are beams to the middle of a moved segment."""
     x1, y1, x2, y2 = moved(segment, motion)
     return (math.atan2(y1 + y2, x1 + x2) - view[0]) % (2.0 * math.pi) <= view[1] - view[0]
-
-
-@kernel
-def lacks_one(segments, others, motion):
-    """Whether some of the segments is not among the others."""
-    found = 0
-    for i in range(len(segments)):
-        found += not is_among(segments[i], others, motion)
-    return found > 0
 
 
 @kernel
@@ -142,8 +141,9 @@ def turn_between(here, there, votes):
     best, most = VOTES // 2, 0.0
     for k in range(1, VOTES - 1):
         total = votes[k - 1] + votes[k] + votes[k + 1]
-        # Of equals the smaller turn.
-        if total > most * (1.0 + 1e-9) or (total == most and abs(k - VOTES // 2) < abs(best - VOTES // 2)):
+        # Of equals the smaller turn; sums of the same lengths in another order are equal.
+        smaller = abs(k - VOTES // 2) < abs(best - VOTES // 2)
+        if total > most * (1.0 + 1e-9) or (smaller and total >= most * (1.0 - 1e-9)):
             best, most = k, total
     if most == 0.0:
         return 0.0
@@ -162,11 +162,11 @@ def shifted(here, there, motion, reach):
     cos, sin, x, y = motion
     xx = xy = yy = gx = gy = total = 0.0
     for i in range(len(here)):
-        ends = moved(here[i], motion)
+        ends, normal = moved(here[i], motion), turned(here[i], motion)
         nearest, off = -1, reach
         for j in range(len(there)):
-            shared, distance = shared_with(ends, here[i], there[j], motion)
-            if shared > 0.0 and abs(distance) < abs(off):
+            shared, distance = shared_with(ends, normal, there[j], abs(off))
+            if shared > 0.0:
                 nearest, off = j, distance
         if nearest >= 0:
             line = there[nearest]
@@ -194,16 +194,22 @@ def moved(segment, motion):
 
 
 @kernel
-def shared_with(ends, segment, other, motion):
+def turned(segment, motion):
+    """The normal (a, b) of a segment's line after the motion."""
+    cos, sin, _, _ = motion
+    return cos * segment.a - sin * segment.b, sin * segment.a + cos * segment.b
+
+
+@kernel
+def shared_with(ends, normal, other, reach):
     """What of a moved segment lies beside another [m], and its middle's distance to the other's line [m].
 
-    Nothing does where they differ by more than SAME_ANGLE.
+    Nothing does where they differ by more than SAME_ANGLE, or the distance is not below `reach`.
     """
-    cross, dot = crossing(segment, other)
-    if abs(cross * motion[0] - dot * motion[1]) > SAME_ANGLE:
-        return 0.0, 0.0
-    x1, y1, x2, y2 = ends
+    (x1, y1, x2, y2), (a, b) = ends, normal
     distance = signed_distance((other.a, other.b, other.c), 0.5 * (x1 + x2), 0.5 * (y1 + y2))
+    if abs(a * other.b - b * other.a) > SAME_ANGLE or not abs(distance) < reach:
+        return 0.0, distance
     start, end = other.x1 * other.b - other.y1 * other.a, other.x2 * other.b - other.y2 * other.a
     one, two = x1 * other.b - y1 * other.a, x2 * other.b - y2 * other.a
     return min(max(start, end), max(one, two)) - max(min(start, end), min(one, two)), distance
@@ -212,9 +218,11 @@ def shared_with(ends, segment, other, motion):
 @kernel
 def is_among(segment, others, motion):
     """Whether the others, together, hold more than half of this segment."""
-    ends, held = moved(segment, motion), 0.0
+    ends, normal, held = moved(segment, motion), turned(segment, motion), 0.0
     for j in range(len(others)):
-        shared, distance = shared_with(ends, segment, others[j], motion)
-        if shared > 0.0 and abs(distance) < SAME_DISTANCE:
+        shared, _ = shared_with(ends, normal, others[j], SAME_DISTANCE)
+        if shared > 0.0:
             held += shared
-    return 2.0 * held > segment.length
+            if 2.0 * held > segment.length:
+                return True
+    return False

@@ -41,17 +41,28 @@ def remove(m, x, y):
     return Moments(m.x0, m.y0, m.n - 1.0, m.sx - dx, m.sy - dy, m.sxx - dx * dx, m.sxy - dx * dy, m.syy - dy * dy)
 
 
-def _moments_of(x, y, first, last):
+@summing_kernel
+def moments_of(x, y, first, last):
     """Moments of the points first..last, about the first of them."""
+    x0, y0 = x[first], y[first]
+    # Of a slice it is known that no index counts from its end: several points are then taken at a time.
+    x, y = x[first : last + 1], y[first : last + 1]
+    sx = sy = sxx = sxy = syy = 0.0
+    for k in range(len(x)):
+        # Not by `add`, which is compiled to sum in its order.
+        dx, dy = x[k] - x0, y[k] - y0
+        sx, sy = sx + dx, sy + dy
+        sxx, sxy, syy = sxx + dx * dx, sxy + dx * dy, syy + dy * dy
+    return Moments(x0, y0, float(len(x)), sx, sy, sxx, sxy, syy)
+
+
+@inlined_kernel
+def moments_of_few(x, y, first, last):
+    """The same for so few points that adding them one by one is the fastest."""
     m = empty(x[first], y[first])
     for k in range(first, last + 1):
         m = add(m, x[k], y[k])
     return m
-
-
-moments_of = summing_kernel(_moments_of)
-# For so few points that adding them one by one is the fastest.
-moments_of_few = inlined_kernel(_moments_of)
 
 
 @kernel
@@ -87,21 +98,22 @@ def line_of(m):
 
 @kernel
 def is_nearer(m, x, y, limit):
-    """Whether (x, y) lies nearer than `limit` to the line fitted to m (Eqs. 2, 3), without a division.
+    """Whether (x, y) lies nearer than `limit` to the line fitted to m (Eqs. 2, 3), without a division or a root.
 
     With p the point relative to the mean and φ the direction of the line, its distance d has
     2·d² = |p|² − (px² − py²)·cos 2φ − 2·px·py·sin 2φ, and (cos 2φ, sin 2φ) has the direction of (xx − yy, 2·xy) of the
-    scatter matrix. This is asked once for every point that a line takes.
+    scatter matrix. Both sides are compared by their squares, with their signs. This is asked once for every point that
+    a line takes.
     """
     px, py = m.n * (x - m.x0) - m.sx, m.n * (y - m.y0) - m.sy
     cosine = m.n * (m.sxx - m.syy) - (m.sx * m.sx - m.sy * m.sy)
     sine = 2.0 * (m.n * m.sxy - m.sx * m.sy)
-    norm = math.sqrt(cosine * cosine + sine * sine)
+    norm = cosine * cosine + sine * sine
     along = (px * px - py * py) * cosine + 2.0 * px * py * sine
     reach = limit * m.n
     beyond = px * px + py * py - 2.0 * reach * reach
     # Points that all coincide have no direction; what lies next to them joins.
-    return along > norm * beyond or (norm == 0.0 and beyond < 0.0)
+    return along * abs(along) > norm * (beyond * abs(beyond)) or (norm == 0.0 and beyond < 0.0)
 
 
 @kernel
@@ -114,8 +126,10 @@ def signed_distance(line, x, y):
 @summing_kernel
 def squares_of(x, y, first, last, line):
     """Sum of the squared distances of the points first..last to a line with unit normal (Eq. 2)."""
+    # Of a slice it is known that no index counts from its end: several points are then taken at a time.
+    x, y = x[first : last + 1], y[first : last + 1]
     total = 0.0
-    for k in range(first, last + 1):
+    for k in range(len(x)):
         total += signed_distance(line, x[k], y[k]) ** 2
     return total
 

@@ -10,6 +10,7 @@ from scenes import scan_of
 
 from lineseg import Params, Recording, Scan, open_recording, survey
 from lineseg.neighbours import VOTES, mark_frame, motion_between, reversed_motion
+from lineseg.survey import SEGMENT
 
 SAMPLES = Path(__file__).parents[1] / "sample_scans"
 WALLS = [(4, -3, 4, 3), (4, 3, -4, 3), (-4, 3, -4, -3), (-4, -3, 4, -3), (1, 1, 2, 1.6)]
@@ -48,6 +49,19 @@ def test_a_motion_reversed_leads_back():
     cos, sin, x, y = reversed_motion((np.cos(0.2), np.sin(0.2), 0.3, -0.1))
     px, py = np.cos(0.2) * 2 - np.sin(0.2) * 1 + 0.3, np.sin(0.2) * 2 + np.cos(0.2) * 1 - 0.1
     assert (cos * px - sin * py + x, sin * px + cos * py + y) == pytest.approx((2, 1))
+
+
+@pytest.mark.parametrize("other", [1.0, np.nextafter(1.0, 0), np.nextafter(1.0, 2)])
+def test_of_two_equal_turns_the_smaller_is_taken_whatever_the_rounding(other):
+    def walls(*normals_and_lengths):
+        rows = np.zeros(len(normals_and_lengths), SEGMENT)
+        for row, (normal, length) in zip(rows, normals_and_lengths, strict=True):
+            row["a"], row["b"], row["c"], row["length"] = np.cos(normal), np.sin(normal), -2.0, length
+        return rows
+
+    there = walls((-0.2, 1.0), (0.1, other))
+    cos, sin, _, _ = motion_between(walls((0.0, 2.0)), there, np.empty(VOTES))
+    assert np.arctan2(sin, cos) == pytest.approx(0.1, abs=0.02)
 
 
 @pytest.mark.parametrize("name", ["hallway", "laboratory"])

@@ -23,7 +23,7 @@ from .lines import DROPPED, LINE, Dropping, append, drop
 from .log import LINE_DROPPED, LINE_KEPT, NONE
 from .overlap import resolve_overlaps, shortfall
 from .points import Limits, points_of, unpacked
-from .seed import find_seed
+from .seed import NOWHERE, find_seed
 
 
 class Run(NamedTuple):
@@ -71,7 +71,11 @@ def grow_lines(points, limits, lines, dropped, log):
         if seed < 0:
             return count
         first, last, moments = grow(points, seed, moments, limits, candidate, log)
-        line = line_of(moments)
+        enough_points = last - first + 1 >= limits.min_points
+        line = NOWHERE
+        # Most candidates have too few points, and only the log asks for their line.
+        if enough_points or log is not None:
+            line = line_of(moments)
         check, value, limit = shortfall(points, first, last, line, limits)
         if check == NONE:
             count = append(lines, count, first, last, candidate, line)
@@ -80,7 +84,6 @@ def grow_lines(points, limits, lines, dropped, log):
         if log is not None:
             kind = LINE_KEPT if check == NONE else LINE_DROPPED
             note(log, kind, check, candidate, 0, (first, last), -1, line, value, limit)
-        enough_points = last - first + 1 >= limits.min_points
         start = last + 1 if enough_points else seed + 1
         candidate += 1
 

@@ -34,7 +34,8 @@ def look_past(x, y, ranges, beam, passed, n, limits):
 @kernel
 def range_at(ranges, beam, k):
     """ρ of point k; on a full circle beams may go on counting past the seam."""
-    return ranges[beam[k] % len(ranges)]
+    # Not by a remainder: it would take longer than all else that is asked of most points.
+    return ranges[beam[k] if beam[k] < len(ranges) else beam[k] - len(ranges)]
 
 
 @kernel
