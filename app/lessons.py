@@ -93,8 +93,12 @@ class Task(Part):
     params: dict[Name, Number] = {}
 
 
+# A lesson teaches the method of the paper.
+USUAL = {"max_occluder": 0.0, "merge_rms": 0.0}
+
+
 class Lesson(Part):
-    """params: thresholds that differ from the defaults; knobs: those the lesson offers to change."""
+    """params: thresholds that differ from USUAL and the defaults; knobs: those the lesson offers to change."""
 
     title: Annotated[str, Field(min_length=1, max_length=60)]
     about: Annotated[str, Field(min_length=1, max_length=200)]
@@ -127,7 +131,8 @@ def read_lessons(files: list[Path]) -> Lessons:
     for file in files:
         try:
             lesson = Lesson.model_validate_json(file.read_text("utf-8"))
-            lessons.append(NamedLesson(id=file.stem, **lesson.model_dump()))
+            usual = lesson.model_copy(update={"params": USUAL | lesson.params})
+            lessons.append(NamedLesson(id=file.stem, **usual.model_dump()))
         except ValidationError as error:
             broken.append(f"{file.name}: {sentence(error)}")
         except (OSError, UnicodeDecodeError) as error:

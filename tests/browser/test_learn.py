@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from lineseg_app.places import data_folder
 
-from lineseg import open_recording, trace
+from lineseg import Params, open_recording, trace
 
 
 def learn(new_tab, sample: str, **places):
@@ -122,9 +122,10 @@ def test_a_beam_leads_to_the_decisions_about_it(new_tab):
 
 
 def test_the_formula_shows_the_numbers_of_the_decision_and_its_geometry(new_tab):
-    traced = trace(open_recording(data_folder("sample_scans") / "lessons" / "8_noise_burst.npz")[0])
+    scan = open_recording(data_folder("sample_scans") / "lessons" / "8_noise_burst.npz")[0]
+    traced = trace(scan, Params(max_occluder=0.0))
     rejected = next(d for d in traced if d.kind == "seed rejected" and d.check == "delta")
-    tab = learn(new_tab, "lesson:8_noise_burst", step=rejected.index)
+    tab = learn(new_tab, "lesson:8_noise_burst", step=rejected.index, max_occluder=0)
     tab.eventually(lambda: f"{rejected.value:.3f}>δ" in text_of(tab, ".formulas"), "no formula")
     assert tab.page.locator(".overlay-term").count() == 0
     tab.page.locator(".term-chip[data-term=predicted]").focus()
@@ -132,18 +133,31 @@ def test_the_formula_shows_the_numbers_of_the_decision_and_its_geometry(new_tab)
 
 
 def test_the_angle_of_a_merge_follows_from_the_numbers_put_in(new_tab):
-    traced = trace(open_recording(data_folder("sample_scans") / "lessons" / "5_shallow_corner.npz")[0])
+    scan = open_recording(data_folder("sample_scans") / "lessons" / "5_shallow_corner.npz")[0]
+    traced = trace(scan, Params(merge_rms=0.0))
     (merge,) = traced.indices("lines merged")
     (a, b, _), (a2, b2, _) = (line.line for line in traced.lines_at(merge - 1))
     assert np.arcsin(abs(a * b2 - b * a2)) == pytest.approx(traced[merge].value, abs=1e-6)
-    tab = learn(new_tab, "lesson:5_shallow_corner", step=merge)
+    tab = learn(new_tab, "lesson:5_shallow_corner", step=merge, merge_rms=0)
     put_in = [f"{abs(value):.3f}" for value in (a, b2, b, a2)]
     tab.eventually(lambda: f"{np.degrees(traced[merge].value):.1f}°" in text_of(tab, ".formulas"), "no formula")
     assert re.findall(r"\d\.\d{3}", text_of(tab, ".formulas .formula-row >> nth=1")) == put_in
 
 
+def test_a_merge_that_would_fit_badly_says_by_how_much(new_tab):
+    traced = trace(open_recording(data_folder("sample_scans") / "lessons" / "5_shallow_corner.npz")[0])
+    (apart,) = traced.indices("lines kept apart")
+    value, limit = traced[apart].value, traced[apart].limit
+    tab = learn(new_tab, "lesson:5_shallow_corner", step=apart)
+    tab.eventually(lambda: f"{value:.3f}>{limit:.3f}" in text_of(tab, ".formulas"), "no formula")
+    assert f"{value:.3f}\u00a0m from it (rms), more than {limit:.3f}\u00a0m: they stay two" in text_of(
+        tab, ".replay-said .decision"
+    )
+    assert "γ_merge" in text_of(tab, ".code-line.lit")
+
+
 def test_geometry_under_the_pointer_lights_its_term(new_tab):
-    tab = learn(new_tab, "lesson:8_noise_burst", step=0)
+    tab = learn(new_tab, "lesson:8_noise_burst", step=0, max_occluder=0)
     for _ in range(3):
         tab.page.keyboard.press("x")
     tab.until("s.decision.kind === 'seed rejected'")
