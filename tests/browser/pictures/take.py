@@ -19,7 +19,7 @@ from live import serving  # noqa: E402
 PICTURES = {
     "tune": "#recording=sample:hallway&frame=150",
     "learn": "#mode=learn&recording=lesson:2_grazing_wall&step=30",
-    "inspect": "#mode=inspect&score=suspicion&recording=sample:laboratory&frame=207&beam=40",
+    "inspect": "#mode=inspect&score=suspicion&recording=sample:laboratory&frame=223&beam=275",
 }
 
 if __name__ == "__main__":
