@@ -108,4 +108,5 @@ def _explanation(found: Findings, beam: int | None) -> dict[str, Any] | None:
     if beam is None:
         return None
     told = asdict(found.trace.explain(beam))
+    told["at"] = found.scan.xy[beam].tolist() if found.scan.valid[beam] else None
     return told | {name: finite_or_none(told[name]) for name in ("value", "limit", "margin")}

@@ -526,6 +526,7 @@ function readLink(hash) {
 }
 
 stage.onMove(() => {
+  explanation.place(stage.project);
   if (lookedFor) return;
   store.look = stage.look;
   writeHashSoon();
@@ -726,6 +727,7 @@ function showDrawn(state, origin) {
     stage.lookAt(lookedFor);
     lookedFor = null;
   }
+  explanation.place(stage.project);
   if (unpacked) takePack(pack);
 }
 

@@ -81,6 +81,7 @@
 /**
  * @typedef {object} Explanation
  * @property {number} beam
+ * @property {[number, number] | null} at its point [m]
  * @property {string} text
  * @property {number} segment
  * @property {string} check

@@ -30,15 +30,40 @@ export function createExplanation(text, { onClose, onChange }) {
     close,
     changes,
   );
+
+  /** @type {Explanation | null} */
+  let shown = null;
+  let placed = false;
+
+  /** Whether the card, at its usual place, would hide what is there. @param {number} left @param {number} top */
+  function isUnder(left, top) {
+    const stage = element.offsetParent;
+    if (!stage) return false;
+    const beside = Math.abs(left - stage.clientWidth / 2) > element.offsetWidth / 2;
+    return !beside && top > stage.clientHeight - element.offsetHeight - 48;
+  }
+
   return {
     element,
     /** @param {Explanation | null} explanation @param {Knob[]} knobs */
     set(explanation, knobs) {
       element.hidden = !explanation;
+      if (explanation?.beam !== shown?.beam) placed = false;
+      shown = explanation;
       if (!explanation) return;
       setText(beam, text.beam(explanation.beam));
       setText(sentence, explanation.text);
       versus.set(comparison(explanation, knobs));
+    },
+    /**
+     * Puts the card where it does not hide its point; where it is, it stays until another point is explained.
+     * @param {(x: number, y: number) => [number, number] | null} project where a point is on the stage [px]
+     */
+    place(project) {
+      const spot = shown?.at && !placed ? project(...shown.at) : null;
+      if (!spot) return;
+      placed = true;
+      element.classList.toggle("out-of-the-way", isUnder(...spot));
     },
     /** What would change the answer, as buttons that do it. @param {import("../wire.js").WhatIf[]} found @param {Knob[]} knobs */
     setChanges(found, knobs) {

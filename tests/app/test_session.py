@@ -144,6 +144,7 @@ def test_a_selected_beam_is_explained(page: Page):
     page.hello()
     explanation = page.change(selected=20)["explanation"]
     assert (explanation["beam"], explanation["segment"]) == (20, 0)
+    assert explanation["at"][0] == pytest.approx(4.0, abs=0.05)
     assert "ε" in explanation["text"]
     assert page.change(selected=5000)["explanation"] is None
 

@@ -5,6 +5,10 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
+import numpy as np
+
+from lineseg import open_recording
+
 SAMPLES = Path(__file__).parents[2] / "sample_scans"
 
 
@@ -109,6 +113,18 @@ def test_the_replay_says_each_decision_and_jumps_to_the_next_of_a_kind(tab):
     tab.until("s.step === s.steps - 1")
     tab.page.keyboard.press("Escape")
     tab.until("s.step === null")
+
+
+def test_the_card_does_not_lie_on_the_point_that_it_explains(new_tab):
+    xy = open_recording(SAMPLES / "laboratory.npz")[223].xy
+    high, low = int(np.nanargmax(xy[:, 1])), 275
+    tops = []
+    for beam in (high, low):
+        tab = new_tab(f"#recording=sample:laboratory&frame=223&beam={beam}")
+        card = tab.page.locator(".explanation")
+        tab.eventually(lambda card=card, beam=beam: f"beam {beam}" in card.inner_text(), "no explanation")
+        tops.append(card.bounding_box()["y"])
+    assert tops[0] > tops[1] + 200
 
 
 def test_a_line_in_the_list_says_why(tab):
