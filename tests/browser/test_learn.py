@@ -153,7 +153,7 @@ def test_a_merge_that_would_fit_badly_says_by_how_much(new_tab):
     assert f"{value:.3f}\u00a0m from it (rms), more than {limit:.3f}\u00a0m: they stay two" in text_of(
         tab, ".replay-said .decision"
     )
-    assert "γ_merge" in text_of(tab, ".code-line.lit")
+    assert "γmerge" in text_of(tab, ".code-line.lit")
 
 
 def test_geometry_under_the_pointer_lights_its_term(new_tab):
