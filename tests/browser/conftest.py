@@ -97,9 +97,9 @@ class Tab:
 
         return self.eventually(frame_with_camera, "no camera in the scene")
 
-    def eventually(self, check: Callable[[], Any], why: str) -> Any:
+    def eventually(self, check: Callable[[], Any], why: str, seconds: float = SECONDS) -> Any:
         """What `check` returns as soon as it is true; a frame may not be ready to answer yet."""
-        late = time.monotonic() + SECONDS
+        late = time.monotonic() + seconds
         while time.monotonic() < late:
             try:
                 if found := check():
