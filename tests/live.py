@@ -76,7 +76,6 @@ class Page:
         self._socket = socket
         self._rev = 0
         self.welcome: dict[str, Any] = {}
-        self.state: dict[str, Any] = {}
         self.last: dict[str, dict[str, Any]] = {}
 
     def say(self, **message: Any) -> None:
@@ -85,7 +84,6 @@ class Page:
     def hear(self) -> dict[str, Any]:
         data = self._socket.recv(timeout=SECONDS)
         message = json.loads(data) if isinstance(data, str) else surveyed(data)
-        self.state = message.get("state", self.state)
         self.last[message["type"]] = message
         return message
 
@@ -93,6 +91,13 @@ class Page:
         """The next message of one of these types."""
         while (message := self.hear())["type"] not in types:
             pass
+        return message
+
+    def heard(self, of: str, until: Callable[[dict[str, Any]], Any]) -> dict[str, Any]:
+        """The last message of a type, or the first from now on, for which `until` holds."""
+        message = self.last.get(of)
+        while message is None or not until(message):
+            message = self.hear_a(of)
         return message
 
     def hello(self, session: str | None = None, follow: str | None = None, **view: Any) -> dict[str, Any]:
@@ -122,9 +127,7 @@ class Page:
 
     def until(self, condition: Callable[[dict[str, Any]], bool]) -> dict[str, Any]:
         """The state that was drawn last, or the first from now on, for which the condition holds."""
-        while not self.state or not condition(self.state):
-            self.hear_a("drawn")
-        return self.state
+        return self.heard("drawn", lambda message: condition(message["state"]))["state"]
 
     def refused(self, **patch: Any) -> dict[str, Any]:
         """Ask for what cannot be; the error."""

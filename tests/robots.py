@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import contextlib
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 from lineseg_app.live import Address as RobotAddress
 from lineseg_app.server import Settings
-from live import Address, Page, serving
+from live import Address, serving
 
 
 def wall(distance: float) -> list[float]:
@@ -23,18 +23,6 @@ def watching(url: str, tmp_path: Path, topic: str | None = "/scan", **settings: 
     robots = (RobotAddress(url, topic),)
     with serving(Settings(robots=robots, data_folder=tmp_path, **settings)) as server:
         yield server
-
-
-def heard(page: Page, of: str, until: Callable[[dict[str, Any]], Any]) -> dict[str, Any]:
-    """The last message of a type, or the first from now on, for which `until` holds."""
-    message = page.last.get(of)
-    while message is None or not until(message):
-        message = page.hear_a(of)
-    return message
-
-
-def drawn(page: Page, until: Callable[[dict[str, Any]], Any]) -> dict[str, Any]:
-    return heard(page, "drawn", lambda message: until(message["state"]))["state"]
 
 
 def nearest(state: dict[str, Any]) -> float:

@@ -13,7 +13,7 @@ import pytest
 from foxglove import Channel, Context, Schema, start_server
 from foxglove.websocket import Capability, ChannelView, Client, ClientChannel, ServerListener, WebSocketServer
 from live import page_of
-from robots import heard, nearest, wall, watching
+from robots import nearest, wall, watching
 from rosbags.typesys import Stores, get_typestore
 from rosbridge_peer import scan_message
 
@@ -122,14 +122,14 @@ def test_a_topic_that_comes_later_is_waited_for_and_others_are_named(robots: lis
     robot.channel("/chatter", "cdr", "std_msgs/msg/String")
     with watching(robot.url, tmp_path) as server, page_of(server) as page:
         page.say(type="hello")
-        waiting = heard(page, "loading", lambda m: "/chatter" in m["note"])
+        waiting = page.heard("loading", lambda m: "/chatter" in m["note"])
         assert "has no topic /scan yet; it has /chatter is std_msgs/msg/String as cdr" in waiting["note"]
         channel = robot.channel("/scan", "cdr")
         assert robot.listener.subscribed.get(timeout=60) == "/scan"
         channel.log(encoded("cdr", scan_message(wall(3.0))))
         assert page.hear_a("drawn")["state"]["topic"] == "/scan"
         channel.log(b"\x00\x01\x00\x00 this is no scan")
-        refused = heard(page, "live", lambda m: m["refused"] == 1)
+        refused = page.heard("live", lambda m: m["refused"] == 1)
         assert "a message of /scan is no scan" in refused["message"]
 
 
@@ -138,7 +138,7 @@ def test_a_topic_of_another_type_is_named(robots: list[Robot], tmp_path: Path):
     robot.channel("/scan", "cdr", "std_msgs/msg/String")
     with watching(robot.url, tmp_path) as server, page_of(server) as page:
         page.say(type="hello")
-        waiting = heard(page, "loading", lambda m: "needed" in m["note"])
+        waiting = page.heard("loading", lambda m: "needed" in m["note"])
         assert "/scan is std_msgs/msg/String as cdr; a sensor_msgs/LaserScan" in waiting["note"]
 
 
@@ -153,6 +153,6 @@ def test_a_server_that_takes_no_messages_is_told_where_segments_were_to_go(robot
         page.hear_a("drawn")
         server.post("/api/robot/segments", json={"session": session, "on": True})
         channel.log(encoded("cdr", scan_message(wall(3.0))))
-        told = heard(page, "live", lambda m: m["publishTrouble"])
+        told = page.heard("live", lambda m: m["publishTrouble"])
         assert "its Foxglove server has no clientPublish" in told["publishTrouble"]
         assert told["publisher"] == ""

@@ -11,7 +11,7 @@ from lineseg_app.live import MOST_PUSHED
 from lineseg_app.live.push import LARGEST, MOST_A_SECOND, Pace, TooFastError
 from lineseg_app.server import Settings
 from live import Address, page_of, serving
-from robots import heard, nearest, wall
+from robots import nearest, wall
 from rosbridge_peer import scan_message
 from rrd import rows_of
 from websockets.exceptions import ConnectionClosed, InvalidStatus
@@ -35,7 +35,7 @@ def test_what_is_posted_is_a_live_recording(server: Address):
         for distance in (2.5, 2.0, 1.5):
             answer = server.post("/api/scans/simulator", json=scan_message(wall(distance)))
         assert answer.json() == {"recording": "live:simulator", "kept": 3, "dropped": 1}
-        last = heard(page, "drawn", lambda m: m["state"]["first"] == 1)["state"]
+        last = page.heard("drawn", lambda m: m["state"]["first"] == 1)["state"]
         assert (last["live"], last["frame"], nearest(last)) == (True, 2, pytest.approx(1.5, abs=1e-3))
 
 
@@ -50,7 +50,7 @@ def test_a_socket_takes_scan_after_scan_and_says_what_is_none(server: Address):
             while state["frames"] < 2:
                 state = page.hear_a("drawn")["state"]
             assert nearest(state) == pytest.approx(2.0, abs=1e-3)
-            assert heard(page, "live", lambda m: m["refused"] == 1)["publishable"] is False
+            assert page.heard("live", lambda m: m["refused"] == 1)["publishable"] is False
 
 
 def test_a_live_recording_is_recorded_for_rerun_as_it_stands(server: Address, tmp_path: Path):

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 from live import Address, Page, page_of
-from robots import drawn, heard, nearest, wall, watching
+from robots import nearest, wall, watching
 from rosbridge_peer import TEXT, RosBridgePeer, scan_message
 
 
@@ -25,17 +25,17 @@ def send(peer: RosBridgePeer, page: Page, *distances: float) -> dict[str, Any]:
     assert peer.subscribed.wait(60)
     for second, distance in enumerate(distances):
         peer.publish("/scan", scan_message(wall(distance), second))
-    return drawn(page, lambda state: abs(nearest(state) - distances[-1]) < 0.01)
+    return page.until(lambda state: abs(nearest(state) - distances[-1]) < 0.01)
 
 
 def test_scans_arrive_as_frames_and_the_newest_is_followed(peer: RosBridgePeer, tmp_path: Path):
     with watching(peer.url, tmp_path) as server, page_of(server) as page:
         page.say(type="hello")
-        assert "waiting for its first scan" in heard(page, "loading", lambda m: "subscribed" in m["note"])["note"]
+        assert "waiting for its first scan" in page.heard("loading", lambda m: "subscribed" in m["note"])["note"]
         state = send(peer, page, 4.0, 3.0, 2.0)
         assert (state["frame"], state["frames"], state["live"], state["first"]) == (2, 3, True, 0)
         assert (state["frameId"], state["topic"]) == ("laser", "/scan")
-        status = heard(page, "live", lambda m: m["total"] == 3 and m["connection"] == "open")
+        status = page.heard("live", lambda m: m["total"] == 3 and m["connection"] == "open")
         assert (status["message"], status["dropped"], status["delay"]) == ("", 0, None)
 
 
@@ -47,14 +47,14 @@ def test_who_looks_at_a_frame_keeps_it_until_the_newest_is_wanted_again(peer: Ro
         assert (paused["live"], nearest(paused)) == (False, pytest.approx(4.0))
         for distance in (2.5, 2.0, 1.5):
             peer.publish("/scan", scan_message(wall(distance)))
-        heard(page, "live", lambda m: m["total"] == 6 and m["dropped"] == 3)
+        page.heard("live", lambda m: m["total"] == 6 and m["dropped"] == 3)
         still = page.change(params={"epsilon": 0.04})
         assert (still["frame"], still["frames"], still["first"], nearest(still)) == (0, 3, 0, pytest.approx(4.0))
         assert nearest(page.change(frame=1)) == pytest.approx(3.5)
         newest = page.change(live=True)
         assert (newest["live"], newest["frame"], newest["first"]) == (True, 2, 3)
         assert nearest(newest) == pytest.approx(1.5)
-        assert heard(page, "survey", lambda m: m["first"] == 3)["frames"] == 3
+        assert page.heard("survey", lambda m: m["first"] == 3)["frames"] == 3
 
 
 def test_the_scores_follow_the_scans(peer: RosBridgePeer, tmp_path: Path):
@@ -63,7 +63,7 @@ def test_the_scores_follow_the_scans(peer: RosBridgePeer, tmp_path: Path):
         send(peer, page, 4.0)
         for distance in (3.5, 3.0, 2.5):
             peer.publish("/scan", scan_message(wall(distance)))
-        surveyed = heard(page, "survey", lambda m: m["frames"] == 4)
+        surveyed = page.heard("survey", lambda m: m["frames"] == 4)
         assert surveyed["scores"]["segments"].tolist() == [1, 1, 1, 1]
 
 
@@ -73,14 +73,14 @@ def test_a_robot_that_went_away_is_told_and_found_again(tmp_path: Path):
         page.say(type="hello")
         send(first, page, 4.0)
         first.close()
-        lost = heard(page, "live", lambda m: m["connection"] == "lost")
+        lost = page.heard("live", lambda m: m["connection"] == "lost")
         assert "trying again in" in lost["message"]
         assert page.change(params={"epsilon": 0.04})["frames"] == 1
         again = RosBridgePeer(port=first.port)
         try:
             state = send(again, page, 2.0)
             assert state["frames"] == 2
-            assert heard(page, "live", lambda m: m["total"] == 2)["connection"] == "open"
+            assert page.heard("live", lambda m: m["total"] == 2)["connection"] == "open"
         finally:
             again.close()
 
@@ -90,7 +90,7 @@ def test_a_robot_that_is_not_there_is_named_and_another_recording_can_be_opened(
     gone.close()
     with watching(gone.url, tmp_path) as server, page_of(server) as page:
         page.say(type="hello")
-        waiting = heard(page, "loading", lambda m: "listens" in m["note"])
+        waiting = page.heard("loading", lambda m: "listens" in m["note"])
         assert f"nothing listens at 127.0.0.1:{gone.port}; trying again in" in waiting["note"]
         assert page.change(recording="sample:hallway")["live"] is None
 
@@ -118,7 +118,7 @@ def test_a_topic_that_cannot_be_had_is_named(tmp_path: Path, topic: str | None, 
     try:
         with watching(peer.url, tmp_path, topic=topic) as server, page_of(server) as page:
             page.say(type="hello")
-            assert sentence in heard(page, "loading", lambda m: sentence in m["note"])["note"]
+            assert sentence in page.heard("loading", lambda m: sentence in m["note"])["note"]
     finally:
         peer.close()
 
@@ -135,11 +135,11 @@ def test_what_is_no_scan_is_counted_and_the_next_scan_is_taken(peer: RosBridgePe
         assert peer.subscribed.wait(60)
         peer.publish("/scan", {"data": "hello"})
         peer.publish("/scan", scan_message([1.0, 2.0], angle_min=math.nan))
-        refused = heard(page, "live", lambda m: m["refused"] == 2)
+        refused = page.heard("live", lambda m: m["refused"] == 2)
         assert "a message of /scan is no scan: its angle_min is nan" in refused["message"]
         state = send(peer, page, 3.0)
         peer.publish("/scan", scan_message([math.nan, math.inf, *wall(2.5)[2:]]))
-        state = drawn(page, lambda s: s["frames"] == 2)
+        state = page.until(lambda s: s["frames"] == 2)
         assert state["beams"] - state["valid"] == 2
 
 
@@ -188,10 +188,10 @@ def test_two_tabs_do_not_publish_at_once_and_a_closed_tab_does_no_longer(peer: R
         assert server.post("/api/robot/segments", json=asked[0]).status_code == 200
         refused = server.post("/api/robot/segments", json=asked[1])
         assert (refused.status_code, "another tab publishes" in refused.text) == (400, True)
-        assert heard(page, "live", lambda m: m["publisher"])["publisher"] == "this"
-        assert heard(other, "live", lambda m: m["publisher"])["publisher"] == "another"
+        assert page.heard("live", lambda m: m["publisher"])["publisher"] == "this"
+        assert other.heard("live", lambda m: m["publisher"])["publisher"] == "another"
         page.say(type="close")
-        heard(other, "live", lambda m: m["publisher"] == "")
+        other.heard("live", lambda m: m["publisher"] == "")
         assert server.post("/api/robot/segments", json=asked[1]).status_code == 200
 
 
@@ -199,7 +199,7 @@ def test_what_no_bridge_would_send_ends_the_connection_and_not_the_program(peer:
     peer._service = lambda service, args: {"topics": 3, "types": None}  # type: ignore[method-assign]
     with watching(peer.url, tmp_path) as server, page_of(server) as page:
         page.say(type="hello")
-        note = heard(page, "loading", lambda m: "trying again" in m["note"])["note"]
+        note = page.heard("loading", lambda m: "trying again" in m["note"])["note"]
         assert "sent what cannot be understood" in note
 
 
