@@ -5,7 +5,15 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+import numpy as np
+
 from .kernel import inlined_kernel, kernel, summing_kernel
+
+
+@kernel
+def at(values, k):
+    """values[k], k ≥ 0: whether an index counts from the end need not be asked, which in short loops takes long."""
+    return values[np.uintp(k)]
 
 
 class Moments(NamedTuple):
@@ -59,9 +67,9 @@ def moments_of(x, y, first, last):
 @inlined_kernel
 def moments_of_few(x, y, first, last):
     """The same for so few points that adding them one by one is the fastest."""
-    m = empty(x[first], y[first])
+    m = empty(at(x, first), at(y, first))
     for k in range(first, last + 1):
-        m = add(m, x[k], y[k])
+        m = add(m, at(x, k), at(y, k))
     return m
 
 
@@ -69,25 +77,42 @@ def moments_of_few(x, y, first, last):
 def direction_of(m):
     """A vector, not of unit length, along the line that minimises Σ(a·xᵢ + b·yᵢ + c)² (Eq. 2).
 
-    It is the eigenvector of the greater eigenvalue of the 2×2 scatter matrix, here n² times too large, in closed form.
-    Of its two forms the one without cancellation is taken. Where all points coincide or scatter equally any direction
-    fits, and the one across the beam is taken.
+    It is the eigenvector of the greater eigenvalue of the 2×2 scatter matrix, here n times too large, in closed form.
+    Where all points coincide or scatter equally any direction fits, and the one across the beam is taken.
     """
-    xx, xy, yy = m.n * m.sxx - m.sx * m.sx, m.n * m.sxy - m.sx * m.sy, m.n * m.syy - m.sy * m.sy
-    half = 0.5 * (xx - yy)
-    root = math.sqrt(half * half + xy * xy)
-    if root == 0.0:
+    cosine, sine = m.n * (m.sxx - m.syy) - (m.sx * m.sx - m.sy * m.sy), 2.0 * (m.n * m.sxy - m.sx * m.sy)
+    if cosine == 0.0 and sine == 0.0:
         return -(m.n * m.y0 + m.sy), m.n * m.x0 + m.sx
-    if half >= 0.0:
-        return half + root, xy
-    return xy, root - half
+    return halved(cosine, sine)
+
+
+@kernel
+def halved(cosine, sine):
+    """A vector with half the angle of (cosine, sine); of its two forms the one without cancellation is taken."""
+    root = math.sqrt(cosine * cosine + sine * sine)
+    if cosine >= 0.0:
+        return cosine + root, sine
+    return sine, root - cosine
+
+
+@kernel
+def least_squares_of(m):
+    """Σ(a·xᵢ + b·yᵢ + c)² of the line that minimises it (Eq. 2): the smaller eigenvalue of the scatter matrix."""
+    cosine, sine = m.sxx - m.syy - (m.sx * m.sx - m.sy * m.sy) / m.n, 2.0 * (m.sxy - m.sx * m.sy / m.n)
+    spread = m.sxx + m.syy - (m.sx * m.sx + m.sy * m.sy) / m.n
+    return max(0.5 * (spread - math.sqrt(cosine * cosine + sine * sine)), 0.0)
 
 
 @kernel
 def line_of(m):
     """Unit normal (a, b) and offset c ≤ 0 of the line that minimises Σ(a·xᵢ + b·yᵢ + c)² (Eq. 2), from n ≥ 2 points."""
     ux, uy = direction_of(m)
-    x, y = m.x0 + m.sx / m.n, m.y0 + m.sy / m.n
+    return line_along(ux, uy, m.x0 + m.sx / m.n, m.y0 + m.sy / m.n)
+
+
+@kernel
+def line_along(ux, uy, x, y):
+    """(a, b, c ≤ 0) of the line through (x, y) along (ux, uy)."""
     norm = math.sqrt(ux * ux + uy * uy)
     a, b = -uy / norm, ux / norm
     c = -(a * x + b * y)
@@ -96,22 +121,79 @@ def line_of(m):
     return a, b, c
 
 
+class Scatter(NamedTuple):
+    """What a line that grows needs of its n points: their sums relative to (x0, y0) and their scatter about the mean.
+
+    share: 1/n; cosine, sine: Σ(dx² − dy²) and 2·Σdx·dy, with dx and dy the distances of a point from the mean. As a
+    vector they have twice the angle of the fitted line.
+    """
+
+    x0: float
+    y0: float
+    n: int
+    share: float
+    sx: float
+    sy: float
+    cosine: float
+    sine: float
+
+
 @kernel
-def is_nearer(m, x, y, limit):
-    """Whether (x, y) lies nearer than `limit` to the line fitted to m (Eqs. 2, 3), without a division or a root.
+def scatter_of(m):
+    """The same of n ≥ 1 points of which the moments are known."""
+    share = 1.0 / m.n
+    cosine, sine = m.sxx - m.syy - (m.sx * m.sx - m.sy * m.sy) * share, 2.0 * (m.sxy - m.sx * m.sy * share)
+    return Scatter(m.x0, m.y0, int(m.n), share, m.sx, m.sy, cosine, sine)
+
+
+# Asked for at every point that a line takes; a division would take longer than all the rest.
+RECIPROCALS = 1.0 / np.maximum(np.arange(4096), 1)
+
+
+@kernel
+def reciprocal(n):
+    """1/n, n ≥ 1."""
+    return at(RECIPROCALS, n) if n < len(RECIPROCALS) else 1.0 / n
+
+
+@kernel
+def from_mean(s, x, y):
+    """(x, y) relative to the mean of the points."""
+    return x - s.x0 - s.sx * s.share, y - s.y0 - s.sy * s.share
+
+
+@kernel
+def with_point(s, x, y):
+    """The scatter with the point (x, y) added (Welford)."""
+    px, py = from_mean(s, x, y)
+    share = reciprocal(s.n + 1)
+    weight = 1.0 - share
+    cosine, sine = s.cosine + weight * (px * px - py * py), s.sine + weight * (2.0 * (px * py))
+    return Scatter(s.x0, s.y0, s.n + 1, share, s.sx + (x - s.x0), s.sy + (y - s.y0), cosine, sine)
+
+
+@kernel
+def line_through(s):
+    """`line_of` of the points with this scatter."""
+    x, y = s.x0 + s.sx * s.share, s.y0 + s.sy * s.share
+    ux, uy = halved(s.cosine, s.sine)
+    if ux == 0.0 and uy == 0.0:
+        ux, uy = -y, x
+    return line_along(ux, uy, x, y)
+
+
+@kernel
+def is_nearer(s, x, y, limit):
+    """Whether (x, y) lies nearer than `limit` to the line fitted to n points (Eqs. 2, 3), without a division or a root.
 
     With p the point relative to the mean and φ the direction of the line, its distance d has
-    2·d² = |p|² − (px² − py²)·cos 2φ − 2·px·py·sin 2φ, and (cos 2φ, sin 2φ) has the direction of (xx − yy, 2·xy) of the
-    scatter matrix. Both sides are compared by their squares, with their signs. This is asked once for every point that
-    a line takes.
+    2·d² = |p|² − (px² − py²)·cos 2φ − 2·px·py·sin 2φ. Both sides are compared by their squares, with their signs. This
+    is asked once for every point that a line takes.
     """
-    px, py = m.n * (x - m.x0) - m.sx, m.n * (y - m.y0) - m.sy
-    cosine = m.n * (m.sxx - m.syy) - (m.sx * m.sx - m.sy * m.sy)
-    sine = 2.0 * (m.n * m.sxy - m.sx * m.sy)
-    norm = cosine * cosine + sine * sine
-    along = (px * px - py * py) * cosine + 2.0 * px * py * sine
-    reach = limit * m.n
-    beyond = px * px + py * py - 2.0 * reach * reach
+    px, py = from_mean(s, x, y)
+    norm = s.cosine * s.cosine + s.sine * s.sine
+    along = (px * px - py * py) * s.cosine + 2.0 * (px * py) * s.sine
+    beyond = px * px + py * py - 2.0 * limit * limit
     # Points that all coincide have no direction; what lies next to them joins.
     return along * abs(along) > norm * (beyond * abs(beyond)) or (norm == 0.0 and beyond < 0.0)
 

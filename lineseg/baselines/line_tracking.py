@@ -16,7 +16,7 @@ import numpy as np
 from ..decisions import Kind
 from ..kernel import entry_kernel
 from ..knobs import Knob, Thresholds
-from ..total_least_squares import add, is_nearer, moments_of
+from ..total_least_squares import is_nearer, moments_of, scatter_of, with_point
 from .found import Found, Method, vocabulary
 from .knobs import EPSILON, MAX_GAP, MIN_LENGTH, MIN_POINTS
 from .sequence import Sequence, fit, opened_between_lines
@@ -90,10 +90,10 @@ def track(x, y, gaps, first, start_points, epsilon, max_gap):
         last += 1
     if last + 1 < first + start_points:
         return last
-    moments = moments_of(x, y, first, last)
-    while last + 1 < stop and gaps[last + 1] <= max_gap and is_nearer(moments, x[last + 1], y[last + 1], epsilon):
+    scatter = scatter_of(moments_of(x, y, first, last))
+    while last + 1 < stop and gaps[last + 1] <= max_gap and is_nearer(scatter, x[last + 1], y[last + 1], epsilon):
         last += 1
-        moments = add(moments, x[last], y[last])
+        scatter = with_point(scatter, x[last], y[last])
     return last
 
 

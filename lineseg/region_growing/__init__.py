@@ -16,7 +16,7 @@ from ..kernel import entry_kernel, kernel
 from ..log import note, written
 from ..params import Params
 from ..scan import Scan
-from ..total_least_squares import line_of
+from ..total_least_squares import line_through
 from .endpoints import place_endpoints
 from .growth import grow
 from .lines import DROPPED, LINE, Dropping, append, drop
@@ -70,12 +70,12 @@ def grow_lines(points, limits, lines, dropped, log):
         seed, moments = find_seed(points, start, stop, limits, candidate, log)
         if seed < 0:
             return count
-        first, last, moments = grow(points, seed, moments, limits, candidate, log)
+        first, last, scatter = grow(points, seed, moments, limits, candidate, log)
         enough_points = last - first + 1 >= limits.min_points
         line = NOWHERE
         # Most candidates have too few points, and only the log asks for their line.
         if enough_points or log is not None:
-            line = line_of(moments)
+            line = line_through(scatter)
         check, value, limit = shortfall(points, first, last, line, limits)
         if check == NONE:
             count = append(lines, count, first, last, candidate, line)

@@ -4,55 +4,57 @@ from __future__ import annotations
 
 from ..kernel import inlined_kernel, kernel
 from ..log import note
-from ..total_least_squares import add, is_nearer, line_of, project, signed_distance
+from ..total_least_squares import at, is_nearer, line_through, project, scatter_of, signed_distance, with_point
 from .log import END, EPSILON, GROWTH_STOPPED, NONE, POINT_ADDED
 from .points import breach
 
 
 @inlined_kernel
 def grow(points, seed, moments, limits, candidate, log):
-    """The line (first, last, moments) that grows from the seed at position `seed`: forward to its end, then backward.
+    """The line (first, last, scatter) that grows from the seed at position `seed`: forward to its end, then backward.
 
     A point is compared with the line fitted without it and joins if it is nearer than ε; then the line is fitted anew.
     The bounds are tested before the point is looked at (the listing looks first). Backward growth may enter the line
     before it.
     """
     first, last = seed, seed + limits.seed_points - 1
-    last, moments = advance(points, first, last, 1, moments, limits, candidate, log)
-    first, moments = advance(points, first, last, -1, moments, limits, candidate, log)
-    return first, last, moments
+    scatter = scatter_of(moments)
+    last, scatter = advance(points, first, last, 1, scatter, limits, candidate, log)
+    first, scatter = advance(points, first, last, -1, scatter, limits, candidate, log)
+    return first, last, scatter
 
 
 @inlined_kernel
-def advance(points, first, last, direction, moments, limits, candidate, log):
-    """The last position reached in `direction`, and the moments of the line up to there."""
+def advance(points, first, last, direction, scatter, limits, candidate, log):
+    """The last position reached in `direction`, and the scatter of the line up to there."""
     here = last if direction > 0 else first
     # The span from the far end of the line to the farthest position that it may reach.
     most = points.period - (last - first + 1)
     edge = min(here + most, len(points.x) - 1) if direction > 0 else max(here - most, 0)
+    free = at(points.breaks, here)
     while here != edge:
         there = here + direction
-        if points.breaks[there] != points.breaks[here]:
+        if at(points.breaks, there) != free:
             break
-        x, y = points.x[there], points.y[there]
-        if not is_nearer(moments, x, y, limits.epsilon):
+        x, y = at(points.x, there), at(points.y, there)
+        if not is_nearer(scatter, x, y, limits.epsilon):
             break
         if log is not None:
-            line = line_of(moments)
+            line = line_through(scatter)
             span = (min(first, there), max(last, there))
             value = abs(signed_distance(line, x, y))
             note(log, POINT_ADDED, EPSILON, candidate, direction, span, there, line, value, limits.epsilon)
             first, last = span
-        moments = add(moments, x, y)
+        scatter = with_point(scatter, x, y)
         here = there
     if log is not None:
-        note_stop(points, first, last, here, edge, direction, moments, limits, candidate, log)
-    return here, moments
+        note_stop(points, first, last, here, edge, direction, scatter, limits, candidate, log)
+    return here, scatter
 
 
 @kernel
-def note_stop(points, first, last, here, edge, direction, moments, limits, candidate, log):
-    line = line_of(moments)
+def note_stop(points, first, last, here, edge, direction, scatter, limits, candidate, log):
+    line = line_through(scatter)
     if here == edge:
         note(log, GROWTH_STOPPED, END, candidate, direction, (first, last), -1, line, 0.0, 0.0)
         return

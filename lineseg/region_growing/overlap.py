@@ -6,7 +6,7 @@ import math
 
 from ..kernel import inlined_kernel, kernel
 from ..log import note, note_pair
-from ..total_least_squares import line_of, moments_of, signed_distance, squares_of
+from ..total_least_squares import least_squares_of, line_of, moments_of, signed_distance, squares_of
 from .growth import length_of
 from .lines import drop, line_at, remove
 from .log import (
@@ -71,8 +71,7 @@ def merged(points, lines, i, j, turn, limits, log):
         squares = squares_of(points.x, points.y, first, last, line)
         squares += squares_of(points.x, points.y, first_2, last_2, other)
         rms = math.sqrt(squares / (last - first + last_2 - first_2 + 2))
-        common = line_of(moments_of(points.x, points.y, start, stop))
-        value = math.sqrt(squares_of(points.x, points.y, start, stop, common) / (stop - start + 1))
+        value = math.sqrt(least_squares_of(moments_of(points.x, points.y, start, stop)) / (stop - start + 1))
         # Of walls without noise the two have no rms that could grow.
         check, limit = MERGE_RMS, limits.merge_rms * max(rms, 0.1 * limits.epsilon)
         agree = value <= limit

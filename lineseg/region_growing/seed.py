@@ -6,7 +6,7 @@ import math
 
 from ..kernel import inlined_kernel, kernel
 from ..log import note
-from ..total_least_squares import add, direction_of, empty, line_of, moments_of_few, remove, signed_distance
+from ..total_least_squares import add, at, direction_of, empty, line_of, moments_of_few, remove, signed_distance
 from .log import DELTA, EPSILON, NONE, SEED_FOUND, SEED_REJECTED
 from .points import breach
 
@@ -30,8 +30,8 @@ def find_seed(points, start, stop, limits, candidate, log):
         if (first - start) % FRESH == 0:
             moments = moments_of_few(x, y, first, last)
         else:
-            moments = add(remove(moments, x[first - 1], y[first - 1]), x[last], y[last])
-        if breaks[first] == breaks[last] and is_seed(points, first, last, moments, limits):
+            moments = add(remove(moments, at(x, first - 1), at(y, first - 1)), at(x, last), at(y, last))
+        if at(breaks, first) == at(breaks, last) and is_seed(points, first, last, moments, limits):
             if log is not None:
                 note(log, SEED_FOUND, NONE, candidate, 0, (first, last), -1, line_of(moments), 0.0, 0.0)
             return first, moments
@@ -44,7 +44,7 @@ def find_seed(points, start, stop, limits, candidate, log):
 def is_seed(points, first, last, moments, limits):
     test = test_of(moments, limits)
     for k in range(first, last + 1):
-        too_far, off_line = fails(points.x[k], points.y[k], test)
+        too_far, off_line = fails(at(points.x, k), at(points.y, k), test)
         if too_far or off_line:
             return False
     return True
