@@ -146,6 +146,13 @@ def test_change_knows_no_seam():
     assert scores_of(scan, turned)["change"] < 0.02
 
 
+def test_change_is_the_same_wherever_a_full_circle_is_opened():
+    # The farthest point and the widest gap lie where a door stands open; it tells where the circle is opened.
+    before, now = room(bump={0: 3.0}), room(bump={95: 3.0})
+    turned = [Scan(np.roll(scan.ranges, 90), scan.bearings) for scan in (before, now)]
+    assert scores_of(before, now)["change"] == pytest.approx(scores_of(*turned)["change"])
+
+
 def test_scores_are_the_same_for_a_mirrored_scan():
     scan = corner(beams=400, noise=0.01)
     mirrored = Scan(scan.ranges, -scan.bearings)

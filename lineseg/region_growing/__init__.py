@@ -96,8 +96,8 @@ class Memory:
 
     def __init__(self, beams: int, circle: bool) -> None:
         places = (4 * beams if circle else beams) + 1
-        self.xy = np.empty((4, places))
-        self.numbers = np.empty((5, places), np.int32)
+        self.xy = np.empty((6, places))
+        self.numbers = np.empty((6, places), np.int32)
         self.lines = np.empty(beams + 1, LINE)
         self.dropped = np.empty(2 * beams + 1, DROPPED)
         self.arguments = self.xy, self.numbers, self.lines.view(np.float64), self.dropped.view(np.float64)

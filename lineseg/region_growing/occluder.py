@@ -2,52 +2,73 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from ..kernel import kernel
 
 
 @kernel
-def look_past(x, y, ranges, beam, passed, n, limits):
+def look_past(x, y, rho, beam, passed, steps, n, limits):
     """Take away the points of thin things in front of a wall, in place: the number of points that are left.
 
     A thing is a run of points that all lie more than δ, and 2 ε, in front of where their beams meet the chord between
     the points beside the run (as in Eqs. 4–6), if these are at most `max_occluder` apart, and so are the outermost
     points of the run; mixed pixels at its edges do not count for the latter.
-    x, y, beam: (n,) of the points in scan order; ranges: of all beams. passed: (n,) int32, set to 1 where a thing stood
-    before a point, else to 0.
+    x, y, rho, beam: (n,) of the points in scan order; rho is left as it is. passed: (n,) int32, set to 1 where a thing
+    stood before a point, else to 0; steps: (n,) int32, memory.
     """
     passed[:n] = 0
-    left = k = 0
     # A δ below the noise must not make things of it.
     ahead = max(limits.delta, 2.0 * limits.epsilon)
-    while k < n:
-        if left != k:
-            x[left], y[left], beam[left] = x[k], y[k], beam[k]
-        left += 1
-        k += 1
-        if k + 1 < n and range_at(ranges, beam, k) < range_at(ranges, beam, k - 1) - ahead:
-            beyond = behind_thing(x, y, ranges, beam, k - 1, n, ahead, limits.max_occluder)
-            if beyond != k:
-                passed[left], k = 1, beyond
-    return left
+    steps = steps[: find_steps(rho[:n], steps, ahead)]
+    left = behind = rise = 0
+    for fall in range(len(steps)):
+        k = steps[fall] - 1
+        if k < behind or rho[k + 1] > rho[k]:
+            continue
+        # Along a wall seen at a grazing angle one fall follows another; they all wait for the same rise.
+        while rise < len(steps) and (rise <= fall or rho[steps[rise]] < rho[steps[rise] - 1]):
+            rise += 1
+        j = behind_thing(x, y, rho, steps[rise:], k, ahead, limits.max_occluder)
+        if j > k:
+            left = close_up(x, y, beam, behind, k + 1, left)
+            passed[left], behind = 1, j
+    return close_up(x, y, beam, behind, n, left)
 
 
 @kernel
-def range_at(ranges, beam, k):
-    """ρ of point k; on a full circle beams may go on counting past the seam."""
-    # Not by a remainder: it would take longer than all else that is asked of most points.
-    return ranges[beam[k] if beam[k] < len(ranges) else beam[k] - len(ranges)]
+def find_steps(rho, steps, ahead):
+    """Write down which points lie more than `ahead` nearer or farther than the one before, and tell their number."""
+    before, here = rho[:-1], rho[1:]
+    count = np.uintp(0)
+    for k in range(len(here)):
+        # Written in any case, and kept if it is a step: a branch would be guessed wrong at most of them.
+        steps[count] = k + 1
+        count += np.uintp((here[k] < before[k] - ahead) | (here[k] > before[k] + ahead))
+    return count
 
 
 @kernel
-def behind_thing(x, y, ranges, beam, k, n, ahead, widest):
-    """The first point behind a thing that begins with point k + 1, or k + 1 where none does."""
-    for j in range(k + 2, n):
-        if j - 2 > k + 2 and square(x, y, k + 2, j - 2) > widest * widest:
-            return k + 1
-        stands_out = range_at(ranges, beam, j) > range_at(ranges, beam, j - 1) + ahead
-        if stands_out and square(x, y, k, j) <= widest * widest and in_front(x, y, ranges, beam, k, j, ahead):
-            return j
-    return k + 1
+def close_up(x, y, beam, start, stop, to):
+    """Move the points start..stop − 1 down to `to` on: the position behind them."""
+    if to < start:
+        source, target = np.uintp(start), np.uintp(to)
+        for k in range(np.uintp(stop - start)):
+            x[target + k], y[target + k] = x[source + k], y[source + k]
+            beam[target + k] = beam[source + k]
+    return to + stop - start
+
+
+@kernel
+def behind_thing(x, y, rho, steps, k, ahead, widest):
+    """The first point behind a thing that begins with point k + 1, or −1; steps: from the first rise behind k on."""
+    for j in steps:
+        if rho[j] > rho[j - 1]:
+            if j - 2 > k + 2 and square(x, y, k + 2, j - 2) > widest * widest:
+                return -1
+            if square(x, y, k, j) <= widest * widest and is_thing(x, y, rho, k, j, ahead, widest):
+                return j
+    return -1
 
 
 @kernel
@@ -57,13 +78,18 @@ def square(x, y, i, j):
 
 
 @kernel
-def in_front(x, y, ranges, beam, k, j, ahead):
-    """Whether every point between k and j lies more than `ahead` before the chord between these two, along its beam."""
+def is_thing(x, y, rho, k, j, ahead, widest):
+    """Whether every point between k and j lies more than `ahead` before the chord between these two, along its beam.
+
+    And whether they are no wider than a thing.
+    """
     dx, dy = x[j] - x[k], y[j] - y[k]
     offset = dx * y[k] - dy * x[k]
     for i in range(k + 1, j):
         along = dx * y[i] - dy * x[i]
         # ρ′ = ρ · offset / along
-        if not range_at(ranges, beam, i) * (offset / along - 1.0) > ahead:
+        if not rho[i] * (offset / along - 1.0) > ahead:
+            return False
+        if k + 2 < i < j - 1 and square(x, y, k + 2, i) > widest * widest:
             return False
     return True

@@ -71,42 +71,46 @@ def points_of(ranges, rays, range_min, range_max, circle, limits, xy, numbers):
     """Points from ranges (n,) [m] and unit vectors along the beams (2, n); for what is valid see `Scan`.
 
     Of things that are looked past the points are left out, see `look_past`.
-    xy (4, capacity) float64 and numbers (5, capacity) int32 are memory for them, with at least n + 1 places; on a full
+    xy (6, capacity) float64 and numbers (6, capacity) int32 are memory for them, with at least n + 1 places; on a full
     circle with 4·n + 1.
     """
-    x, y, beam, breaks = xy[0], xy[1], numbers[0], numbers[1]
+    x, y, rho, beam, breaks = xy[0], xy[1], xy[2], numbers[0], numbers[1]
     if circle:
-        x, y, beam = xy[2], xy[3], numbers[2]
+        x, y, rho, beam = xy[3], xy[4], xy[5], numbers[2]
     n = 0
     for k in range(len(ranges)):
         r = ranges[k]
         # Written in any case, and kept if valid: a branch here would be guessed wrong at every dropout.
-        x[n], y[n], beam[n] = r * rays[0, k], r * rays[1, k], k
+        x[n], y[n], rho[n], beam[n] = r * rays[0, k], r * rays[1, k], r, k
         n += (r > 0.0) & (r >= range_min) & (r < range_max)
     returns, start, m = n, 0, 0
     looking = limits.max_occluder > 0.0 and n > 2
     if looking and circle:
-        n = look_past_all_round(x, y, ranges, beam, n, xy, numbers[0], numbers[4], limits)
+        n = look_past_all_round(x, y, rho, beam, n, len(ranges), xy, numbers[0], numbers[4], numbers[5], limits)
     elif looking:
-        n = look_past(x, y, ranges, beam, breaks, n, limits)
+        n = look_past(x, y, rho, beam, breaks, numbers[5], n, limits)
     if circle:
         start, m = n, 4 * n
-        lay_round(x, y, beam, numbers[4], n, len(ranges), xy, numbers[0], breaks)
+        lay_round(x, y, beam, numbers[4], n, len(ranges), xy, numbers[0], breaks, limits)
     else:
         m = n
-    find_breaks(xy[0], xy[1], numbers[0], breaks, m, limits)
+        find_breaks(xy[0], xy[1], numbers[0], breaks, m, limits)
     return Points(xy[0, :m], xy[1, :m], numbers[0, :m], breaks[:m], start, n, circle, returns)
 
 
 @kernel
-def look_past_all_round(x, y, ranges, beam, n, to, to_beam, passed, limits):
+def look_past_all_round(x, y, rho, beam, n, beams, to, to_beam, passed, steps, limits):
     """`look_past` on a full circle: from the farthest point, which is at no thing, until it comes round again."""
     farthest = 0
     for k in range(n):
-        if ranges[beam[k]] > ranges[beam[farthest]]:
+        if rho[k] > rho[farthest]:
             farthest = k
-    put_down(x, y, beam, n, len(ranges), farthest, n + 1, to, to_beam)
-    left = look_past(to[0], to[1], ranges, to_beam, passed, n + 1, limits) - 1
+    for values, target in ((x, to[0]), (y, to[1]), (rho, to[2])):
+        turn(values, n, farthest, 0, target)
+        target[n] = target[0]
+    turn(beam, n, farthest, beams, to_beam)
+    to_beam[n] = to_beam[0] + beams
+    left = look_past(to[0], to[1], to[2], to_beam, passed, steps, n + 1, limits) - 1
     passed[0] = passed[left]
     for k in range(left):
         x[k], y[k], beam[k] = to[0, k], to[1, k], to_beam[k]
@@ -114,26 +118,43 @@ def look_past_all_round(x, y, ranges, beam, n, to, to_beam, passed, limits):
 
 
 @kernel
-def lay_round(x, y, beam, passed, n, beams, to, to_beam, to_passed):
+def lay_round(x, y, beam, passed, n, beams, to, to_beam, breaks, limits):
     """Open a full circle of n points at its widest gap, and put it down four times."""
     opening, widest = 0, -1.0
     for k in range(n):
         after = k + 1 if k + 1 < n else 0
         gap = (x[after] - x[k]) ** 2 + (y[after] - y[k]) ** 2
         if gap > widest:
-            opening, widest = k + 1, gap
-    put_down(x, y, beam, n, beams, opening, 4 * n, to, to_beam)
-    for k in range(4 * n):
-        to_passed[k] = passed[(k + opening) % n]
+            opening, widest = after, gap
+    for values, target in ((x, to[0]), (y, to[1])):
+        turn(values, n, opening, 0, target)
+        repeat(target, n, 0)
+    turn(beam, n, opening, beams, to_beam)
+    # However often the beams were turned before, the first is one of the first turn.
+    past = to_beam[0] // beams * beams
+    for k in range(n):
+        to_beam[k] -= past
+    repeat(to_beam, n, beams)
+    turn(passed, n, opening, 0, breaks)
+    breaks[n] = breaks[0]
+    find_breaks(to[0], to[1], to_beam, breaks, min(n + 1, 4 * n), limits)
+    repeat(breaks, n, breaks[n])
 
 
 @kernel
-def put_down(x, y, beam, n, beams, start, count, to, to_beam):
-    """So many points of a full circle from point `start` on, with beam numbers that go on counting."""
-    for k in range(count):
-        turn = (k + start) // n
-        point = k + start - turn * n
-        to[0, k], to[1, k], to_beam[k] = x[point], y[point], beam[point] + turn * beams
+def turn(values, n, start, shift, to):
+    """Put n values of a full circle down from `start` on; past the seam they are greater by `shift`."""
+    for k in range(n - start):
+        to[k] = values[start + k]
+    for k in range(start):
+        to[n - start + k] = values[k] + shift
+
+
+@kernel
+def repeat(values, n, shift):
+    """Put n values down three times more, each time greater by `shift`."""
+    for k in range(n, 4 * n):
+        values[k] = values[k - n] + shift
 
 
 @kernel
