@@ -206,14 +206,28 @@ def widest_gap(lines, count, points):
     """
     widest = 0.0
     for i in range(count):
-        before, here = 0.0, squared_step(points, lines[i].first)
-        for k in range(lines[i].first, lines[i].last):
-            behind = squared_step(points, k + 1) if k + 1 < lines[i].last else 0.0
-            # Few steps are worth a root.
+        first, last = lines[i].first, lines[i].last
+        # Few segments have such a step, and only these are gone through step by step.
+        if wide_steps(points.x[first : last + 1], points.y[first : last + 1]) == 0:
+            continue
+        before, here = 0.0, squared_step(points, first)
+        for k in range(first, last):
+            behind = squared_step(points, k + 1) if k + 1 < last else 0.0
             if here > LEAST_GAP**2:
                 widest = max(widest, math.sqrt(here) - math.sqrt(max(before, behind)))
             before, here = here, behind
     return widest
+
+
+@kernel
+def wide_steps(x, y):
+    """Number of steps of more than LEAST_GAP."""
+    found = 0
+    x_next, y_next = x[1:], y[1:]
+    for k in range(len(x_next)):
+        dx, dy = x_next[k] - x[k], y_next[k] - y[k]
+        found += dx * dx + dy * dy > LEAST_GAP**2
+    return found
 
 
 @kernel

@@ -158,7 +158,7 @@ class _Job:
 
     def result(self, threads: int) -> Survey:
         parts = [self.segments[start] for start in sorted(self.segments)]
-        segments = np.concatenate(parts) if parts else np.empty(0, SEGMENT)
+        segments = joined(parts)
         offsets = np.concatenate(([0], np.cumsum(self.counts)))
         if self.scores is not None:
             self._compare(segments, offsets, self.scores, threads)
@@ -229,7 +229,7 @@ class Stretch:
                 cancelled, memory.segments, used, counts, scored,
             )  # fmt: skip
             if frame == self._stop or cancelled[0]:
-                return memory.segments[:used].copy()
+                return joined([memory.segments[:used]])
             memory.grow()
 
 
@@ -243,7 +243,12 @@ class Workspace(Memory):
         self.segments = np.empty(max(4096, beams), SEGMENT)
 
     def grow(self) -> None:
-        self.segments = np.concatenate((self.segments, np.empty_like(self.segments)))
+        self.segments = joined([self.segments, np.empty_like(self.segments)])
+
+
+def joined(parts: list[NDArray[np.void]]) -> NDArray[np.void]:
+    """A new array of the same segments; copied field by field it would take ten times as long."""
+    return np.concatenate([np.empty(0, np.uint8), *(part.view(np.uint8) for part in parts)]).view(SEGMENT)
 
 
 def _chunks(offsets: NDArray[np.int64]) -> list[tuple[int, int]]:
