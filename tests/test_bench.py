@@ -7,7 +7,7 @@ import pytest
 from lineseg_app.__main__ import main
 from scenes import corner, room
 
-from lineseg import Recording, save_npz
+from lineseg import Params, Recording, save_npz
 from lineseg.bench import bench, floor_pass, table
 
 NAMES = ["floor", "kernel", "extract", "trace", "survey", "survey with scores"]
@@ -53,6 +53,15 @@ def test_the_command_writes_a_table_or_json(recording, tmp_path, capsys):
     (report,) = json.loads(capsys.readouterr().out)
     assert (report["file"], report["frames"], report["beams"]) == ("corners.npz", 3, [180, 180])
     assert [timing["name"] for timing in report["timings"]] == NAMES
+    assert report["params"] == Params().numbers()
+
+
+def test_the_thresholds_may_be_given(tmp_path, capsys):
+    path = tmp_path / "corners.npz"
+    save_npz(Recording.from_scans([corner(noise=0.01)] * 3), path)
+    assert main(["bench", str(path), "--json", "--max-occluder", "0", "--merge-rms", "0"]) == 0
+    (report,) = json.loads(capsys.readouterr().out)
+    assert report["params"] == Params(max_occluder=0, merge_rms=0).numbers()
 
 
 def test_a_recording_that_is_not_there_is_said_to_be_missing(tmp_path, capsys):

@@ -6,16 +6,18 @@ from dataclasses import asdict
 from json import dumps
 from pathlib import Path
 
-from tyro.conf import Positional
+from tyro.conf import OmitArgPrefixes, Positional
 
 from lineseg.readers import TextOptions
 
 from .progress import open_with_progress
+from .thresholds import Flags, changed
 
 
 def bench(
     file: Positional[Path | None] = None,
     *,
+    thresholds: OmitArgPrefixes[Flags],  # type: ignore[valid-type]
     json: bool = False,
     topic: str | None = None,
 ) -> None:
@@ -23,23 +25,26 @@ def bench(
 
     Args:
         file: recording to take; without it, the samples.
+        thresholds: of region growing; what is not given is the default.
         json: write JSON instead of a table.
         topic: laser topic to take; the first without.
     """
+    from lineseg import Params
     from lineseg.bench import bench as measure
     from lineseg.bench import table
     from lineseg.survey import cores
 
     from ..places import data_folder
 
+    params = changed(Params(), thresholds)
     samples = data_folder("sample_scans")
     files = [samples / "hallway.npz", samples / "laboratory.npz"] if file is None else [file]
     reports = []
     for path in files:
         recording = open_with_progress(path, topic, TextOptions())
-        timings = measure(recording)
+        timings = measure(recording, params)
         facts = {"file": recording.name, "frames": len(recording), "beams": recording.beams, "cores": cores()}
-        reports.append(facts | {"timings": [asdict(timing) for timing in timings]})
+        reports.append(facts | {"params": params.numbers(), "timings": [asdict(timing) for timing in timings]})
         if not json:
             print(f"{recording.name}, {recording.beams[1]} beams\n{table(timings)}", flush=True)
     if json:

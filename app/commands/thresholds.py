@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from dataclasses import asdict, dataclass, field, make_dataclass
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, TypeVar
 
 from tyro.conf import OmitArgPrefixes, UseAppendAction, arg
 
 from lineseg import EXTRACTORS, Extractor, Knob, Params, Thresholds
 from lineseg.writers import read_params
+
+T = TypeVar("T", bound=Thresholds)
 
 
 def _flag(kind: type, knob: Knob, default: float) -> Any:
@@ -52,8 +54,13 @@ class Choice:
         """The defaults, changed by what a file says, changed by the flags that were given."""
         kind = self.extractor.params_type
         base = kind() if self.params is None else read_file(self.params, kind)
-        given = {name: value for name, value in asdict(self.flags).items() if value is not None}
-        return base.but(**given, **dict(map(_pair, self.set)))
+        return changed(base, self.flags, **dict(map(_pair, self.set)))
+
+
+def changed(base: T, flags: Any, **others: float) -> T:
+    """The thresholds with those that the flags give, and others."""
+    given = {name: value for name, value in asdict(flags).items() if value is not None}
+    return base.but(**given, **others)
 
 
 def extractor_of(method: str) -> Extractor:

@@ -42,23 +42,12 @@ def find_seed(points, start, stop, limits, candidate, log):
 
 @inlined_kernel
 def is_seed(points, first, last, moments, limits):
-    if scattered(moments, limits.epsilon):
-        return False
     test = test_of(moments, limits)
     for k in range(first, last + 1):
         too_far, off_line = fails(at(points.x, k), at(points.y, k), test)
         if too_far or off_line:
             return False
     return True
-
-
-@inlined_kernel
-def scattered(m, epsilon):
-    """Whether Σd² > n·ε²: some point then lies farther than ε from the line of the window, whichever it is."""
-    cosine, sine = m.n * (m.sxx - m.syy) - (m.sx * m.sx - m.sy * m.sy), 2.0 * (m.n * m.sxy - m.sx * m.sy)
-    spread = m.n * (m.sxx + m.syy) - (m.sx * m.sx + m.sy * m.sy)
-    # Rounding alone must not refuse a window.
-    return spread - math.sqrt(cosine * cosine + sine * sine) > 2.0 * (1.0 + 1e-6) * (epsilon * m.n) ** 2
 
 
 @inlined_kernel
