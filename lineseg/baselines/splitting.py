@@ -12,6 +12,7 @@ from ..decisions import Kind
 from ..kernel import kernel
 from ..knobs import Knob
 from ..log import note, note_pair
+from ..region_growing.growth import length_of
 from ..region_growing.lines import append, drop, line_at
 from ..region_growing.log import CHECKS, MIN_LENGTH, MIN_POINTS, NONE
 from ..scan import Scan
@@ -135,7 +136,10 @@ def select(x, y, rules, lines, count, dropped, log):
     kept = 0
     for i in range(count):
         first, last = lines[i].first, lines[i].last
-        check, value, limit = MIN_LENGTH, math.hypot(x[last] - x[first], y[last] - y[first]), rules.min_length
+        length = math.hypot(x[last] - x[first], y[last] - y[first])
+        if rules.by_fit:
+            length = length_of(x, y, first, last, line_at(lines, i))
+        check, value, limit = MIN_LENGTH, length, rules.min_length
         if value >= limit:
             check, value, limit = MIN_POINTS, float(last - first + 1), float(rules.min_points)
         if value >= limit:

@@ -67,8 +67,8 @@ def note_stop(points, first, last, here, edge, direction, scatter, limits, candi
 
 
 @kernel
-def length_of(points, first, last, line):
+def length_of(x, y, first, last, line):
     """L_l: the distance between the two endpoints, projected on the line [m]."""
-    x1, y1 = project(line, points.x[first], points.y[first])
-    x2, y2 = project(line, points.x[last], points.y[last])
+    x1, y1 = project(line, x[first], y[first])
+    x2, y2 = project(line, x[last], y[last])
     return ((x2 - x1) ** 2 + (y2 - y1) ** 2) ** 0.5

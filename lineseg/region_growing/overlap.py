@@ -188,7 +188,7 @@ def shortfall(points, first, last, line, limits):
     n = last - first + 1
     if n < limits.min_points or n < 2:
         return MIN_POINTS, float(n), float(limits.min_points)
-    length = length_of(points, first, last, line)
+    length = length_of(points.x, points.y, first, last, line)
     # Not `<`: of points too close to have a direction, the length is NaN.
     if not length >= limits.min_length:
         return MIN_LENGTH, length, limits.min_length

@@ -28,6 +28,17 @@ def test_the_textbook_fits_all_points():
     assert segment.rms < chord.rms
 
 
+def test_the_textbook_measures_a_line_between_its_projected_ends():
+    # Its last point lies 7 cm behind the wall: to it the way is longer than the line is.
+    scan = wall_ahead(beams=100, field_of_view=0.3, bump={99: 0.07})
+    params = TextbookParams(split_distance=0.1, min_length=0.1)
+    (segment,) = extract(scan, params).segments
+    ends = float(np.hypot(*(scan.xy[99] - scan.xy[0])))
+    assert segment.length < ends - 1e-3
+    assert spans(scan, params.but(min_length=segment.length - 1e-6)) == [(0, 99)]
+    assert spans(scan, params.but(min_length=ends - 1e-6)) == []
+
+
 def test_both_split_a_corner_at_its_farthest_point():
     scan = corner(beams=400)
     for params in (EndPointFitParams(), TextbookParams()):
