@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from xml.sax.saxutils import escape
+from html import escape
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,7 +28,7 @@ def figure_svg(scan: Scan, extraction: Extraction, title: str = "") -> str:
     parts = [
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{WIDTH:g}" height="{HEIGHT:g}" '
         f'viewBox="0 0 {WIDTH:g} {HEIGHT:g}" font-family="sans-serif" font-size="14" fill="{INK}">',
-        f"<title>{escape(title or 'laser scan')}</title>",
+        f"<title>{escape(title or 'laser scan', quote=False)}</title>",
         f'<rect width="{WIDTH:g}" height="{HEIGHT:g}" fill="{GROUND}"/>',
         *_points(scan, place),
         *_segments(extraction, place),
@@ -103,7 +103,7 @@ def _foot(scan: Scan, extraction: Extraction, title: str, place: _Place) -> Iter
     for sign, words in entries:
         yield sign.format(x=f"{x:.1f}") + f'<text x="{x + 14:.1f}" y="{middle + 5:g}">{words}</text>'
         x += 44 + 8 * len(words)
-    yield f'<text x="{MARGIN + max(width, 60) + 32:.1f}" y="{y + 20:g}">{escape(title)}</text>'
+    yield f'<text x="{MARGIN + max(width, 60) + 32:.1f}" y="{y + 20:g}">{escape(title, quote=False)}</text>'
 
 
 def bar_length(most: float) -> float:
