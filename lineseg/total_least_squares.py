@@ -98,9 +98,9 @@ def halved(cosine, sine):
 @kernel
 def least_squares_of(m):
     """Σ(a·xᵢ + b·yᵢ + c)² of the line that minimises it (Eq. 2): the smaller eigenvalue of the scatter matrix."""
-    cosine, sine = m.sxx - m.syy - (m.sx * m.sx - m.sy * m.sy) / m.n, 2.0 * (m.sxy - m.sx * m.sy / m.n)
-    spread = m.sxx + m.syy - (m.sx * m.sx + m.sy * m.sy) / m.n
-    return max(0.5 * (spread - math.sqrt(cosine * cosine + sine * sine)), 0.0)
+    s = scatter_of(m)
+    spread = m.sxx + m.syy - (m.sx * m.sx + m.sy * m.sy) * s.share
+    return max(0.5 * (spread - math.sqrt(s.cosine * s.cosine + s.sine * s.sine)), 0.0)
 
 
 @kernel

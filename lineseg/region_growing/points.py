@@ -91,10 +91,10 @@ def points_of(ranges, rays, range_min, range_max, circle, limits, xy, numbers):
         n = look_past(x, y, rho, beam, breaks, numbers[5], n, limits)
     if circle:
         start, m = n, 4 * n
-        lay_round(x, y, beam, numbers[4], n, len(ranges), xy, numbers[0], breaks, limits)
+        lay_round(x, y, beam, numbers[4], n, len(ranges), xy, numbers[0], breaks, looking, limits)
     else:
         m = n
-        find_breaks(xy[0], xy[1], numbers[0], breaks, m, limits)
+        find_breaks(xy[0], xy[1], numbers[0], breaks, m, looking, limits)
     return Points(xy[0, :m], xy[1, :m], numbers[0, :m], breaks[:m], start, n, circle, returns)
 
 
@@ -118,7 +118,7 @@ def look_past_all_round(x, y, rho, beam, n, beams, to, to_beam, passed, steps, l
 
 
 @kernel
-def lay_round(x, y, beam, passed, n, beams, to, to_beam, breaks, limits):
+def lay_round(x, y, beam, passed, n, beams, to, to_beam, breaks, looked, limits):
     """Open a full circle of n points at its widest gap, and put it down four times."""
     opening, widest = 0, -1.0
     for k in range(n):
@@ -137,7 +137,7 @@ def lay_round(x, y, beam, passed, n, beams, to, to_beam, breaks, limits):
     repeat(to_beam, n, beams)
     turn(passed, n, opening, 0, breaks)
     breaks[n] = breaks[0]
-    find_breaks(to[0], to[1], to_beam, breaks, min(n + 1, 4 * n), limits)
+    find_breaks(to[0], to[1], to_beam, breaks, min(n + 1, 4 * n), looked, limits)
     repeat(breaks, n, breaks[n])
 
 
@@ -158,17 +158,16 @@ def repeat(values, n, shift):
 
 
 @kernel
-def find_breaks(x, y, beam, breaks, n, limits):
+def find_breaks(x, y, beam, breaks, n, looked, limits):
     """Number the breaks: more than max_dropout beams without a return, or a gap wider than max_gap (extensions).
 
-    Where `look_past` has left a 1, the beams between stand for a thing and count as no dropout.
+    looked: whether `look_past` came before: where it left a 1, the beams between stand for a thing and count as no dropout.
     """
     widest = limits.max_gap * limits.max_gap
-    looked = int(limits.max_occluder > 0.0)
     breaks[0] = 0
     for k in range(1, n):
         dx, dy = x[k] - x[k - 1], y[k] - y[k - 1]
-        lost = (beam[k] - beam[k - 1] - 1 > limits.max_dropout) & (breaks[k] & looked == 0)
+        lost = (beam[k] - beam[k - 1] - 1 > limits.max_dropout) & ((breaks[k] == 0) | (not looked))
         breaks[k] = lost | (dx * dx + dy * dy > widest)
     for k in range(1, n):
         breaks[k] += breaks[k - 1]
