@@ -9,8 +9,9 @@ from numba import njit
 
 # A kernel works on memory that its caller gives it: it allocates nothing, so it counts no references, which in loops as
 # short as these would cost more than the arithmetic. It needs no interpreter lock and divides as numpy does. Products
-# and sums are rounded one by one: a trace then decides as the extraction does, to the last bit.
-_OPTIONS: dict[str, Any] = {"nogil": True, "error_model": "numpy", "_nrt": False}
+# and sums are rounded one by one: a trace then decides as the extraction does, to the last bit. Were fastmath not
+# forbidden, a kernel would take it from the first that calls it.
+_OPTIONS: dict[str, Any] = {"nogil": True, "error_model": "numpy", "_nrt": False, "fastmath": False}
 # Only what Python calls needs a place in the cache: the rest is compiled into it.
 _INNER: dict[str, Any] = {**_OPTIONS, "no_cfunc_wrapper": True}
 

@@ -161,7 +161,8 @@ def repeat(values, n, shift):
 def find_breaks(x, y, beam, breaks, n, looked, limits):
     """Number the breaks: more than max_dropout beams without a return, or a gap wider than max_gap (extensions).
 
-    looked: whether `look_past` came before: where it left a 1, the beams between stand for a thing and count as no dropout.
+    looked: whether `look_past` came before: where it left a 1, the beams between stand for a thing and count as no
+    dropout.
     """
     widest = limits.max_gap * limits.max_gap
     breaks[0] = 0
