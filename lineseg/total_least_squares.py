@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .kernel import inlined_kernel, kernel, summing_kernel
+from .kernel import fma, inlined_kernel, kernel, summing_kernel
 
 
 @kernel
@@ -159,7 +159,7 @@ def reciprocal(n):
 @kernel
 def from_mean(s, x, y):
     """(x, y) relative to the mean of the points."""
-    return x - s.x0 - s.sx * s.share, y - s.y0 - s.sy * s.share
+    return fma(-s.sx, s.share, x - s.x0), fma(-s.sy, s.share, y - s.y0)
 
 
 @kernel
@@ -168,7 +168,7 @@ def with_point(s, x, y):
     px, py = from_mean(s, x, y)
     share = reciprocal(s.n + 1)
     weight = 1.0 - share
-    cosine, sine = s.cosine + weight * (px * px - py * py), s.sine + weight * (2.0 * (px * py))
+    cosine, sine = fma(weight, px * px - py * py, s.cosine), fma(weight, 2.0 * (px * py), s.sine)
     return Scatter(s.x0, s.y0, s.n + 1, share, s.sx + (x - s.x0), s.sy + (y - s.y0), cosine, sine)
 
 
@@ -191,8 +191,8 @@ def is_nearer(s, x, y, limit):
     is asked once for every point that a line takes.
     """
     px, py = from_mean(s, x, y)
-    norm = s.cosine * s.cosine + s.sine * s.sine
-    along = (px * px - py * py) * s.cosine + 2.0 * (px * py) * s.sine
+    norm = fma(s.cosine, s.cosine, s.sine * s.sine)
+    along = fma(px * px - py * py, s.cosine, 2.0 * (px * py) * s.sine)
     beyond = px * px + py * py - 2.0 * limit * limit
     # Points that all coincide have no direction; what lies next to them joins.
     return along * abs(along) > norm * (beyond * abs(beyond)) or (norm == 0.0 and beyond < 0.0)
