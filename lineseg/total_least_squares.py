@@ -78,17 +78,20 @@ def direction_of(m):
     """A vector, not of unit length, along the line that minimises Σ(a·xᵢ + b·yᵢ + c)² (Eq. 2).
 
     It is the eigenvector of the greater eigenvalue of the 2×2 scatter matrix, here n times too large, in closed form.
-    Where all points coincide or scatter equally any direction fits, and the one across the beam is taken.
     """
     cosine, sine = m.n * (m.sxx - m.syy) - (m.sx * m.sx - m.sy * m.sy), 2.0 * (m.n * m.sxy - m.sx * m.sy)
-    if cosine == 0.0 and sine == 0.0:
-        return -(m.n * m.y0 + m.sy), m.n * m.x0 + m.sx
-    return halved(cosine, sine)
+    return halved(cosine, sine, m.n * m.x0 + m.sx, m.n * m.y0 + m.sy)
 
 
 @kernel
-def halved(cosine, sine):
-    """A vector with half the angle of (cosine, sine); of its two forms the one without cancellation is taken."""
+def halved(cosine, sine, x, y):
+    """A vector with half the angle of (cosine, sine); of its two forms the one without cancellation is taken.
+
+    Where all points coincide or scatter equally both are 0 and any direction fits: the one across the beam to (x, y) is
+    taken.
+    """
+    if cosine == 0.0 and sine == 0.0:
+        return -y, x
     root = math.sqrt(cosine * cosine + sine * sine)
     if cosine >= 0.0:
         return cosine + root, sine
@@ -176,9 +179,7 @@ def with_point(s, x, y):
 def line_through(s):
     """`line_of` of the points with this scatter."""
     x, y = s.x0 + s.sx * s.share, s.y0 + s.sy * s.share
-    ux, uy = halved(s.cosine, s.sine)
-    if ux == 0.0 and uy == 0.0:
-        ux, uy = -y, x
+    ux, uy = halved(s.cosine, s.sine, x, y)
     return line_along(ux, uy, x, y)
 
 

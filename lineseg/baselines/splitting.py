@@ -136,9 +136,10 @@ def select(x, y, rules, lines, count, dropped, log):
     kept = 0
     for i in range(count):
         first, last = lines[i].first, lines[i].last
-        length = math.hypot(x[last] - x[first], y[last] - y[first])
         if rules.by_fit:
             length = length_of(x, y, first, last, line_at(lines, i))
+        else:
+            length = math.hypot(x[last] - x[first], y[last] - y[first])
         check, value, limit = MIN_LENGTH, length, rules.min_length
         if value >= limit:
             check, value, limit = MIN_POINTS, float(last - first + 1), float(rules.min_points)
