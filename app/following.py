@@ -20,7 +20,7 @@ Presence = Literal["here", "away", "gone"]
 
 
 class Follower(Protocol):
-    """Who mirrors a presenter; both are called in threads of the presenter."""
+    """Who mirrors a presenter; both are called in threads of the presenter, one after the other, and do not wait."""
 
     def mirror(self, view: View) -> None: ...
 
@@ -40,11 +40,11 @@ class Presenter:
     def join(self, follower: Follower) -> Callable[[], None]:
         """Mirror to this follower too, from now on; the result ends that."""
         with self._lock:
-            self._followers.append(follower)
-            view, presence = self._view, self._presence
-        follower.presenter_is(presence)
-        if view is not None:
-            follower.mirror(view)
+            follower.presenter_is(self._presence)
+            if self._presence != "gone":
+                self._followers.append(follower)
+                if self._view is not None:
+                    follower.mirror(self._view)
         return lambda: self._leave(follower)
 
     def _leave(self, follower: Follower) -> None:
@@ -56,19 +56,19 @@ class Presenter:
         """The presenter looks at this."""
         with self._lock:
             self._view = view
-            followers = list(self._followers)
-        for follower in followers:
-            follower.mirror(view)
+            for follower in self._followers:
+                follower.mirror(view)
 
     def tell(self, presence: Presence) -> None:
-        """Whether the presenter's page is there, away for a moment, or gone for good."""
+        """Whether the presenter's page is there, away for a moment, or gone for good: its last word."""
         with self._lock:
-            if presence == self._presence:
+            if self._presence in (presence, "gone"):
                 return
             self._presence = presence
-            followers = list(self._followers)
-        for follower in followers:
-            follower.presenter_is(presence)
+            for follower in self._followers:
+                follower.presenter_is(presence)
+            if presence == "gone":
+                self._followers.clear()
 
 
 def mirrored(own: View, shown: View) -> View:

@@ -97,7 +97,7 @@ class Session:
         self._strip = Strip(f"strip {id[:6]}", warm_up.surveyed, self._tell)
         self._followed = 0.0
         self.presenter = Presenter()
-        self._stop_following: Callable[[], None] | None = None
+        self._leave_presenter: Callable[[], None] | None = None
         self._presence: Presence | None = None
         self._forget_live = library.live.on_scan(self._wake)
         self._forget_labels = files.on_change(self._relabelled)
@@ -137,16 +137,16 @@ class Session:
 
     @property
     def following(self) -> bool:
-        return self._stop_following is not None
+        return self._presence in ("here", "away")
 
     def follow(self, presenter: Presenter | None) -> None:
         """Mirror a presenter, whose View replaces this one whenever it changes; None: no more."""
-        if self._stop_following is not None:
-            self._stop_following()
-            self._stop_following = None
+        if self._leave_presenter is not None:
+            self._leave_presenter()
+            self._leave_presenter = None
         self.presenter_is(None)
         if presenter is not None and presenter is not self.presenter:
-            self._stop_following = presenter.join(self)
+            self._leave_presenter = presenter.join(self)
 
     def mirror(self, view: View) -> None:
         with self._changed:
@@ -159,8 +159,6 @@ class Session:
         """Tell the page, with the next picture."""
         with self._changed:
             self._presence = presence
-            if presence == "gone":
-                self._stop_following = None
             self._ask(self._wanted.view, self._wanted.rev, "scene")
 
     def change(self, patch: Mapping[str, Any], rev: int | None = None, origin: Origin = "page") -> None:

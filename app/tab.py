@@ -203,6 +203,7 @@ async def _follow(socket: WebSocket, session: Session, sessions: Sessions, id: s
     try:
         presenter = sessions.presenter(id) if id is not None else None
     except ValueError as error:
+        await asyncio.to_thread(session.follow, None)
         session.presenter_is("gone")
         await _tell(socket, Failure(where="view", message=str(error)))
         return
