@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..kernel import kernel
+from ..total_least_squares import at
 from .log import MAX_DROPOUT, MAX_GAP, NONE
 from .occluder import look_past
 
@@ -77,12 +78,10 @@ def points_of(ranges, rays, range_min, range_max, circle, limits, xy, numbers):
     x, y, rho, beam, breaks = xy[0], xy[1], xy[2], numbers[0], numbers[1]
     if circle:
         x, y, rho, beam = xy[3], xy[4], xy[5], numbers[2]
-    n = 0
-    for k in range(len(ranges)):
-        r = ranges[k]
-        # Written in any case, and kept if valid: a branch here would be guessed wrong at every dropout.
-        x[n], y[n], rho[n], beam[n] = r * rays[0, k], r * rays[1, k], r, k
-        n += (r > 0.0) & (r >= range_min) & (r < range_max)
+    if is_complete(ranges, range_min, range_max):
+        n = take_all(ranges, rays, x, y, rho, beam)
+    else:
+        n = take_valid(ranges, rays, range_min, range_max, x, y, rho, beam)
     returns, start, m = n, 0, 0
     looking = limits.max_occluder > 0.0 and n > 2
     if looking and circle:
@@ -96,6 +95,37 @@ def points_of(ranges, rays, range_min, range_max, circle, limits, xy, numbers):
         m = n
         find_breaks(xy[0], xy[1], numbers[0], breaks, m, looking, limits)
     return Points(xy[0, :m], xy[1, :m], numbers[0, :m], breaks[:m], start, n, circle, returns)
+
+
+@kernel
+def is_complete(ranges, range_min, range_max):
+    """Whether every beam is valid."""
+    invalid = 0
+    for k in range(len(ranges)):
+        r = ranges[k]
+        invalid += not ((r > 0.0) & (r >= range_min) & (r < range_max))
+    return invalid == 0
+
+
+@kernel
+def take_all(ranges, rays, x, y, rho, beam):
+    """The points of all beams, several at a time: their number."""
+    for k in range(len(ranges)):
+        r = ranges[k]
+        x[k], y[k], rho[k], beam[k] = r * rays[0, k], r * rays[1, k], r, k
+    return len(ranges)
+
+
+@kernel
+def take_valid(ranges, rays, range_min, range_max, x, y, rho, beam):
+    """The points of the valid beams, one after the other: their number."""
+    n = 0
+    for k in range(len(ranges)):
+        r = ranges[k]
+        # Written in any case, and kept if valid: a branch here would be guessed wrong at every dropout.
+        x[n], y[n], rho[n], beam[n] = r * rays[0, k], r * rays[1, k], r, k
+        n += (r > 0.0) & (r >= range_min) & (r < range_max)
+    return n
 
 
 @kernel
@@ -165,13 +195,16 @@ def find_breaks(x, y, beam, breaks, n, looked, limits):
     dropout.
     """
     widest = limits.max_gap * limits.max_gap
-    breaks[0] = 0
+    breaks[0] = total = 0
     for k in range(1, n):
-        dx, dy = x[k] - x[k - 1], y[k] - y[k - 1]
-        lost = (beam[k] - beam[k - 1] - 1 > limits.max_dropout) & ((breaks[k] == 0) | (not looked))
+        dx, dy = at(x, k) - at(x, k - 1), at(y, k) - at(y, k - 1)
+        lost = (at(beam, k) - at(beam, k - 1) - 1 > limits.max_dropout) & ((breaks[k] == 0) | (not looked))
         breaks[k] = lost | (dx * dx + dy * dy > widest)
-    for k in range(1, n):
-        breaks[k] += breaks[k - 1]
+        total += breaks[k]
+    # Most scans have none.
+    if total > 0:
+        for k in range(1, n):
+            breaks[k] += breaks[k - 1]
 
 
 @kernel
