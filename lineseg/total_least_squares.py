@@ -42,13 +42,6 @@ def add(m, x, y):
     return Moments(m.x0, m.y0, m.n + 1.0, m.sx + dx, m.sy + dy, m.sxx + dx * dx, m.sxy + dx * dy, m.syy + dy * dy)
 
 
-@kernel
-def remove(m, x, y):
-    """Moments with the point (x, y) taken out."""
-    dx, dy = x - m.x0, y - m.y0
-    return Moments(m.x0, m.y0, m.n - 1.0, m.sx - dx, m.sy - dy, m.sxx - dx * dx, m.sxy - dx * dy, m.syy - dy * dy)
-
-
 @summing_kernel
 def moments_of(x, y, first, last):
     """Moments of the points first..last, about the first of them."""
@@ -62,15 +55,6 @@ def moments_of(x, y, first, last):
         sx, sy = sx + dx, sy + dy
         sxx, sxy, syy = sxx + dx * dx, sxy + dx * dy, syy + dy * dy
     return Moments(x0, y0, float(len(x)), sx, sy, sxx, sxy, syy)
-
-
-@inlined_kernel
-def moments_of_few(x, y, first, last):
-    """The same for so few points that adding them one by one is the fastest."""
-    m = empty(at(x, first), at(y, first))
-    for k in range(first, last + 1):
-        m = add(m, at(x, k), at(y, k))
-    return m
 
 
 @kernel
@@ -102,7 +86,7 @@ def halved(cosine, sine, x, y):
 def least_squares_of(m):
     """Σ(a·xᵢ + b·yᵢ + c)² of the line that minimises it (Eq. 2): the smaller eigenvalue of the scatter matrix."""
     s = scatter_of(m)
-    spread = m.sxx + m.syy - (m.sx * m.sx + m.sy * m.sy) * s.share
+    spread = m.sxx + m.syy - (m.sx * m.sx + m.sy * m.sy) / m.n
     return max(0.5 * (spread - math.sqrt(s.cosine * s.cosine + s.sine * s.sine)), 0.0)
 
 
@@ -125,20 +109,20 @@ def line_along(ux, uy, x, y):
 
 
 class Scatter(NamedTuple):
-    """What a line that grows needs of its n points: their sums relative to (x0, y0) and their scatter about the mean.
+    """What a line that grows needs of its n points: their mean and their scatter about it.
 
-    share: 1/n; cosine, sine: Σ(dx² − dy²) and 2·Σdx·dy, with dx and dy the distances of a point from the mean. As a
-    vector they have twice the angle of the fitted line.
+    cosine, sine: Σ(dx² − dy²) and 2·Σdx·dy, with dx and dy the distances of a point from the mean. As a vector they
+    have twice the angle of the fitted line.
     """
 
-    x0: float
-    y0: float
+    x: float
+    y: float
     n: int
-    share: float
-    sx: float
-    sy: float
     cosine: float
     sine: float
+
+
+NO_SCATTER = Scatter(0.0, 0.0, 0, 0.0, 0.0)
 
 
 @kernel
@@ -146,7 +130,7 @@ def scatter_of(m):
     """The same of n ≥ 1 points of which the moments are known."""
     share = 1.0 / m.n
     cosine, sine = m.sxx - m.syy - (m.sx * m.sx - m.sy * m.sy) * share, 2.0 * (m.sxy - m.sx * m.sy * share)
-    return Scatter(m.x0, m.y0, int(m.n), share, m.sx, m.sy, cosine, sine)
+    return Scatter(m.x0 + m.sx * share, m.y0 + m.sy * share, int(m.n), cosine, sine)
 
 
 # Asked for at every point that a line takes; a division would take longer than all the rest.
@@ -159,28 +143,36 @@ def reciprocal(n):
     return at(RECIPROCALS, n) if n < len(RECIPROCALS) else 1.0 / n
 
 
-@kernel
-def from_mean(s, x, y):
-    """(x, y) relative to the mean of the points."""
-    return fma(-s.sx, s.share, x - s.x0), fma(-s.sy, s.share, y - s.y0)
+@inlined_kernel
+def scatter_of_few(x, y, first, last):
+    """The same of the points first..last, so few that adding them one by one is the fastest."""
+    x0, y0 = at(x, first), at(y, first)
+    sx = sy = cosine = sine = 0.0
+    for k in range(first + 1, last + 1):
+        dx, dy = at(x, k) - x0, at(y, k) - y0
+        sx, sy = sx + dx, sy + dy
+        cosine, sine = cosine + (dx * dx - dy * dy), sine + dx * dy
+    n = last - first + 1
+    share = reciprocal(n)
+    cosine, sine = cosine - (sx * sx - sy * sy) * share, 2.0 * (sine - sx * sy * share)
+    return Scatter(x0 + sx * share, y0 + sy * share, n, cosine, sine)
 
 
 @kernel
 def with_point(s, x, y):
     """The scatter with the point (x, y) added (Welford)."""
-    px, py = from_mean(s, x, y)
+    px, py = x - s.x, y - s.y
     share = reciprocal(s.n + 1)
     weight = 1.0 - share
     cosine, sine = fma(weight, px * px - py * py, s.cosine), fma(weight, 2.0 * (px * py), s.sine)
-    return Scatter(s.x0, s.y0, s.n + 1, share, s.sx + (x - s.x0), s.sy + (y - s.y0), cosine, sine)
+    return Scatter(fma(px, share, s.x), fma(py, share, s.y), s.n + 1, cosine, sine)
 
 
 @kernel
 def line_through(s):
     """`line_of` of the points with this scatter."""
-    x, y = s.x0 + s.sx * s.share, s.y0 + s.sy * s.share
-    ux, uy = halved(s.cosine, s.sine, x, y)
-    return line_along(ux, uy, x, y)
+    ux, uy = halved(s.cosine, s.sine, s.x, s.y)
+    return line_along(ux, uy, s.x, s.y)
 
 
 @kernel
@@ -191,7 +183,7 @@ def is_nearer(s, x, y, limit):
     2·d² = |p|² − (px² − py²)·cos 2φ − 2·px·py·sin 2φ. Both sides are compared by their squares, with their signs. This
     is asked once for every point that a line takes.
     """
-    px, py = from_mean(s, x, y)
+    px, py = x - s.x, y - s.y
     norm = fma(s.cosine, s.cosine, s.sine * s.sine)
     along = fma(px * px - py * py, s.cosine, 2.0 * (px * py) * s.sine)
     beyond = px * px + py * py - 2.0 * limit * limit

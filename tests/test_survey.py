@@ -230,10 +230,10 @@ def survey_nasty_scans():
 def test_no_kernel_leaves_its_arrays(tmp_path):
     program = """
 import numpy as np
-from lineseg.total_least_squares import moments_of_few
+from lineseg.total_least_squares import scatter_of_few
 import test_survey
 try:
-    moments_of_few(np.zeros(4), np.zeros(4), 0, 4)
+    scatter_of_few(np.zeros(4), np.zeros(4), 0, 4)
 except IndexError:
     test_survey.survey_nasty_scans()
     print("stayed inside")

@@ -67,10 +67,10 @@ def grow_lines(points, limits, lines, dropped, log):
     elif points.period < 2 * limits.seed_points:
         stop = start
     while True:
-        seed, moments = find_seed(points, start, stop, limits, candidate, log)
+        seed, scatter = find_seed(points, start, stop, limits, candidate, log)
         if seed < 0:
             return count
-        first, last, scatter = grow(points, seed, moments, limits, candidate, log)
+        first, last, scatter = grow(points, seed, scatter, limits, candidate, log)
         enough_points = last - first + 1 >= limits.min_points
         line = NOWHERE
         # Most candidates have too few points, and only the log asks for their line.

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from ..kernel import inlined_kernel, kernel
 from ..log import note
-from ..total_least_squares import at, is_nearer, line_through, project, scatter_of, signed_distance, with_point
+from ..total_least_squares import at, is_nearer, line_through, project, signed_distance, with_point
 from .log import END, EPSILON, GROWTH_STOPPED, NONE, POINT_ADDED
 from .points import breach
 
 
 @inlined_kernel
-def grow(points, seed, moments, limits, candidate, log):
+def grow(points, seed, scatter, limits, candidate, log):
     """The line (first, last, scatter) that grows from the seed at position `seed`: forward to its end, then backward.
 
     A point is compared with the line fitted without it and joins if it is nearer than ε; then the line is fitted anew.
@@ -18,7 +18,6 @@ def grow(points, seed, moments, limits, candidate, log):
     before it.
     """
     first, last = seed, seed + limits.seed_points - 1
-    scatter = scatter_of(moments)
     last, scatter = advance(points, first, last, 1, scatter, limits, candidate, log)
     first, scatter = advance(points, first, last, -1, scatter, limits, candidate, log)
     return first, last, scatter

@@ -6,58 +6,79 @@ import math
 
 from ..kernel import inlined_kernel, kernel
 from ..log import note
-from ..total_least_squares import add, at, direction_of, empty, line_of, moments_of_few, remove, signed_distance
+from ..total_least_squares import NO_SCATTER, at, halved, line_through, scatter_of_few, signed_distance
 from .log import DELTA, EPSILON, NONE, SEED_FOUND, SEED_REJECTED
 from .points import breach
 
 NOWHERE = (0.0, 0.0, 0.0)
-# Moments that slide along with the window are summed anew after so many steps, before rounding adds up.
-FRESH = 16
 
 
 @inlined_kernel
 def find_seed(points, start, stop, limits, candidate, log):
-    """First position in start..stop − 1 at which a seed begins, or −1; and the moments of the seed.
+    """First position in start..stop − 1 at which a seed begins, or −1; and the scatter of the seed.
 
     A seed is a window of exactly S_num consecutive points (the listing's j = i + S_num would be one more) in which each
     point, in turn, passes two checks: the distance to its predicted point P′ is at most δ, the distance to the line
     at most ε. `flag` of the listing starts anew for every window; printed, it is never set back.
     """
-    x, y, breaks = points.x, points.y, points.breaks
-    moments = empty(0.0, 0.0)
-    for first in range(start, stop):
+    scatter = NO_SCATTER
+    first = start
+    while first < stop:
         last = first + limits.seed_points - 1
-        if (first - start) % FRESH == 0:
-            moments = moments_of_few(x, y, first, last)
-        else:
-            moments = add(remove(moments, at(x, first - 1), at(y, first - 1)), at(x, last), at(y, last))
-        if at(breaks, first) == at(breaks, last) and is_seed(points, first, last, moments, limits):
+        scatter = scatter_of_few(points.x, points.y, first, last)
+        if at(points.breaks, first) == at(points.breaks, last) and is_seed(points, first, last, scatter, limits):
             if log is not None:
-                note(log, SEED_FOUND, NONE, candidate, 0, (first, last), -1, line_of(moments), 0.0, 0.0)
-            return first, moments
+                note(log, SEED_FOUND, NONE, candidate, 0, (first, last), -1, line_through(scatter), 0.0, 0.0)
+            return first, scatter
         if log is not None:
-            note_refusal(points, first, last, moments, limits, candidate, log)
-    return -1, moments
+            note_refusal(points, first, last, scatter, limits, candidate, log)
+            first += 1
+        else:
+            first = next_window(points, first, last, limits)
+    return -1, scatter
 
 
 @inlined_kernel
-def is_seed(points, first, last, moments, limits):
-    test = test_of(moments, limits)
+def next_window(points, first, last, limits):
+    """Where to look next after a window that failed: a window that reaches over an edge need not be tried."""
+    for k in range(min(last, len(points.x) - 2), first + 1, -1):
+        if is_edge(points, k, limits):
+            return k
+    return first + 1
+
+
+@inlined_kernel
+def is_edge(points, k, limits):
+    """Whether the points A, B, C at positions k − 1, k, k + 1 fit into no seed, whatever its line.
+
+    Let r be ρ/ρ′ of a point, so that the line passes through A/r_A, B/r_B and C/r_C; with [PQ] the cross product of two
+    points then r_C·[AB] + r_A·[BC] = r_B·[AC]. In a seed each ρ′ is within δ of its ρ, and no r differs from 1 by more
+    than δ/(ρ − δ). So |[AB] + [BC] − [AC]|, which is twice the area of ABC, is at most
+    δ/(ρ − δ)·(|[AB]| + |[BC]| + |[AC]|), with ρ the least of the three.
+    """
+    xa, ya = at(points.x, k - 1), at(points.y, k - 1)
+    xb, yb = at(points.x, k), at(points.y, k)
+    xc, yc = at(points.x, k + 1), at(points.y, k + 1)
+    ab, bc, ac = xa * yb - ya * xb, xb * yc - yb * xc, xa * yc - ya * xc
+    nearest = math.sqrt(min(xa * xa + ya * ya, xb * xb + yb * yb, xc * xc + yc * yc))
+    return abs(ab + bc - ac) * (nearest - limits.delta) > limits.delta * (abs(ab) + abs(bc) + abs(ac))
+
+
+@inlined_kernel
+def is_seed(points, first, last, scatter, limits):
+    test = test_of(scatter, limits)
+    failed = False
     for k in range(first, last + 1):
         too_far, off_line = fails(at(points.x, k), at(points.y, k), test)
-        if too_far or off_line:
-            return False
-    return True
+        failed |= too_far | off_line
+    return not failed
 
 
 @inlined_kernel
-def test_of(m, limits):
-    """What `fails` needs of a window: n, n times its direction u and their offset, and the two limits, squared."""
-    ux, uy = direction_of(m)
-    offset = ux * (m.sy + m.n * m.y0) - uy * (m.sx + m.n * m.x0)
-    predicted = (limits.delta * m.n) ** 2
-    near = (limits.epsilon * m.n) ** 2 * (ux * ux + uy * uy)
-    return m.n, ux, uy, offset, predicted, near
+def test_of(scatter, limits):
+    """What `fails` needs of a window: u along its line, u × any point of the line, and both limits, squared."""
+    ux, uy = halved(scatter.cosine, scatter.sine, scatter.x, scatter.y)
+    return ux, uy, ux * scatter.y - uy * scatter.x, limits.delta**2, limits.epsilon**2 * (ux * ux + uy * uy)
 
 
 @inlined_kernel
@@ -67,15 +88,15 @@ def fails(x, y, test):
     P and P′ lie on one beam, so their distance is |ρ − ρ′| = d / |cos of the angle of incidence|, and that
     cosine is |a·x + b·y| / ρ. Squared and multiplied out, neither check needs a root, a division or the bearing.
     """
-    n, ux, uy, offset, predicted, near = test
+    ux, uy, offset, predicted, near = test
     along = ux * y - uy * x
-    d = n * along - offset
+    d = along - offset
     square = d * d
     return square * (x * x + y * y) > predicted * along * along, square > near
 
 
 @kernel
-def note_refusal(points, first, last, moments, limits, candidate, log):
+def note_refusal(points, first, last, scatter, limits, candidate, log):
     """Find the first point of the window that fails, and by which check."""
     span = first, last
     for k in range(first + 1, last + 1):
@@ -83,7 +104,7 @@ def note_refusal(points, first, last, moments, limits, candidate, log):
         if check != NONE:
             note(log, SEED_REJECTED, check, candidate, 0, span, k, NOWHERE, value, limit)
             return
-    line, test = line_of(moments), test_of(moments, limits)
+    line, test = line_through(scatter), test_of(scatter, limits)
     for k in range(first, last + 1):
         too_far, off_line = fails(points.x[k], points.y[k], test)
         if too_far:

@@ -1,0 +1,36 @@
+"""Windows that need not be tried, because three of their points fit into no seed."""
+
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from lineseg import Params
+from lineseg.region_growing import limits_of
+from lineseg.region_growing.points import Points, unpacked
+from lineseg.region_growing.seed import is_edge
+
+bearings = st.lists(st.floats(-3.0, 3.0), min_size=3, max_size=3)
+errors = st.lists(st.sampled_from([-1.0, -0.99, 0.0, 0.99, 1.0]), min_size=3, max_size=3)
+
+
+def edge(ranges, bearings, delta):
+    x, y = ranges * np.cos(bearings), ranges * np.sin(bearings)
+    numbers = np.arange(3, dtype=np.int32)
+    points = Points(x, y, numbers, np.zeros_like(numbers), 0, 3, False, 3)
+    return is_edge(points, 1, unpacked(limits_of(Params(delta=delta))))
+
+
+@settings(max_examples=500)
+@given(bearings, errors, st.floats(-3.0, 3.0), st.floats(0.01, 20.0), st.sampled_from([0.01, 0.1, 1.0]))
+def test_what_lies_within_delta_of_a_line_is_no_edge(bearings, errors, direction, distance, delta):
+    incidence = np.cos(np.array(bearings) - direction)
+    assume((incidence > 1e-3).all())
+    ranges = distance / incidence + delta * np.array(errors)
+    assume((ranges > 0.0).all())
+    assert not edge(ranges, np.array(bearings), delta)
+
+
+@pytest.mark.parametrize("ranges", [(4.0, 4.6, 4.6), (4.6, 4.6, 4.0), (4.0, 4.0, 4.6), (4.6, 4.0, 4.6)])
+def test_a_step_in_the_range_is_an_edge(ranges):
+    assert edge(np.array(ranges), np.array([0.0, 0.01, 0.02]), 0.1)
