@@ -2,17 +2,11 @@ PYTHON ?= python3
 BIN := .venv/bin
 .PHONY: run test check clean
 
-run: .venv/installed stale-kernels
+run: .venv/installed
 	$(BIN)/lineseg $(ARGS)
 
-test: .venv/installed-dev stale-kernels
+test: .venv/installed-dev
 	$(BIN)/pytest
-
-# numba's cache does not see that a kernel of another file has changed.
-.PHONY: stale-kernels
-stale-kernels:
-	@newest=$$(find lineseg -name '*.py' -printf '%T@ %p\n' | sort -rn | head -n 1 | cut -d' ' -f2-); \
-	find lineseg -name '*.nb[ic]' ! -newer "$$newest" -delete
 
 check: .venv/installed-dev
 	$(BIN)/ruff check .

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 from numba import njit, types
@@ -15,6 +17,22 @@ from numba.extending import intrinsic
 _OPTIONS: dict[str, Any] = {"nogil": True, "error_model": "numpy", "_nrt": False, "fastmath": False}
 # Only what Python calls needs a place in the cache: the rest is compiled into it.
 _INNER: dict[str, Any] = {**_OPTIONS, "no_cfunc_wrapper": True}
+
+
+def drop_stale_kernels(package: Path) -> None:
+    """Delete from a package what was compiled before any of its files changed.
+
+    By itself numba only sees a change of the file that holds an entry kernel, not of those that hold what it calls.
+    """
+    changed = max(file.stat().st_mtime for file in package.rglob("*.py"))
+    for compiled in package.rglob("*.nb[ic]"):
+        # Another process may have been faster, or we may not write here.
+        with contextlib.suppress(OSError):
+            if compiled.stat().st_mtime < changed:
+                compiled.unlink()
+
+
+drop_stale_kernels(Path(__file__).parent)
 
 
 def entry_kernel(function: Callable) -> Any:
