@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ..kernel import kernel
 from ..total_least_squares import at
 from .log import MAX_DROPOUT, MAX_GAP, NONE
-from .occluder import look_past
+from .occluder import look_past, square
 
 
 class Limits(NamedTuple):
@@ -131,10 +131,10 @@ def take_valid(ranges, rays, range_min, range_max, x, y, rho, beam):
 @kernel
 def look_past_all_round(x, y, rho, beam, n, beams, to, to_beam, passed, steps, limits):
     """`look_past` on a full circle: from the farthest point, which is at no thing, until it comes round again."""
-    farthest = 0
+    farthest, most = 0, 0.0
     for k in range(n):
-        if rho[k] > rho[farthest]:
-            farthest = k
+        if rho[k] > most:
+            farthest, most = k, rho[k]
     for values, target in ((x, to[0]), (y, to[1]), (rho, to[2])):
         turn(values, n, farthest, 0, target)
         target[n] = target[0]
@@ -142,8 +142,9 @@ def look_past_all_round(x, y, rho, beam, n, beams, to, to_beam, passed, steps, l
     to_beam[n] = to_beam[0] + beams
     left = look_past(to[0], to[1], to[2], to_beam, passed, steps, n + 1, limits) - 1
     passed[0] = passed[left]
-    for k in range(left):
-        x[k], y[k], beam[k] = to[0, k], to[1, k], to_beam[k]
+    for values, target in ((to[0], x), (to[1], y)):
+        shifted(values[:left], 0, target)
+    shifted(to_beam[:left], 0, beam)
     return left
 
 
@@ -151,11 +152,12 @@ def look_past_all_round(x, y, rho, beam, n, beams, to, to_beam, passed, steps, l
 def lay_round(x, y, beam, passed, n, beams, to, to_beam, breaks, looked, limits):
     """Open a full circle of n points at its widest gap, and put it down four times."""
     opening, widest = 0, -1.0
-    for k in range(n):
-        after = k + 1 if k + 1 < n else 0
-        gap = (x[after] - x[k]) ** 2 + (y[after] - y[k]) ** 2
+    for k in range(1, n):
+        gap = square(x, y, k - 1, k)
         if gap > widest:
-            opening, widest = after, gap
+            opening, widest = k, gap
+    if square(x, y, n - 1, 0) > widest:
+        opening = 0
     for values, target in ((x, to[0]), (y, to[1])):
         turn(values, n, opening, 0, target)
         repeat(target, n, 0)
@@ -174,17 +176,22 @@ def lay_round(x, y, beam, passed, n, beams, to, to_beam, breaks, looked, limits)
 @kernel
 def turn(values, n, start, shift, to):
     """Put n values of a full circle down from `start` on; past the seam they are greater by `shift`."""
-    for k in range(n - start):
-        to[k] = values[start + k]
-    for k in range(start):
-        to[n - start + k] = values[k] + shift
+    shifted(values[start:n], 0, to[: n - start])
+    shifted(values[:start], shift, to[n - start : n])
 
 
 @kernel
 def repeat(values, n, shift):
     """Put n values down three times more, each time greater by `shift`."""
-    for k in range(n, 4 * n):
-        values[k] = values[k - n] + shift
+    for lap in range(1, 4):
+        shifted(values[:n], lap * shift, values[lap * n : (lap + 1) * n])
+
+
+@kernel
+def shifted(values, shift, to):
+    """Of slices it is known that no index counts from the end: several values are then taken at a time."""
+    for k in range(len(values)):
+        to[k] = values[k] + shift
 
 
 @kernel
