@@ -24,11 +24,12 @@ def drop_stale_kernels(package: Path) -> None:
 
     By itself numba only sees a change of the file that holds an entry kernel, not of those that hold what it calls.
     """
-    changed = max(file.stat().st_mtime for file in package.rglob("*.py"))
+    # Not stat: an editor may have left a link to nowhere.
+    changed = max((file.lstat().st_mtime for file in package.rglob("*.py")), default=0.0)
     for compiled in package.rglob("*.nb[ic]"):
         # Another process may have been faster, or we may not write here.
         with contextlib.suppress(OSError):
-            if compiled.stat().st_mtime < changed:
+            if compiled.lstat().st_mtime < changed:
                 compiled.unlink()
 
 

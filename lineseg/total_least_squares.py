@@ -58,16 +58,6 @@ def moments_of(x, y, first, last):
 
 
 @kernel
-def direction_of(m):
-    """A vector, not of unit length, along the line that minimises Σ(a·xᵢ + b·yᵢ + c)² (Eq. 2).
-
-    It is the eigenvector of the greater eigenvalue of the 2×2 scatter matrix, here n times too large, in closed form.
-    """
-    cosine, sine = m.n * (m.sxx - m.syy) - (m.sx * m.sx - m.sy * m.sy), 2.0 * (m.n * m.sxy - m.sx * m.sy)
-    return halved(cosine, sine, m.n * m.x0 + m.sx, m.n * m.y0 + m.sy)
-
-
-@kernel
 def halved(cosine, sine, x, y):
     """A vector with half the angle of (cosine, sine); of its two forms the one without cancellation is taken.
 
@@ -93,19 +83,7 @@ def least_squares_of(m):
 @kernel
 def line_of(m):
     """Unit normal (a, b) and offset c ≤ 0 of the line that minimises Σ(a·xᵢ + b·yᵢ + c)² (Eq. 2), from n ≥ 2 points."""
-    ux, uy = direction_of(m)
-    return line_along(ux, uy, m.x0 + m.sx / m.n, m.y0 + m.sy / m.n)
-
-
-@kernel
-def line_along(ux, uy, x, y):
-    """(a, b, c ≤ 0) of the line through (x, y) along (ux, uy)."""
-    norm = math.sqrt(ux * ux + uy * uy)
-    a, b = -uy / norm, ux / norm
-    c = -(a * x + b * y)
-    if c > 0.0:
-        return -a, -b, -c
-    return a, b, c
+    return line_through(scatter_of(m))
 
 
 class Scatter(NamedTuple):
@@ -170,9 +148,14 @@ def with_point(s, x, y):
 
 @kernel
 def line_through(s):
-    """`line_of` of the points with this scatter."""
+    """`line_of` of the points with this scatter: along the eigenvector of the greater eigenvalue of its 2×2 matrix."""
     ux, uy = halved(s.cosine, s.sine, s.x, s.y)
-    return line_along(ux, uy, s.x, s.y)
+    norm = math.sqrt(ux * ux + uy * uy)
+    a, b = -uy / norm, ux / norm
+    c = -(a * s.x + b * s.y)
+    if c > 0.0:
+        return -a, -b, -c
+    return a, b, c
 
 
 @kernel

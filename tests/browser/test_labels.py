@@ -180,7 +180,8 @@ def test_two_tabs_lose_nothing_of_each_other_and_the_same_frame_is_told(label, h
     other.page.get_by_role("button", name="Save mine instead").click()
     other.tab.eventually(lambda: read_labels(sidecar, hall)[FRAME].tags == ("theirs",), "mine was not saved")
     told.wait_for(state="hidden")
-    # So is a note that another has written meanwhile.
+    # So is a note that another has written meanwhile, on top of all that was said before.
+    one.tab.until("s.labels.tags.join() === 'theirs'")
     note = other.page.get_by_label("Note", exact=True)
     note.focus()
     note.evaluate("(field) => { field.value = 'half a word' }")
