@@ -106,9 +106,14 @@ NO_SCATTER = Scatter(0.0, 0.0, 0, 0.0, 0.0)
 @kernel
 def scatter_of(m):
     """The same of n ≥ 1 points of which the moments are known."""
-    share = 1.0 / m.n
-    cosine, sine = m.sxx - m.syy - (m.sx * m.sx - m.sy * m.sy) * share, 2.0 * (m.sxy - m.sx * m.sy * share)
-    return Scatter(m.x0 + m.sx * share, m.y0 + m.sy * share, int(m.n), cosine, sine)
+    return about_mean(m.x0, m.y0, int(m.n), 1.0 / m.n, m.sx, m.sy, m.sxx - m.syy, m.sxy)
+
+
+@kernel
+def about_mean(x0, y0, n, share, sx, sy, difference, product):
+    """The same from sums over n points, relative to (x0, y0), of dx, dy, dx² − dy² and dx·dy; share: 1/n."""
+    cosine, sine = difference - (sx * sx - sy * sy) * share, 2.0 * (product - sx * sy * share)
+    return Scatter(x0 + sx * share, y0 + sy * share, n, cosine, sine)
 
 
 # Asked for at every point that a line takes; a division would take longer than all the rest.
@@ -125,15 +130,13 @@ def reciprocal(n):
 def scatter_of_few(x, y, first, last):
     """The same of the points first..last, so few that adding them one by one is the fastest."""
     x0, y0 = at(x, first), at(y, first)
-    sx = sy = cosine = sine = 0.0
+    sx = sy = difference = product = 0.0
     for k in range(first + 1, last + 1):
         dx, dy = at(x, k) - x0, at(y, k) - y0
         sx, sy = sx + dx, sy + dy
-        cosine, sine = cosine + (dx * dx - dy * dy), sine + dx * dy
+        difference, product = difference + (dx * dx - dy * dy), product + dx * dy
     n = last - first + 1
-    share = reciprocal(n)
-    cosine, sine = cosine - (sx * sx - sy * sy) * share, 2.0 * (sine - sx * sy * share)
-    return Scatter(x0 + sx * share, y0 + sy * share, n, cosine, sine)
+    return about_mean(x0, y0, n, reciprocal(n), sx, sy, difference, product)
 
 
 @kernel
@@ -198,3 +201,9 @@ def project(line, x, y):
     a, b, c = line
     d = a * x + b * y + c
     return x - d * a, y - d * b
+
+
+@kernel
+def distance(x1, y1, x2, y2):
+    """Distance of two points."""
+    return ((x2 - x1) ** 2 + (y2 - y1) ** 2) ** 0.5

@@ -6,8 +6,7 @@ import math
 
 from ..kernel import kernel
 from ..log import note_pair
-from ..total_least_squares import project, squares_of
-from .growth import length_of
+from ..total_least_squares import distance, project, squares_of
 from .lines import line_at
 from .log import ENDPOINTS, NONE
 
@@ -20,7 +19,7 @@ def place_endpoints(points, lines, count, log):
         first, last, line = row.first, row.last, line_at(lines, i)
         row.x1, row.y1 = project(line, points.x[first], points.y[first])
         row.x2, row.y2 = project(line, points.x[last], points.y[last])
-        row.length = length_of(points.x, points.y, first, last, line)
+        row.length = distance(row.x1, row.y1, row.x2, row.y2)
         row.rms = math.sqrt(squares_of(points.x, points.y, first, last, line) / (last - first + 1))
         if log is not None:
             ends = (row.x1, row.y1, row.x2)

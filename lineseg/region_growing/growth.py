@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from ..kernel import inlined_kernel, kernel
 from ..log import note
-from ..total_least_squares import at, is_nearer, line_through, project, signed_distance, with_point
+from ..total_least_squares import at, distance, is_nearer, line_through, project, signed_distance, with_point
 from .log import END, EPSILON, GROWTH_STOPPED, NONE, POINT_ADDED
 from .points import breach
 
@@ -70,4 +70,4 @@ def length_of(x, y, first, last, line):
     """L_l: the distance between the two endpoints, projected on the line [m]."""
     x1, y1 = project(line, x[first], y[first])
     x2, y2 = project(line, x[last], y[last])
-    return ((x2 - x1) ** 2 + (y2 - y1) ** 2) ** 0.5
+    return distance(x1, y1, x2, y2)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ..kernel import kernel
+from ..total_least_squares import at
 
 
 @kernel
@@ -73,8 +74,8 @@ def behind_thing(x, y, rho, steps, k, ahead, widest):
 
 @kernel
 def square(x, y, i, j):
-    """Squared distance of two points."""
-    return (x[j] - x[i]) ** 2 + (y[j] - y[i]) ** 2
+    """Squared distance of two points, i, j ≥ 0."""
+    return (at(x, j) - at(x, i)) ** 2 + (at(y, j) - at(y, i)) ** 2
 
 
 @kernel

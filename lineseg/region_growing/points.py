@@ -98,12 +98,17 @@ def points_of(ranges, rays, range_min, range_max, circle, limits, xy, numbers):
 
 
 @kernel
+def is_valid(r, range_min, range_max):
+    """Whether a beam has returned, as `Scan` says."""
+    return (r > 0.0) & (r >= range_min) & (r < range_max)
+
+
+@kernel
 def is_complete(ranges, range_min, range_max):
     """Whether every beam is valid."""
     invalid = 0
     for k in range(len(ranges)):
-        r = ranges[k]
-        invalid += not ((r > 0.0) & (r >= range_min) & (r < range_max))
+        invalid += not is_valid(ranges[k], range_min, range_max)
     return invalid == 0
 
 
@@ -124,7 +129,7 @@ def take_valid(ranges, rays, range_min, range_max, x, y, rho, beam):
         r = ranges[k]
         # Written in any case, and kept if valid: a branch here would be guessed wrong at every dropout.
         x[n], y[n], rho[n], beam[n] = r * rays[0, k], r * rays[1, k], r, k
-        n += (r > 0.0) & (r >= range_min) & (r < range_max)
+        n += is_valid(r, range_min, range_max)
     return n
 
 
@@ -156,7 +161,7 @@ def lay_round(x, y, beam, passed, n, beams, to, to_beam, breaks, looked, limits)
         gap = square(x, y, k - 1, k)
         if gap > widest:
             opening, widest = k, gap
-    if square(x, y, n - 1, 0) > widest:
+    if n > 0 and square(x, y, n - 1, 0) > widest:
         opening = 0
     for values, target in ((x, to[0]), (y, to[1])):
         turn(values, n, opening, 0, target)
@@ -204,9 +209,8 @@ def find_breaks(x, y, beam, breaks, n, looked, limits):
     widest = limits.max_gap * limits.max_gap
     breaks[0] = total = 0
     for k in range(1, n):
-        dx, dy = at(x, k) - at(x, k - 1), at(y, k) - at(y, k - 1)
         lost = (at(beam, k) - at(beam, k - 1) - 1 > limits.max_dropout) & ((breaks[k] == 0) | (not looked))
-        breaks[k] = lost | (dx * dx + dy * dy > widest)
+        breaks[k] = lost | (square(x, y, k - 1, k) > widest)
         total += breaks[k]
     # Most scans have none.
     if total > 0:
@@ -219,8 +223,7 @@ def breach(points, k, neighbour, limits):
     """(check, value, limit) of the extension that forbids the step from point k to its neighbour, or check NONE."""
     if points.breaks[neighbour] == points.breaks[k]:
         return NONE, 0.0, 0.0
-    dx, dy = points.x[neighbour] - points.x[k], points.y[neighbour] - points.y[k]
-    dropout, gap = abs(points.beam[neighbour] - points.beam[k]) - 1, math.sqrt(dx * dx + dy * dy)
+    dropout, gap = abs(points.beam[neighbour] - points.beam[k]) - 1, math.sqrt(square(points.x, points.y, k, neighbour))
     # Behind a thing that is looked past, only a gap can part.
     if dropout > limits.max_dropout and not (limits.max_occluder > 0.0 and gap > limits.max_gap):
         return MAX_DROPOUT, float(dropout), float(limits.max_dropout)
