@@ -48,7 +48,9 @@ async function filesInFolder(folder) {
   const entries = await new Promise((resolve, reject) => reader.readEntries(resolve, reject)).catch(() => []);
   const files = entries.filter((/** @type {FileSystemEntry} */ entry) => entry.isFile);
   return Promise.all(
-    files.map((/** @type {FileSystemFileEntry} */ entry) => new Promise((resolve, reject) => entry.file(resolve, reject))),
+    files.map(
+      (/** @type {FileSystemFileEntry} */ entry) => new Promise((resolve, reject) => entry.file(resolve, reject)),
+    ),
   );
 }
 

@@ -35,7 +35,10 @@ export function createFollow(text, { presenter, onFollow }) {
   }
 
   function show() {
-    setText(words, presence === "gone" ? text.gone : !active ? text.left : presence === "away" ? text.away : text.following);
+    setText(
+      words,
+      presence === "gone" ? text.gone : !active ? text.left : presence === "away" ? text.away : text.following,
+    );
     setText(button, active ? text.stop : text.again);
     button.hidden = presence === "gone";
     element.classList.toggle("active", active);
@@ -53,7 +56,10 @@ export function createFollow(text, { presenter, onFollow }) {
     /** Whether this tab may change so much. @param {Patch} patch */
     allows(patch) {
       const allowed = !active || Object.keys(patch).every((name) => OWN.has(name));
-      if (!allowed) element.animate?.([{ scale: 1 }, { scale: 1.04 }, { scale: 1 }], { duration: matchMedia("(prefers-reduced-motion: reduce)").matches ? 0 : 250 });
+      if (!allowed)
+        element.animate?.([{ scale: 1 }, { scale: 1.04 }, { scale: 1 }], {
+          duration: matchMedia("(prefers-reduced-motion: reduce)").matches ? 0 : 250,
+        });
       return allowed;
     },
     /** @param {Presence | null} next */

@@ -33,7 +33,11 @@ export function keyboard(bindings) {
 function typing(target) {
   const element = /** @type {HTMLInputElement | null} */ (target);
   const tag = element?.tagName;
-  return tag === "TEXTAREA" || tag === "SELECT" || (tag === "INPUT" && !/^(range|checkbox|button)$/.test(element?.type ?? ""));
+  return (
+    tag === "TEXTAREA" ||
+    tag === "SELECT" ||
+    (tag === "INPUT" && !/^(range|checkbox|button)$/.test(element?.type ?? ""))
+  );
 }
 
 /** Whether the key works the focused control itself. @param {EventTarget | null} target @param {string} pressed */
@@ -47,7 +51,12 @@ function operates(target, pressed) {
 export function showHelp(bindings, words) {
   if (document.querySelector("dialog[open]")) return;
   const row = (/** @type {string} */ keys, /** @type {string} */ does) =>
-    h("tr", {}, h("td", {}, ...keys.split(" ").map((key) => h("kbd", {}, key.replace("␣", "Space")))), h("td", {}, does));
+    h(
+      "tr",
+      {},
+      h("td", {}, ...keys.split(" ").map((key) => h("kbd", {}, key.replace("␣", "Space")))),
+      h("td", {}, does),
+    );
   const rows = [
     ...bindings.filter(({ shown }) => shown).map(({ shown, does }) => row(shown, does)),
     row("← → PgUp PgDn Home End", words.help.keys.slider),

@@ -16,12 +16,22 @@ export function createLayers(words, onLayers) {
   const rows = Object.entries(words.layers).map(([name, { label, help }]) => {
     const box = h("input", { type: "checkbox", onchange: () => onLayers({ [name]: box.checked }) });
     boxes.set(name, box);
-    const row = h("label", { class: "layer" }, box, h("span", { class: `swatch swatch-${name}`, "aria-hidden": "true" }), label);
+    const row = h(
+      "label",
+      { class: "layer" },
+      box,
+      h("span", { class: `swatch swatch-${name}`, "aria-hidden": "true" }),
+      label,
+    );
     tooltip(row, help, "left");
     return row;
   });
   const button = iconButton("layers", words.stage.layers, () => {});
-  const list = h("div", { class: "menu layers", popover: "auto", role: "group", "aria-label": words.stage.layers }, ...rows);
+  const list = h(
+    "div",
+    { class: "menu layers", popover: "auto", role: "group", "aria-label": words.stage.layers },
+    ...rows,
+  );
   list.addEventListener("keydown", (event) => event.key !== "Escape" && event.stopPropagation());
   popUnder(button, list, true, () => {});
   return {

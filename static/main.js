@@ -103,16 +103,35 @@ const explanation = createExplanation(text.explanation, {
 });
 part("stage").append(explanation.element);
 part("stage").setAttribute("aria-label", text.stage.label);
-const labels = createLabels(part("stage"), stage, labelText, { onFrame: goToFrame, number: (frame) => timeline.number(frame) });
-const weights = createWeights(inspectText.weights, (changed) => store.change({ weights: { ...store.view.weights, ...changed } }));
-const words = createWords({ session: () => session.id ?? "", wanted: () => [...frames.inView, ...filter.unknown()], onWords: showWords });
-const filter = createFilter(inspectText.filter, { words: (frame) => words.of(frame), onChange: filterFrames, onTags: (tags) => labels.suggest(tags) });
+const labels = createLabels(part("stage"), stage, labelText, {
+  onFrame: goToFrame,
+  number: (frame) => timeline.number(frame),
+});
+const weights = createWeights(inspectText.weights, (changed) =>
+  store.change({ weights: { ...store.view.weights, ...changed } }),
+);
+const words = createWords({
+  session: () => session.id ?? "",
+  wanted: () => [...frames.inView, ...filter.unknown()],
+  onWords: showWords,
+});
+const filter = createFilter(inspectText.filter, {
+  words: (frame) => words.of(frame),
+  onChange: filterFrames,
+  onTags: (tags) => labels.suggest(tags),
+});
 const frames = createFrames(inspectText.frames, {
   onFrame: goToFrame,
   onScore: (score) => store.change({ score }),
   number: (frame) => timeline.number(frame),
   value: (frame) => timeline.words(frame),
-  words: (frame) => [filter.line(frame), words.of(frame)?.join(" · ") || (words.of(frame) ? inspectText.nothingWrong : timeline.summary(frame))].filter(Boolean).join(" · "),
+  words: (frame) =>
+    [
+      filter.line(frame),
+      words.of(frame)?.join(" · ") || (words.of(frame) ? inspectText.nothingWrong : timeline.summary(frame)),
+    ]
+      .filter(Boolean)
+      .join(" · "),
   passes: (frame) => filter.passes(frame),
   filter: filter.element,
   onRows: () => store.view.mode === "inspect" && words.need(),
@@ -126,7 +145,8 @@ const ab = createAb(inspectText.ab, {
 });
 const draw = createDraw(part("stage"), stage, drawText, {
   onRecording: (recording) => store.change({ recording, step: store.view.step }),
-  onSave: () => h("a", { href: `/api/recording?${new URLSearchParams({ session: session.id ?? "" })}`, download: "" }).click(),
+  onSave: () =>
+    h("a", { href: `/api/recording?${new URLSearchParams({ session: session.id ?? "" })}`, download: "" }).click(),
 });
 const packCard = createPackCard(exportText.card, takePack);
 part("stage").append(h("div", { class: "stage-cards" }, packCard.element, ab.element, draw.card));
@@ -198,7 +218,11 @@ const exchange = createExchange(text, {
   method: () => methodOf(store.view.method),
   onImport: importParams,
   first: take.groups,
-  more: () => [...robotCommands(), rerunCommands(), { title: text.follow.title, items: [{ label: text.follow.copy, run: copyFollowLink }] }],
+  more: () => [
+    ...robotCommands(),
+    rerunCommands(),
+    { title: text.follow.title, items: [{ label: text.follow.copy, run: copyFollowLink }] },
+  ],
 });
 const topbar = mountTopbar(part("topbar"), text, {
   exchange: exchange.element,
@@ -234,7 +258,12 @@ const bindings = [
   { keys: ["n"], shown: "", does: "", run: () => (replaying() ? steps().jump("line") : doubtful(1)) },
   { keys: ["d"], shown: "", does: "", run: () => steps().jump("drop") },
   { keys: ["x"], shown: "X M C", does: learnText.keys.jumps, run: () => learning() && learn.stepper.jump("refusal") },
-  { keys: ["m"], shown: "", does: "", run: () => (labels.active ? labels.merge(1) : learning() && learn.stepper.jump("merge")) },
+  {
+    keys: ["m"],
+    shown: "",
+    does: "",
+    run: () => (labels.active ? labels.merge(1) : learning() && learn.stepper.jump("merge")),
+  },
   { keys: ["c"], shown: "", does: "", run: () => learning() && learn.stepper.jump("cut") },
   { keys: ["z"], shown: "Z", does: learnText.keys.zoom, run: () => learning() && learn.zoom() },
   { keys: ["Shift+n"], shown: "N Shift+N", does: does.doubtful, run: () => !replaying() && doubtful(-1) },
@@ -454,9 +483,10 @@ function follow(on) {
 function robotCommands() {
   const text = liveText;
   const now = live.status?.recording === drawn?.recording ? live.status : null;
-  const publish = now?.publisher === "this"
-    ? { label: text.publish.stop, run: () => stopPublishing(session.id ?? "") }
-    : { label: text.publish.item, run: () => showPublish(text, session.id ?? "") };
+  const publish =
+    now?.publisher === "this"
+      ? { label: text.publish.stop, run: () => stopPublishing(session.id ?? "") }
+      : { label: text.publish.item, run: () => showPublish(text, session.id ?? "") };
   const send = { label: text.send.item, run: () => showSend(text, store.view.params) };
   return [{ title: text.group, items: now?.publishable ? [send, publish] : [send] }];
 }
@@ -560,10 +590,39 @@ store.onChange((view, patch) => {
 
 /** What a drawn state says of the View. @param {State} state */
 function viewOf(state) {
-  const { mode, recording, topics, frame, method, params, step, layers: shown, selected, camera, score, against, reference } = state;
+  const {
+    mode,
+    recording,
+    topics,
+    frame,
+    method,
+    params,
+    step,
+    layers: shown,
+    selected,
+    camera,
+    score,
+    against,
+    reference,
+  } = state;
   const topic = topics.length > 1 ? state.topic : null;
   const following = state.live ?? true;
-  return { mode, recording, topic, frame, method, params, step, layers: shown, selected, camera, score, against, reference, live: following };
+  return {
+    mode,
+    recording,
+    topic,
+    frame,
+    method,
+    params,
+    step,
+    layers: shown,
+    selected,
+    camera,
+    score,
+    against,
+    reference,
+    live: following,
+  };
 }
 
 // --- theme -----------------------------------------------------------------------------------------------------------
@@ -613,7 +672,10 @@ function receive(message, latencyMs) {
       timeline.setSurvey(message);
       return ab.setSurvey(message, drawn);
     case "drawn":
-      return showDrawn({ ...message.state, rev: message.rev, latencyMs: latencyMs ?? drawn?.latencyMs ?? null }, message.origin);
+      return showDrawn(
+        { ...message.state, rev: message.rev, latencyMs: latencyMs ?? drawn?.latencyMs ?? null },
+        message.origin,
+      );
   }
 }
 
@@ -733,7 +795,8 @@ function showDrawn(state, origin) {
 
 /** The frame of a failure pack, as it was looked at. @param {import("./wire.js").Pack} pack */
 function takePack({ method, params }) {
-  const same = method === store.view.method && Object.entries(params).every(([name, value]) => store.view.params[name] === value);
+  const same =
+    method === store.view.method && Object.entries(params).every(([name, value]) => store.view.params[name] === value);
   if (same) return;
   store.change({ method, params });
   toast(exportText.card.taken);

@@ -11,7 +11,11 @@ export const MODES = /** @type {const} */ (["tune", "learn", "inspect"]);
  */
 export function createModes(text, onMode) {
   const buttons = MODES.map((mode) =>
-    h("button", { type: "button", class: "mode", "data-mode": mode, "aria-pressed": "false", onclick: () => onMode(mode) }, text[mode]),
+    h(
+      "button",
+      { type: "button", class: "mode", "data-mode": mode, "aria-pressed": "false", onclick: () => onMode(mode) },
+      text[mode],
+    ),
   );
   return {
     element: h("div", { class: "modes", role: "group", "aria-label": text.label }, ...buttons),

@@ -12,14 +12,24 @@ const LOADING_DELAY_MS = 150;
  * @param {{onCancel: () => void, onRetry: () => void}} handlers
  */
 export function mountNotices(stage, text, { onCancel, onRetry }) {
-  const empty = h("div", { class: "empty" }, h("p", { class: "empty-title" }, text.starting), h("p", { class: "hint" }));
+  const empty = h(
+    "div",
+    { class: "empty" },
+    h("p", { class: "empty-title" }, text.starting),
+    h("p", { class: "hint" }),
+  );
   const [emptyTitle, emptyHint] = empty.children;
 
   const label = h("span", { class: "notice-words" });
   const percent = h("span", { class: "muted percent" });
   const bar = h("progress", { class: "progress", max: 1, "aria-label": text.starting });
   const cancel = h("button", { type: "button", class: "button", onclick: onCancel }, text.cancel);
-  const loading = h("div", { class: "notice loading", hidden: true }, h("div", { class: "notice-row" }, label, percent, cancel), bar);
+  const loading = h(
+    "div",
+    { class: "notice loading", hidden: true },
+    h("div", { class: "notice-row" }, label, percent, cancel),
+    bar,
+  );
 
   const errorWords = h("span", { class: "notice-words" });
   const errorNote = h("span", { class: "muted" });
@@ -29,13 +39,23 @@ export function mountNotices(stage, text, { onCancel, onRetry }) {
   const error = h(
     "div",
     { class: "notice error", role: "alert", hidden: true },
-    h("div", { class: "notice-row" }, icon("warning"), errorWords, iconButton("close", text.dismiss, () => dismiss())),
+    h(
+      "div",
+      { class: "notice-row" },
+      icon("warning"),
+      errorWords,
+      iconButton("close", text.dismiss, () => dismiss()),
+    ),
     errorNote,
     wayOn,
   );
   const retry = h("button", { type: "button", class: "button", onclick: onRetry }, text.retry);
   const lostWords = h("span", { class: "notice-words" }, text.lost);
-  const lost = h("div", { class: "notice lost", role: "status", hidden: true }, h("div", { class: "notice-row" }, icon("warning"), lostWords, retry));
+  const lost = h(
+    "div",
+    { class: "notice lost", role: "status", hidden: true },
+    h("div", { class: "notice-row" }, icon("warning"), lostWords, retry),
+  );
   const drop = h(
     "div",
     { class: "drop", hidden: true },

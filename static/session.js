@@ -13,7 +13,11 @@ export function takeSession() {
   sessionStorage.removeItem(KEY);
   try {
     const { id, rev, shown, hash } = JSON.parse(kept ?? "");
-    return { id: String(id), rev: Number(rev) || 0, hash: shown === location.hash || reloaded() ? String(hash) : location.hash };
+    return {
+      id: String(id),
+      rev: Number(rev) || 0,
+      hash: shown === location.hash || reloaded() ? String(hash) : location.hash,
+    };
   } catch {
     return { id: null, rev: 0, hash: location.hash };
   }

@@ -54,12 +54,16 @@ export function mountStage(stage, text, { onKey, onFrame }) {
   frame.addEventListener("load", () => {
     const inner = frame.contentWindow;
     if (!inner || !source) return;
-    const sheet = new (/** @type {any} */ (inner).CSSStyleSheet)();
+    const sheet = new /** @type {any} */ (inner).CSSStyleSheet();
     sheet.replaceSync(OVERRULED);
     inner.document.adoptedStyleSheets = [...inner.document.adoptedStyleSheets, sheet];
     inner.addEventListener("keydown", keyInScene, true);
     inner.addEventListener("pointerdown", () => closePopovers(), true);
-    inner.addEventListener("pointermove", (event) => hover(event.buttons ? null : [event.clientX, event.clientY]), true);
+    inner.addEventListener(
+      "pointermove",
+      (event) => hover(event.buttons ? null : [event.clientX, event.clientY]),
+      true,
+    );
     inner.document.documentElement.addEventListener("pointerleave", () => hover(null));
     for (const kind of ["pointerdown", "wheel"]) inner.addEventListener(kind, () => (touched = true), true);
     onFrame(inner);
@@ -112,7 +116,11 @@ export function mountStage(stage, text, { onKey, onFrame }) {
       const at = target(found.control);
       const height = found.control.distance;
       // viser resets its camera when the server's initial one arrives.
-      if (!isPlan(found) || (!touched && plan && Math.hypot(at.x - plan.x, at.y - plan.y, height - plan.height) > 1e-3 * height)) return applyCamera();
+      if (
+        !isPlan(found) ||
+        (!touched && plan && Math.hypot(at.x - plan.x, at.y - plan.y, height - plan.height) > 1e-3 * height)
+      )
+        return applyCamera();
       plan = { x: at.x, y: at.y, height };
       found.camera.near = height / 4;
       found.camera.far = height * 4;
@@ -127,7 +135,11 @@ export function mountStage(stage, text, { onKey, onFrame }) {
     const up = toWorld(camera.up);
     const eye = control.getPosition(camera.position.clone());
     const at = control.getTarget(camera.position.clone());
-    return up[1] > 0.999 && Math.hypot(eye.x - at.x, eye.z - at.z) < 1e-3 * control.distance && Math.abs(camera.fov - PLAN_FOV_DEG) < 0.01;
+    return (
+      up[1] > 0.999 &&
+      Math.hypot(eye.x - at.x, eye.z - at.z) < 1e-3 * control.distance &&
+      Math.abs(camera.fov - PLAN_FOV_DEG) < 0.01
+    );
   }
 
   /** @param {any} control */
@@ -243,8 +255,14 @@ export function mountStage(stage, text, { onKey, onFrame }) {
     /** What the plan shows, where a person has moved it. @returns {import("./store.js").Look | null} */
     get look() {
       if (!plan || !whole || pendingFit) return null;
-      const moved = Math.max(Math.abs(plan.x - whole.x), Math.abs(plan.y - whole.y), Math.abs(plan.height - whole.height) / 10);
-      return moved > 1e-3 * whole.height ? { x: plan.x, y: plan.y, span: 2 * plan.height * Math.tan(rad(PLAN_FOV_DEG / 2)) } : null;
+      const moved = Math.max(
+        Math.abs(plan.x - whole.x),
+        Math.abs(plan.y - whole.y),
+        Math.abs(plan.height - whole.height) / 10,
+      );
+      return moved > 1e-3 * whole.height
+        ? { x: plan.x, y: plan.y, span: 2 * plan.height * Math.tan(rad(PLAN_FOV_DEG / 2)) }
+        : null;
     },
     /** @param {import("./store.js").Look} look */
     lookAt({ x, y, span }) {
@@ -263,7 +281,10 @@ export function mountStage(stage, text, { onKey, onFrame }) {
     unproject(left, top) {
       if (mode !== "plan" || !plan) return null;
       const pxPerMetre = frame.clientHeight / (2 * plan.height * Math.tan(rad(PLAN_FOV_DEG / 2)));
-      return [plan.x + (left - frame.clientWidth / 2) / pxPerMetre, plan.y - (top - frame.clientHeight / 2) / pxPerMetre];
+      return [
+        plan.x + (left - frame.clientWidth / 2) / pxPerMetre,
+        plan.y - (top - frame.clientHeight / 2) / pxPerMetre,
+      ];
     },
     /** Gives the scene a turn of the wheel that something over it has received. @param {WheelEvent} event */
     pass(event) {

@@ -36,7 +36,10 @@ export function mountStatus(bar, text) {
       const { segments, covered, valid, beams, extractionUs, latencyMs, frame, first } = state;
       figures.segments.set(String(segments.length), text.segments(segments.length));
       figures.coverage.set(valid ? `${((100 * covered) / valid).toFixed(1)} %` : "–", text.coverage);
-      figures.extraction.set(extractionUs >= 10_000 ? `${(extractionUs / 1000).toFixed(0)} ms` : `${Math.round(extractionUs)} µs`, text.extraction);
+      figures.extraction.set(
+        extractionUs >= 10_000 ? `${(extractionUs / 1000).toFixed(0)} ms` : `${Math.round(extractionUs)} µs`,
+        text.extraction,
+      );
       if (latencyMs !== null) figures.roundTrip.set(`${Math.round(latencyMs)} ms`, text.roundTrip);
       coverageHelp = text.coverageHelp(covered, valid, beams);
       setText(format, [state.format, state.frameId, `${beams} beams`].filter(Boolean).join(" · "));

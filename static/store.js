@@ -111,7 +111,10 @@ export class Store {
    * @param {Method[]} methods
    */
   declare(methods) {
-    const defaults = (/** @type {Method} */ { name, knobs }) => [name, Object.fromEntries(knobs.map((knob) => [knob.name, knob.default]))];
+    const defaults = (/** @type {Method} */ { name, knobs }) => [
+      name,
+      Object.fromEntries(knobs.map((knob) => [knob.name, knob.default])),
+    ];
     this.#defaults = Object.fromEntries(methods.map(defaults));
     const known = Object.entries(this.#view.params).filter(([name]) => name in this.defaults);
     this.#view = { ...this.#view, params: { ...this.defaults, ...Object.fromEntries(known) } };
@@ -129,7 +132,8 @@ export class Store {
     if (!this.allows(patch)) return this.#tell(null);
     const { method, recording } = patch;
     let full = recording && recording !== this.#view.recording ? { ...RESET_BY_RECORDING, ...patch } : patch;
-    if (method && method !== this.#view.method) full = { params: this.#kept[method] ?? this.#defaults[method] ?? {}, ...full };
+    if (method && method !== this.#view.method)
+      full = { params: this.#kept[method] ?? this.#defaults[method] ?? {}, ...full };
     if (full.params) this.#remember(gesture);
     this.#view = merged(this.#view, full);
     this.#tell(full);
@@ -208,7 +212,8 @@ export class Store {
     if (view.step !== null) pairs.push(["step", view.step]);
     if (view.selected !== null) pairs.push(["beam", view.selected]);
     if (view.camera !== "plan") pairs.push(["camera", view.camera]);
-    else if (this.look) pairs.push(["look", [this.look.x, this.look.y, this.look.span].map((metres) => metres.toFixed(2)).join()]);
+    else if (this.look)
+      pairs.push(["look", [this.look.x, this.look.y, this.look.span].map((metres) => metres.toFixed(2)).join()]);
     if (view.score !== "coverage") pairs.push(["score", view.score]);
     if (view.against) pairs.push(["against", pinnedWords(view.against)]);
     const weights = Object.entries(view.weights);
@@ -216,7 +221,9 @@ export class Store {
     if (view.reference !== "labels") pairs.push(["reference", view.reference]);
     const switched = Object.entries(LAYERS).filter(([name, usual]) => view.layers[name] !== usual);
     if (switched.length) pairs.push(["layers", switched.map(([name, usual]) => (usual ? "-" : "") + name).join(",")]);
-    return pairs.map(([name, value]) => `${name}=${encodeURIComponent(value).replace(/%(3A|3B|2F|2C)/g, decodeURIComponent)}`).join("&");
+    return pairs
+      .map(([name, value]) => `${name}=${encodeURIComponent(value).replace(/%(3A|3B|2F|2C)/g, decodeURIComponent)}`)
+      .join("&");
   }
 
   /**
@@ -254,7 +261,8 @@ function parseHash(hash) {
   const params = {};
   for (const [name, value] of new URLSearchParams(hash.replace(/^#/, "").replaceAll("+", "%2B"))) {
     const number = value.trim() === "" ? NaN : Number(value);
-    if (name === "mode" || name === "recording" || name === "topic" || name === "method" || name === "score") patch[name] = value;
+    if (name === "mode" || name === "recording" || name === "topic" || name === "method" || name === "score")
+      patch[name] = value;
     else if (name === "follow" || name === "name" || name === "look") continue;
     else if (name === "weights") patch.weights = parsePinned(`,${value}`).params;
     else if (name === "against") patch.against = parsePinned(value);
@@ -289,6 +297,8 @@ function parseLook(value) {
 
 /** @param {string} value e.g. "normals,-dropped" */
 function parseLayers(value) {
-  const entries = value.split(",").map((word) => /** @type {const} */ ([word.replace(/^-/, ""), !word.startsWith("-")]));
+  const entries = value
+    .split(",")
+    .map((word) => /** @type {const} */ ([word.replace(/^-/, ""), !word.startsWith("-")]));
   return Object.fromEntries(entries.filter(([name]) => name in LAYERS));
 }

@@ -111,12 +111,16 @@ export function createStrip(text, { onScore, onChange }) {
     fill(ramp, shades, (x) => (sign > 0 ? x / (SHADES - 1) : 1 - x / (SHADES - 1)));
     setText(low, format(scale.low, what.unit));
     setText(high, format(scale.high, what.unit));
-    legend.setAttribute("aria-label", text.legend(what.label, format(scale.low, what.unit), format(scale.high, what.unit)));
+    legend.setAttribute(
+      "aria-label",
+      text.legend(what.label, format(scale.low, what.unit), format(scale.high, what.unit)),
+    );
   }
 
   /** Whether the colours belong to other thresholds than the picture above, or to some of the frames only. */
   function showStale() {
-    const same = !survey || !state || (survey.stride === 1 && samePlace(survey, state) && sameParams(survey.params, state.params));
+    const same =
+      !survey || !state || (survey.stride === 1 && samePlace(survey, state) && sameParams(survey.params, state.params));
     canvas.classList.toggle("stale", !same);
   }
 
@@ -144,7 +148,8 @@ export function createStrip(text, { onScore, onChange }) {
 
     /** @param {HTMLElement} track */
     watch(track) {
-      for (const kind of /** @type {const} */ (["pointerdown", "pointermove"])) track.addEventListener(kind, hover, true);
+      for (const kind of /** @type {const} */ (["pointerdown", "pointermove"]))
+        track.addEventListener(kind, hover, true);
       track.addEventListener("pointerleave", () => {
         hovered = -1;
         hint.hidden = true;
@@ -200,14 +205,22 @@ export function createStrip(text, { onScore, onChange }) {
       const known = values();
       if (!survey || survey.stride > 1 || !known.length) return null;
       const sign = chosen()?.worse === "lower" ? 1 : -1;
-      ranking ??= Uint32Array.from(known.keys()).sort((one, other) => sign * (known[one] - known[other]) || one - other);
+      ranking ??= Uint32Array.from(known.keys()).sort(
+        (one, other) => sign * (known[one] - known[other]) || one - other,
+      );
       rank = ranking[rank] === frame ? clamp(rank + by, 0, known.length - 1) : 0;
       return ranking[rank];
     },
 
     /** The next frame, after the last the first, in which A and B differ; null if there is none. @param {number} frame */
     different(frame) {
-      const known = survey && complete() ? columnOf(survey, scores.findIndex(({ name }) => name === "difference")) : [];
+      const known =
+        survey && complete()
+          ? columnOf(
+              survey,
+              scores.findIndex(({ name }) => name === "difference"),
+            )
+          : [];
       for (let k = 1; k <= known.length; k++) {
         const next = (frame + k) % known.length;
         if (known[next] > 0) return next;
@@ -230,7 +243,15 @@ export function createStrip(text, { onScore, onChange }) {
     get current() {
       if (!survey) return null;
       const { recording, params, stride, message } = survey;
-      return Object.freeze({ score, values: values().slice(), recording, params, stride, message, complete: complete() && !due() });
+      return Object.freeze({
+        score,
+        values: values().slice(),
+        recording,
+        params,
+        stride,
+        message,
+        complete: complete() && !due(),
+      });
     },
   };
 }

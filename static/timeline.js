@@ -108,7 +108,10 @@ export function mountTimeline(bar, text, { onFrame, onScore, onScores, onFollow,
   function show() {
     const words = String(first + frame + 1);
     number.set(words);
-    slider.set(frames > 1 ? frame / (frames - 1) : 0, [`${words} ${text.of(first + frames)}`, strip.words(frame)].filter(Boolean).join(", "));
+    slider.set(
+      frames > 1 ? frame / (frames - 1) : 0,
+      [`${words} ${text.of(first + frames)}`, strip.words(frame)].filter(Boolean).join(", "),
+    );
   }
 
   return {

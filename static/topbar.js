@@ -31,7 +31,12 @@ export function mountTopbar(bar, words, handlers) {
   topic.addEventListener("change", () => handlers.onTopic(topic.value));
   const method = h("select", { class: "select", "aria-label": text.method, hidden: true });
   method.addEventListener("change", () => handlers.onMethod(method.value));
-  const link = h("button", { type: "button", class: "button quiet", "aria-label": text.copyLink, onclick: handlers.onLink }, icon("link"), h("span", { class: "label" }, text.copyLink));
+  const link = h(
+    "button",
+    { type: "button", class: "button quiet", "aria-label": text.copyLink, onclick: handlers.onLink },
+    icon("link"),
+    h("span", { class: "label" }, text.copyLink),
+  );
   tooltip(link, text.copyLink);
   const themeButton = iconButton("auto", text.themeAuto, () => {
     theme = THEMES[(THEMES.indexOf(theme) + 1) % THEMES.length];
@@ -80,7 +85,9 @@ export function mountTopbar(bar, words, handlers) {
   }
 
   function showTheme() {
-    const shown = { auto: ["auto", text.themeAuto], light: ["sun", text.themeLight], dark: ["moon", text.themeDark] }[theme];
+    const shown = { auto: ["auto", text.themeAuto], light: ["sun", text.themeLight], dark: ["moon", text.themeDark] }[
+      theme
+    ];
     themeButton.show(/** @type {import("./widgets/icon.js").IconName} */ (shown[0]), shown[1]);
   }
 
@@ -92,7 +99,9 @@ export function mountTopbar(bar, words, handlers) {
     /** @param {Method[]} methods */
     setMethods(methods) {
       method.hidden = methods.length < 2;
-      method.replaceChildren(...methods.map(({ name, label, citation }) => h("option", { value: name, title: citation }, label)));
+      method.replaceChildren(
+        ...methods.map(({ name, label, citation }) => h("option", { value: name, title: citation }, label)),
+      );
     },
     /** @param {Method} chosen */
     setMethod(chosen) {
@@ -108,7 +117,9 @@ export function mountTopbar(bar, words, handlers) {
       const key = topics.map(({ name }) => name).join("\n");
       if (topic.dataset.key !== key) {
         topic.dataset.key = key;
-        topic.replaceChildren(...topics.map(({ name, scans }) => h("option", { value: name }, text.topicScans(name, scans))));
+        topic.replaceChildren(
+          ...topics.map(({ name, scans }) => h("option", { value: name }, text.topicScans(name, scans))),
+        );
       }
       if (state.topic !== null) topic.value = state.topic;
     },

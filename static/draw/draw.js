@@ -33,19 +33,38 @@ export function createDraw(stage, view, text, { onRecording, onSave }) {
   const handles = createHandles(stage, view, text.handle, { onChoose: choose, onNumbers: changed, onRemove: remove });
   const undoButton = iconButton("undo", text.undo, () => undo());
   const redoButton = iconButton("redo", text.redo, () => redo());
-  const removeButton = h("button", { type: "button", class: "button", title: text.remove, onclick: () => remove(chosen) }, text.remove);
-  const button = (/** @type {string} */ label, /** @type {() => void} */ run, help = "") => h("button", { type: "button", class: "button", title: help, onclick: run }, label);
+  const removeButton = h(
+    "button",
+    { type: "button", class: "button", title: text.remove, onclick: () => remove(chosen) },
+    text.remove,
+  );
+  const button = (/** @type {string} */ label, /** @type {() => void} */ run, help = "") =>
+    h("button", { type: "button", class: "button", title: help, onclick: run }, label);
   const place = h("div", { class: "draw-fields" });
   const beams = h("div", { class: "draw-fields" });
   const message = h("p", { class: "hint", role: "status" }, text.hint);
   const card = h(
     "section",
     { class: "draw-card", "aria-label": text.label, hidden: true },
-    h("div", { class: "draw-row" }, button(text.addWall, addWall), button(text.addCircle, addCircle), h("span", { class: "spacer" }), undoButton, redoButton),
+    h(
+      "div",
+      { class: "draw-row" },
+      button(text.addWall, addWall),
+      button(text.addCircle, addCircle),
+      h("span", { class: "spacer" }),
+      undoButton,
+      redoButton,
+    ),
     place,
     h("h3", {}, text.beams),
     beams,
-    h("div", { class: "draw-row" }, removeButton, button(text.another, () => world && commit({ ...world, seed: world.seed + 1 }), text.anotherHelp), button(text.save, onSave, text.saveHelp)),
+    h(
+      "div",
+      { class: "draw-row" },
+      removeButton,
+      button(text.another, () => world && commit({ ...world, seed: world.seed + 1 }), text.anotherHelp),
+      button(text.save, onSave, text.saveHelp),
+    ),
     message,
   );
 
@@ -151,7 +170,8 @@ export function createDraw(stage, view, text, { onRecording, onSave }) {
     }
     [...holder.children].forEach((each, k) => {
       const input = /** @type {HTMLInputElement} */ (each.querySelector("input"));
-      if (document.activeElement !== input) /** @type {any} */ (each).field.set(String(Number((numbers[k] ?? 0).toFixed(3))));
+      if (document.activeElement !== input)
+        /** @type {any} */ (each).field.set(String(Number((numbers[k] ?? 0).toFixed(3))));
     });
   }
 
@@ -171,7 +191,14 @@ export function createDraw(stage, view, text, { onRecording, onSave }) {
         return null;
       },
     });
-    const element = h("label", { class: "draw-field" }, h("span", { class: "muted" }, name), field.element, h("span", { class: "muted" }, unit), field.error);
+    const element = h(
+      "label",
+      { class: "draw-field" },
+      h("span", { class: "muted" }, name),
+      field.element,
+      h("span", { class: "muted" }, unit),
+      field.error,
+    );
     return Object.assign(element, { field });
   }
 

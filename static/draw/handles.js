@@ -43,7 +43,12 @@ export function createHandles(stage, view, text, { onChoose, onNumbers, onRemove
       const three = [
         { thing, label: text.wallStart(index + 1), at: [x1, y1], moved: ([dx, dy]) => [x1 + dx, y1 + dy, x2, y2] },
         { thing, label: text.wallEnd(index + 1), at: [x2, y2], moved: ([dx, dy]) => [x1, y1, x2 + dx, y2 + dy] },
-        { thing, label: text.wall(index + 1), at: [(x1 + x2) / 2, (y1 + y2) / 2], moved: ([dx, dy]) => [x1 + dx, y1 + dy, x2 + dx, y2 + dy] },
+        {
+          thing,
+          label: text.wall(index + 1),
+          at: [(x1 + x2) / 2, (y1 + y2) / 2],
+          moved: ([dx, dy]) => [x1 + dx, y1 + dy, x2 + dx, y2 + dy],
+        },
       ];
       return three;
     });
@@ -52,13 +57,23 @@ export function createHandles(stage, view, text, { onChoose, onNumbers, onRemove
       /** @type {Handle[]} */
       const two = [
         { thing, label: text.circle(index + 1), at: [x, y], moved: ([dx, dy]) => [x + dx, y + dy, radius] },
-        { thing, label: text.radius(index + 1), at: [x + radius, y], moved: ([dx, dy]) => [x, y, Math.hypot(radius + dx, dy)] },
+        {
+          thing,
+          label: text.radius(index + 1),
+          at: [x + radius, y],
+          moved: ([dx, dy]) => [x, y, Math.hypot(radius + dx, dy)],
+        },
       ];
       return two;
     });
     const [x, y, heading] = of.laser[0];
     /** @type {Handle} */
-    const laser = { thing: { kind: "laser", index: 0 }, label: text.laser, at: [x, y], moved: ([dx, dy]) => [x + dx, y + dy, heading] };
+    const laser = {
+      thing: { kind: "laser", index: 0 },
+      label: text.laser,
+      at: [x, y],
+      moved: ([dx, dy]) => [x + dx, y + dy, heading],
+    };
     return [...walls, ...circles, laser];
   }
 
@@ -66,15 +81,25 @@ export function createHandles(stage, view, text, { onChoose, onNumbers, onRemove
     element.toggleAttribute("hidden", world === null);
     if (!world) return;
     const shown = world;
-    const place = (/** @type {Point} */ point) => view.project(...inPlan(drag?.handle.thing.kind === "laser" ? drag.world : shown, point));
+    const place = (/** @type {Point} */ point) =>
+      view.project(...inPlan(drag?.handle.thing.kind === "laser" ? drag.world : shown, point));
     shapes.replaceChildren();
     for (const [x1, y1, x2, y2] of shown.wall) {
       const [one, other] = [place([x1, y1]), place([x2, y2])];
-      if (one && other) shapes.append(svg("line", { class: "draw-wall", x1: one[0], y1: one[1], x2: other[0], y2: other[1] }));
+      if (one && other)
+        shapes.append(svg("line", { class: "draw-wall", x1: one[0], y1: one[1], x2: other[0], y2: other[1] }));
     }
     for (const [x, y, radius] of shown.circle) {
       const [centre, edge] = [place([x, y]), place([x + radius, y])];
-      if (centre && edge) shapes.append(svg("circle", { class: "draw-wall", cx: centre[0], cy: centre[1], r: Math.hypot(edge[0] - centre[0], edge[1] - centre[1]) }));
+      if (centre && edge)
+        shapes.append(
+          svg("circle", {
+            class: "draw-wall",
+            cx: centre[0],
+            cy: centre[1],
+            r: Math.hypot(edge[0] - centre[0], edge[1] - centre[1]),
+          }),
+        );
     }
     const handles = handlesOf(shown);
     while (knobs.children.length > handles.length) knobs.lastElementChild?.remove();
@@ -105,7 +130,8 @@ export function createHandles(stage, view, text, { onChoose, onNumbers, onRemove
       drag = { handle: mine(), from, world };
     });
     knob.addEventListener("pointermove", (event) => move(event, false));
-    for (const kind of /** @type {const} */ (["pointerup", "pointercancel"])) knob.addEventListener(kind, (event) => move(event, true));
+    for (const kind of /** @type {const} */ (["pointerup", "pointercancel"]))
+      knob.addEventListener(kind, (event) => move(event, true));
     knob.addEventListener("keydown", (event) => {
       const step = event.shiftKey ? 10 * STEP : STEP;
       const by = { ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, step], ArrowDown: [0, -step] }[event.key];

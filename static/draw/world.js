@@ -35,8 +35,11 @@ export function worldOf(id) {
 
 /** @param {World} world */
 export function idOf(world) {
-  const part = (/** @type {string} */ letter, /** @type {number[]} */ numbers) => letter + numbers.map((value) => Number(value.toFixed(DIGITS))).join(",");
-  const parts = Object.entries(LETTERS).flatMap(([letter, kind]) => world[kind].map((numbers) => part(letter, numbers)));
+  const part = (/** @type {string} */ letter, /** @type {number[]} */ numbers) =>
+    letter + numbers.map((value) => Number(value.toFixed(DIGITS))).join(",");
+  const parts = Object.entries(LETTERS).flatMap(([letter, kind]) =>
+    world[kind].map((numbers) => part(letter, numbers)),
+  );
   return `${DRAWN}${[...parts, `s${world.seed}`].join(";")}`;
 }
 

@@ -15,7 +15,13 @@ export function createPackCard(text, onTake) {
   const note = h("p", { class: "pack-note" });
   const take = h("button", { type: "button", class: "button", onclick: () => pack && onTake(pack) }, text.take);
   tooltip(take, text.takeHelp);
-  const element = h("section", { class: "pack", "aria-label": text.label, hidden: true }, h("div", { class: "pack-head" }, h("b", {}, text.label), from), note, take);
+  const element = h(
+    "section",
+    { class: "pack", "aria-label": text.label, hidden: true },
+    h("div", { class: "pack-head" }, h("b", {}, text.label), from),
+    note,
+    take,
+  );
   /** @type {Pack | null} */
   let pack = null;
   return {
@@ -30,7 +36,8 @@ export function createPackCard(text, onTake) {
       from.title = from.textContent ?? "";
       setText(note, pack.note || text.noNote);
       note.classList.toggle("muted", !pack.note);
-      take.hidden = method === state.method && Object.entries(params).every(([name, value]) => state.params[name] === value);
+      take.hidden =
+        method === state.method && Object.entries(params).every(([name, value]) => state.params[name] === value);
     },
   };
 }

@@ -17,7 +17,9 @@ export async function pngOf(svg, trouble) {
     const [width, height] = [image.naturalWidth * PIXELS_EACH, image.naturalHeight * PIXELS_EACH];
     const canvas = h("canvas", { width, height });
     canvas.getContext("2d")?.drawImage(image, 0, 0, width, height);
-    return await new Promise((resolve, reject) => canvas.toBlob((png) => (png ? resolve(png) : reject(new Error(trouble))), "image/png"));
+    return await new Promise((resolve, reject) =>
+      canvas.toBlob((png) => (png ? resolve(png) : reject(new Error(trouble))), "image/png"),
+    );
   } finally {
     URL.revokeObjectURL(url);
   }

@@ -18,7 +18,10 @@ export async function fetchFile(url, broken, options = {}, onFrame = () => {}) {
   const response = await fetch(url, options).catch(() => null);
   if (!response) throw new Error(broken);
   if (!response.ok || !response.body) throw new Error(messageOf(await response.text()));
-  const [, name] = /filename\*=UTF-8''([^;]+)/.exec(response.headers.get("Content-Disposition") ?? "") ?? ["", "lineseg"];
+  const [, name] = /filename\*=UTF-8''([^;]+)/.exec(response.headers.get("Content-Disposition") ?? "") ?? [
+    "",
+    "lineseg",
+  ];
   const type = response.headers.get("Content-Type") ?? "";
   const reader = response.body.getReader();
   const decoder = new TextDecoder();

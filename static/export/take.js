@@ -31,13 +31,20 @@ export function createTake(text, { session, state, work }) {
   function saveSegments(to) {
     const { label, frames } = state() ?? { label: "", frames: 0 };
     work(text.making(label), async (show, signal) => {
-      const { name, content } = await fetchFile(address("segments", { to }), text.broken, { signal }, (frame) => show(frame + 1, frames));
+      const { name, content } = await fetchFile(address("segments", { to }), text.broken, { signal }, (frame) =>
+        show(frame + 1, frames),
+      );
       download(name, content);
     });
   }
 
   function askNote() {
-    const note = h("textarea", { rows: 5, class: "note", value: state()?.pack?.note ?? "", placeholder: text.note.placeholder });
+    const note = h("textarea", {
+      rows: 5,
+      class: "note",
+      value: state()?.pack?.note ?? "",
+      placeholder: text.note.placeholder,
+    });
     const error = h("p", { class: "panel-error", role: "alert", hidden: true });
     const save = h("button", { type: "button", class: "button primary" }, text.note.save);
     const dialog = openDialog(
@@ -51,7 +58,10 @@ export function createTake(text, { session, state, work }) {
     save.addEventListener("click", async () => {
       save.disabled = true;
       try {
-        const { name, content } = await fetchFile(address("pack"), text.broken, { method: "POST", body: note.value.trim() });
+        const { name, content } = await fetchFile(address("pack"), text.broken, {
+          method: "POST",
+          body: note.value.trim(),
+        });
         download(name, content);
         dialog.close();
       } catch (trouble) {

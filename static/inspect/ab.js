@@ -19,7 +19,11 @@ const PARTS = /** @type {const} */ (["recording", "topic", "method", "params", "
  * @param {{onToggle: () => void, onSwap: () => void, onAdopt: () => void, onNext: () => void}} handlers
  */
 export function createAb(text, { onToggle, onSwap, onAdopt, onNext }) {
-  const button = h("button", { type: "button", class: "button quiet", "aria-pressed": "false", onclick: onToggle }, text.label);
+  const button = h(
+    "button",
+    { type: "button", class: "button quiet", "aria-pressed": "false", onclick: onToggle },
+    text.label,
+  );
   tooltip(button, text.pinHelp);
   const what = h("span", { class: "ab-what" });
   const heads = Object.values(text.fates).map(({ label, help }) => {
@@ -31,7 +35,12 @@ export function createAb(text, { onToggle, onSwap, onAdopt, onNext }) {
     const cells = heads.map(() => h("td"));
     return { element: h("tr", {}, h("th", { scope: "row" }, label), ...cells), cells };
   });
-  const table = h("table", { class: "ab-table" }, h("thead", {}, h("tr", {}, h("td"), ...heads)), h("tbody", {}, ...rows.map(({ element }) => element)));
+  const table = h(
+    "table",
+    { class: "ab-table" },
+    h("thead", {}, h("tr", {}, h("td"), ...heads)),
+    h("tbody", {}, ...rows.map(({ element }) => element)),
+  );
   const action = (/** @type {string} */ label, /** @type {string} */ help, /** @type {() => void} */ run) => {
     const made = h("button", { type: "button", class: "button", onclick: run }, label);
     tooltip(made, help);
@@ -43,7 +52,13 @@ export function createAb(text, { onToggle, onSwap, onAdopt, onNext }) {
     { class: "ab", "aria-label": text.label, hidden: true },
     h("div", { class: "ab-head" }, h("b", {}, text.a), what, iconButton("close", text.unpin, onToggle)),
     table,
-    h("div", { class: "ab-actions" }, next, action(text.swap, text.swapHelp, onSwap), action(text.adopt, text.adoptHelp, onAdopt)),
+    h(
+      "div",
+      { class: "ab-actions" },
+      next,
+      action(text.swap, text.swapHelp, onSwap),
+      action(text.adopt, text.adoptHelp, onAdopt),
+    ),
   );
   /** @type {Against | null} */
   let against = null;
@@ -52,7 +67,9 @@ export function createAb(text, { onToggle, onSwap, onAdopt, onNext }) {
 
   /** @param {HTMLElement[]} cells @param {Record<string, number> | null | undefined} counts */
   function fill(cells, counts) {
-    Object.keys(text.fates).forEach((fate, k) => setText(cells[k], counts ? counts[fate].toLocaleString("en") : text.pending));
+    Object.keys(text.fates).forEach((fate, k) =>
+      setText(cells[k], counts ? counts[fate].toLocaleString("en") : text.pending),
+    );
   }
 
   return {
@@ -84,7 +101,12 @@ export function createAb(text, { onToggle, onSwap, onAdopt, onNext }) {
 function words(against, state, methods, text) {
   const method = methods.find(({ name }) => name === against.method);
   const other = against.method !== state.method;
-  const differing = (method?.knobs ?? []).filter(({ name, default: usual }) => against.params[name] !== (other ? usual : state.params[name]));
-  const said = differing.map((knob) => `${knob.symbol} ${knob.unit ? withUnit(knob, against.params[knob.name]) : format(knob, against.params[knob.name])}`);
+  const differing = (method?.knobs ?? []).filter(
+    ({ name, default: usual }) => against.params[name] !== (other ? usual : state.params[name]),
+  );
+  const said = differing.map(
+    (knob) =>
+      `${knob.symbol} ${knob.unit ? withUnit(knob, against.params[knob.name]) : format(knob, against.params[knob.name])}`,
+  );
   return [...(other && method ? [method.label] : []), ...said].join(", ") || text.same;
 }

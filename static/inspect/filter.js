@@ -17,7 +17,12 @@ const KINDS = /** @type {const} */ (["kind:lines", "kind:note"]);
  *   words: what looks wrong in a frame, undefined while it is not known; onTags: all that there are
  */
 export function createFilter(text, { words, onChange, onTags }) {
-  const field = h("input", { type: "search", class: "frames-search", placeholder: text.placeholder, "aria-label": text.label });
+  const field = h("input", {
+    type: "search",
+    class: "frames-search",
+    placeholder: text.placeholder,
+    "aria-label": text.label,
+  });
   const select = h("select", { class: "select", "aria-label": text.tag });
   const searching = h("p", { class: "hint", role: "status", hidden: true });
   const element = h("div", {}, h("div", { class: "frames-head" }, field, select), searching);
@@ -97,7 +102,10 @@ export function createFilter(text, { words, onChange, onTags }) {
     /** @param {number} frame */
     passes(frame) {
       const sought = wanted();
-      return chosen(said[frame]) && (!sought || `${line(frame)} ${words(frame)?.join(" ") ?? ""}`.toLowerCase().includes(sought));
+      return (
+        chosen(said[frame]) &&
+        (!sought || `${line(frame)} ${words(frame)?.join(" ") ?? ""}`.toLowerCase().includes(sought))
+      );
     },
     /** Says how far the search has come. */
     tell() {
@@ -112,7 +120,8 @@ export function createFilter(text, { words, onChange, onTags }) {
       const next = `${recording} ${topic} ${labels?.stamp}`;
       if (state.mode !== "inspect" || next === key) return;
       key = next;
-      if (labels?.stamp) ask(String(new URLSearchParams({ recording, ...(topics.length > 1 && topic ? { topic } : {}) })));
+      if (labels?.stamp)
+        ask(String(new URLSearchParams({ recording, ...(topics.length > 1 && topic ? { topic } : {}) })));
       else {
         said = {};
         offer();

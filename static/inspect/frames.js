@@ -32,7 +32,10 @@ export function createFrames(text, { onFrame, onScore, number, value, words, pas
   const select = h("select", { class: "select", "aria-label": text.score, onchange: () => onScore(select.value) });
   const help = h("p", { class: "hint" });
   const count = h("span", { class: "muted frames-count", role: "status" });
-  const [from, to] = [limit(text.from, (typed) => (low = typed ?? -Infinity)), limit(text.to, (typed) => (high = typed ?? Infinity))];
+  const [from, to] = [
+    limit(text.from, (typed) => (low = typed ?? -Infinity)),
+    limit(text.to, (typed) => (high = typed ?? Infinity)),
+  ];
   const spacer = h("div", { class: "frames-spacer" });
   const list = h("div", { class: "frames-list", role: "listbox", tabIndex: 0, "aria-label": text.label }, spacer);
   const note = h("p", { class: "hint" });
@@ -42,7 +45,15 @@ export function createFrames(text, { onFrame, onScore, number, value, words, pas
     h("div", { class: "frames-head" }, h("label", {}, text.score), select),
     help,
     extra,
-    h("div", { class: "frames-head" }, h("label", {}, text.from), from.element, h("label", {}, text.to), to.element, count),
+    h(
+      "div",
+      { class: "frames-head" },
+      h("label", {}, text.from),
+      from.element,
+      h("label", {}, text.to),
+      to.element,
+      count,
+    ),
     from.error,
     to.error,
     filter,
@@ -54,7 +65,9 @@ export function createFrames(text, { onFrame, onScore, number, value, words, pas
   list.addEventListener("keydown", (event) => {
     const at = order.indexOf(frame);
     const page = Math.max(1, Math.floor(list.clientHeight / ROW_PX) - 1);
-    const steps = { ArrowDown: 1, ArrowUp: -1, PageDown: page, PageUp: -page, Home: -Infinity, End: Infinity }[event.key];
+    const steps = { ArrowDown: 1, ArrowUp: -1, PageDown: page, PageUp: -page, Home: -Infinity, End: Infinity }[
+      event.key
+    ];
     if (steps === undefined || !order.length) return;
     event.preventDefault();
     event.stopPropagation();

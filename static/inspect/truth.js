@@ -22,7 +22,8 @@ function keyOfAll(state) {
  */
 export function createTruth(text, { session, onShow, onReference }) {
   const show = h("input", { type: "checkbox", onchange: () => onShow(show.checked) });
-  const key = (/** @type {string} */ name, /** @type {string} */ label) => h("span", { class: "verdict-key" }, h("span", { class: `verdict ${name}` }), label);
+  const key = (/** @type {string} */ name, /** @type {string} */ label) =>
+    h("span", { class: "verdict-key" }, h("span", { class: `verdict ${name}` }), label);
   const all = h("th", { scope: "col" }, text.all);
   const rows = text.rows.map(([name, label, help, kind]) => {
     const head = h("th", { scope: "row" }, label);
@@ -30,7 +31,11 @@ export function createTruth(text, { session, onShow, onReference }) {
     const cells = [h("td"), h("td")];
     return { name, kind, cells, element: h("tr", {}, head, ...cells) };
   });
-  const by = h("select", { class: "select", "aria-label": text.judgedBy, onchange: () => onReference(/** @type {"labels" | "wall"} */ (by.value)) });
+  const by = h("select", {
+    class: "select",
+    "aria-label": text.judgedBy,
+    onchange: () => onReference(/** @type {"labels" | "wall"} */ (by.value)),
+  });
   const unlabelled = h("p", { class: "hint" }, text.unlabelled);
   const explained = h("p", { class: "hint" });
   const known = h(
@@ -39,7 +44,13 @@ export function createTruth(text, { session, onShow, onReference }) {
     h("label", { class: "truth-by" }, text.judgedBy, by),
     unlabelled,
     h("label", { class: "truth-show" }, show, text.show),
-    h("p", { class: "verdict-keys muted" }, key("matched", text.matched), key("false", text.false), key("missed", text.missed)),
+    h(
+      "p",
+      { class: "verdict-keys muted" },
+      key("matched", text.matched),
+      key("false", text.false),
+      key("missed", text.missed),
+    ),
     h(
       "table",
       { class: "table truth-table" },
@@ -58,7 +69,16 @@ export function createTruth(text, { session, onShow, onReference }) {
   function fill(column, agreement) {
     for (const { name, kind, cells } of rows) {
       const value = agreement?.[name];
-      setText(cells[column], agreement === null ? text.pending : value === null || value === undefined ? "–" : kind === "count" ? value.toLocaleString("en") : text[kind](value));
+      setText(
+        cells[column],
+        agreement === null
+          ? text.pending
+          : value === null || value === undefined
+            ? "–"
+            : kind === "count"
+              ? value.toLocaleString("en")
+              : text[kind](value),
+      );
     }
   }
 
@@ -79,8 +99,12 @@ export function createTruth(text, { session, onShow, onReference }) {
     if (trouble) return;
     const answer = JSON.parse(words);
     // It may belong to what was on the screen a moment ago; then the next answer is on its way, or is asked for again.
-    if (keyOf(answer, ...PARTS) !== asked) return void (asked === (state && keyOfAll(state)) && (waiting = setTimeout(ask, REST_MS)));
-    setText(all, answer.stride > 1 ? text.sampled(answer.stride) : answer.judgedBy === "labels" ? text.labelled : text.all);
+    if (keyOf(answer, ...PARTS) !== asked)
+      return void (asked === (state && keyOfAll(state)) && (waiting = setTimeout(ask, REST_MS)));
+    setText(
+      all,
+      answer.stride > 1 ? text.sampled(answer.stride) : answer.judgedBy === "labels" ? text.labelled : text.all,
+    );
     fill(1, answer.agreement);
   }
 

@@ -16,12 +16,21 @@ const NO_PART = new Set(["suspicion", "difference"]);
 export function createWeights(text, onWeights) {
   const rows = h("div", { class: "weights" });
   const reset = h("button", { type: "button", class: "button" }, text.reset);
-  const element = h("details", { class: "weights-holder" }, h("summary", {}, text.title), h("p", { class: "hint" }, text.help), rows, reset);
+  const element = h(
+    "details",
+    { class: "weights-holder" },
+    h("summary", {}, text.title),
+    h("p", { class: "hint" }, text.help),
+    rows,
+    reset,
+  );
   /** @type {Map<string, {input: HTMLInputElement, shown: HTMLElement}>} */
   const inputs = new Map();
   /** @type {Score[]} */
   let scores = [];
-  reset.addEventListener("click", () => onWeights(Object.fromEntries(scores.map(({ name, weight }) => [name, weight]))));
+  reset.addEventListener("click", () =>
+    onWeights(Object.fromEntries(scores.map(({ name, weight }) => [name, weight]))),
+  );
 
   return {
     element,
@@ -31,9 +40,19 @@ export function createWeights(text, onWeights) {
       inputs.clear();
       rows.replaceChildren(
         ...scores.map(({ name, label, help, weight }) => {
-          const input = h("input", { type: "range", class: "range", min: "0", max: String(MOST), step: String(STEP), value: String(weight) });
+          const input = h("input", {
+            type: "range",
+            class: "range",
+            min: "0",
+            max: String(MOST),
+            step: String(STEP),
+            value: String(weight),
+          });
           const shown = h("span", { class: "weight-value" }, String(weight));
-          input.addEventListener("input", () => (setText(shown, input.value), onWeights({ [name]: Number(input.value) })));
+          input.addEventListener(
+            "input",
+            () => (setText(shown, input.value), onWeights({ [name]: Number(input.value) })),
+          );
           inputs.set(name, { input, shown });
           const row = h("label", { class: "weight" }, h("span", {}, label), input, shown);
           tooltip(row, help, "left");

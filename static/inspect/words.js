@@ -22,10 +22,14 @@ export function createWords({ session, wanted, onWords }) {
 
   async function ask() {
     waiting = 0;
-    const missing = wanted().filter((frame) => !known.has(frame)).slice(0, MOST);
+    const missing = wanted()
+      .filter((frame) => !known.has(frame))
+      .slice(0, MOST);
     if (!missing.length || !key) return;
     asking = true;
-    const { words, trouble } = await fetchText(`/api/why?${new URLSearchParams({ session: session(), frames: missing.join() })}`);
+    const { words, trouble } = await fetchText(
+      `/api/why?${new URLSearchParams({ session: session(), frames: missing.join() })}`,
+    );
     asking = false;
     if (trouble) return;
     const answer = JSON.parse(words);

@@ -14,7 +14,8 @@ const KEPT_ALIVE = 60_000;
 /** @param {Said} one @param {Said} other */
 const same = (one, other) => wordsOf(one) === wordsOf(other);
 /** @param {Said} said */
-const wordsOf = ({ lines, tags, note }) => JSON.stringify([lines && lines.map(({ first, last }) => [first, last]), tags, note]);
+const wordsOf = ({ lines, tags, note }) =>
+  JSON.stringify([lines && lines.map(({ first, last }) => [first, last]), tags, note]);
 
 /** @param {{onChange: () => void}} handlers onChange: what is said, or its way into the file, has changed */
 export function createKeep({ onChange }) {
@@ -127,7 +128,13 @@ export function createKeep({ onChange }) {
       if (unsaved() && !busy) run();
     },
     get status() {
-      return { status, message, conflict: conflict?.frame ?? null, canUndo: past.length > 0, canRedo: future.length > 0 };
+      return {
+        status,
+        message,
+        conflict: conflict?.frame ?? null,
+        canUndo: past.length > 0,
+        canRedo: future.length > 0,
+      };
     },
     /** @param {import("../wire.js").State} state @returns {boolean} whether another has changed what is said of the frame */
     setState({ recording, topics, topic, frame, labels }) {
@@ -160,7 +167,15 @@ function emptyBook(recording, topic) {
 
 /** @param {Book} book @param {number} frame @param {Said} said @returns {Promise<{code: number, body: any}>} code 0: no answer */
 async function put({ recording, topic, known }, frame, { lines, tags, note }) {
-  const body = JSON.stringify({ recording, topic, frame, revision: known.get(frame)?.revision ?? 0, lines, tags, note });
+  const body = JSON.stringify({
+    recording,
+    topic,
+    frame,
+    revision: known.get(frame)?.revision ?? 0,
+    lines,
+    tags,
+    note,
+  });
   try {
     const response = await fetch("/api/labels", { method: "PUT", body, keepalive: body.length < KEPT_ALIVE });
     return { code: response.status, body: await response.json() };

@@ -53,7 +53,11 @@ export function createLabels(stage, view, text, { onFrame, number }) {
   const undoButton = iconButton("undo", text.undo, () => undo());
   const redoButton = iconButton("redo", text.redo, () => redo());
   const drawButton = button(text.draw, text.drawHelp, () => draw(!drawing));
-  const onLine = [button(text.split, text.splitHelp, splitLine), button(text.merge, text.mergeHelp, () => mergeLine(1)), button(text.remove, text.removeHelp, removeLine)];
+  const onLine = [
+    button(text.split, text.splitHelp, splitLine),
+    button(text.merge, text.mergeHelp, () => mergeLine(1)),
+    button(text.remove, text.removeHelp, removeLine),
+  ];
   const accept = button(text.accept, text.acceptHelp, () => commit(lines(), chosen));
   const restart = button(text.restart, text.restartHelp, () => commit(proposal(), -1));
   const forget = button(text.forget, text.forgetHelp, () => say({ lines: null }));
@@ -184,7 +188,20 @@ export function createLabels(stage, view, text, { onFrame, number }) {
     drawButton.setAttribute("aria-pressed", String(drawing));
     accept.hidden = said.lines !== null;
     restart.hidden = forget.hidden = said.lines === null;
-    setText(message, !can ? "" : state.camera === "free" ? text.plan : drawing ? text.drawing : said.lines === null ? text.proposed(shown.length) : shown.length ? text.hint : text.none);
+    setText(
+      message,
+      !can
+        ? ""
+        : state.camera === "free"
+          ? text.plan
+          : drawing
+            ? text.drawing
+            : said.lines === null
+              ? text.proposed(shown.length)
+              : shown.length
+                ? text.hint
+                : text.none,
+    );
     list.set(shown, chosen, sweep);
     overlay.set({ lines: shown, chosen, cut, proposed: said.lines === null && dragged === null, sweep, drawing });
     return void need();
@@ -194,7 +211,11 @@ export function createLabels(stage, view, text, { onFrame, number }) {
   async function need() {
     if (!state || state.labels === null) return;
     const { recording, topics, topic } = state;
-    const query = new URLSearchParams({ recording, frame: String(frame()), ...(topics.length > 1 && topic ? { topic } : {}) });
+    const query = new URLSearchParams({
+      recording,
+      frame: String(frame()),
+      ...(topics.length > 1 && topic ? { topic } : {}),
+    });
     const key = String(query);
     if (key === sweepOf) return;
     [sweepOf, sweep] = [key, null];
@@ -232,7 +253,8 @@ export function createLabels(stage, view, text, { onFrame, number }) {
     suggest: (names) => tags.suggest(names),
     /** @param {State} next */
     setState(next) {
-      const other = !state || next.frame !== state.frame || next.recording !== state.recording || next.topic !== state.topic;
+      const other =
+        !state || next.frame !== state.frame || next.recording !== state.recording || next.topic !== state.topic;
       if (other) {
         tags.commit();
         [dragged, chosen] = [null, -1];

@@ -14,7 +14,11 @@ export function createList(text, onChoose) {
   const { number, beams, points, length } = text.columns;
   const body = h("tbody");
   const heads = [number, beams, points, length].map((column) => h("th", { scope: "col" }, column));
-  const element = h("div", { class: "labels-list" }, h("table", { class: "table", "aria-label": text.list }, h("thead", {}, h("tr", {}, ...heads)), body));
+  const element = h(
+    "div",
+    { class: "labels-list" },
+    h("table", { class: "table", "aria-label": text.list }, h("thead", {}, h("tr", {}, ...heads)), body),
+  );
 
   function emptyRow() {
     const ask = h("button", { type: "button", class: "row-button" });
@@ -33,7 +37,12 @@ export function createList(text, onChoose) {
         const row = body.rows[k];
         const [one, other] = [line.start ?? sweep?.points[line.first], line.end ?? sweep?.points[line.last]];
         const seen = sweep && seenOf(line, sweep).length;
-        const cells = [String(k + 1), `${line.first}–${line.last}`, seen === null ? "" : String(seen), one && other ? text.m(Math.hypot(one[0] - other[0], one[1] - other[1])) : ""];
+        const cells = [
+          String(k + 1),
+          `${line.first}–${line.last}`,
+          seen === null ? "" : String(seen),
+          one && other ? text.m(Math.hypot(one[0] - other[0], one[1] - other[1])) : "",
+        ];
         row.classList.toggle("current", k === chosen);
         const ask = /** @type {HTMLElement} */ (row.cells[0].firstElementChild);
         ask.setAttribute("aria-label", text.row(k + 1, cells[1], cells[3]));

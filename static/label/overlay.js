@@ -53,7 +53,10 @@ export function createOverlay(stage, view, text, { onChoose, onGrip, onDrawn }) 
     while (shapes.children.length < lines.length) shapes.append(emptyShape());
     lines.forEach((line, k) => {
       const group = shapes.children[k];
-      const [one, other] = [line.start ? view.project(...line.start) : place(line.first), line.end ? view.project(...line.end) : place(line.last)];
+      const [one, other] = [
+        line.start ? view.project(...line.start) : place(line.first),
+        line.end ? view.project(...line.end) : place(line.last),
+      ];
       group.toggleAttribute("hidden", !one || !other);
       if (!one || !other) return;
       for (const each of group.children) put(each, one, other);
@@ -115,7 +118,8 @@ export function createOverlay(stage, view, text, { onChoose, onGrip, onDrawn }) 
       if (beam !== null) onGrip(name, beam, done);
     };
     grip.addEventListener("pointermove", (event) => drag(event, false));
-    for (const kind of /** @type {const} */ (["pointerup", "pointercancel"])) grip.addEventListener(kind, (event) => drag(event, true));
+    for (const kind of /** @type {const} */ (["pointerup", "pointercancel"]))
+      grip.addEventListener(kind, (event) => drag(event, true));
     grip.addEventListener("keydown", (event) => {
       const step = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1 }[event.key];
       if (!step || !shown) return;

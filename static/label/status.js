@@ -33,7 +33,14 @@ export function createStatus(text, { onRetry, onMine, number }) {
      * @param {boolean} something is said of the frame
      */
     set({ status, message, conflict }, labels, something) {
-      const wrong = labels === null ? text.live : labels.trouble ? text.trouble(labels.trouble) : conflict !== null ? text.conflict(number(conflict)) : "";
+      const wrong =
+        labels === null
+          ? text.live
+          : labels.trouble
+            ? text.trouble(labels.trouble)
+            : conflict !== null
+              ? text.conflict(number(conflict))
+              : "";
       trouble.hidden = !wrong;
       setText(why, wrong);
       mine.hidden = conflict === null || !labels || Boolean(labels.trouble);

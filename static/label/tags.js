@@ -19,9 +19,23 @@ export function createTags(text, { onTags, onNote }) {
   let gesture = 0;
   let timer = 0;
   const known = h("datalist", { id: "known-tags" });
-  const add = h("input", { type: "text", class: "labels-add", placeholder: text.addTag, "aria-label": text.addTag, maxLength: LONGEST_TAG, list: known.id, autocomplete: "off" });
+  const add = h("input", {
+    type: "text",
+    class: "labels-add",
+    placeholder: text.addTag,
+    "aria-label": text.addTag,
+    maxLength: LONGEST_TAG,
+    list: known.id,
+    autocomplete: "off",
+  });
   const chips = h("div", { class: "labels-tags" }, add, known);
-  const note = h("textarea", { class: "labels-note", rows: 2, "aria-label": text.note, placeholder: text.notePlaceholder, maxLength: 20_000 });
+  const note = h("textarea", {
+    class: "labels-note",
+    rows: 2,
+    "aria-label": text.note,
+    placeholder: text.notePlaceholder,
+    maxLength: 20_000,
+  });
   add.addEventListener("keydown", (event) => {
     event.stopPropagation();
     if (event.key === "Enter" || event.key === ",") {
@@ -66,7 +80,12 @@ export function createTags(text, { onTags, onNote }) {
         for (const chip of chips.querySelectorAll(".labels-tag")) chip.remove();
         chips.prepend(
           ...tags.map((tag) =>
-            h("span", { class: "labels-tag" }, tag, iconButton("close", text.removeTag(tag), () => onTags(tags.filter((other) => other !== tag)))),
+            h(
+              "span",
+              { class: "labels-tag" },
+              tag,
+              iconButton("close", text.removeTag(tag), () => onTags(tags.filter((other) => other !== tag))),
+            ),
           ),
         );
       }
@@ -74,7 +93,8 @@ export function createTags(text, { onTags, onNote }) {
     },
     /** Tags of other frames, to choose from. @param {string[]} names */
     suggest(names) {
-      if (known.children.length !== names.length) known.replaceChildren(...names.map((value) => h("option", { value })));
+      if (known.children.length !== names.length)
+        known.replaceChildren(...names.map((value) => h("option", { value })));
     },
   };
 }

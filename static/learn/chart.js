@@ -26,15 +26,17 @@ export function createChart(text, beams) {
   /** By the pointer or the keyboard. @type {number | null} */
   let pointed = null;
   let size = { width: 0, height: 0 };
-  const walk = beams && createWalk(canvas, text.title, {
-    count: () => dots.length,
-    start: () => dots.findIndex((dot) => dot.now),
-    say: (at) => beams.say(dots[at].x, dots[at].y),
-    onAt(at) {
-      point(at);
-    },
-    onTake: (at) => beams.onRun(dots[at].x),
-  });
+  const walk =
+    beams &&
+    createWalk(canvas, text.title, {
+      count: () => dots.length,
+      start: () => dots.findIndex((dot) => dot.now),
+      say: (at) => beams.say(dots[at].x, dots[at].y),
+      onAt(at) {
+        point(at);
+      },
+      onTake: (at) => beams.onRun(dots[at].x),
+    });
   if (beams) listen(beams);
 
   /** @param {NonNullable<typeof beams>} beams */
@@ -59,7 +61,8 @@ export function createChart(text, beams) {
   function nearest(event) {
     const x = placing(boxOf());
     let best = null;
-    for (let k = 0; k < dots.length; k++) if (best === null || Math.abs(x(k) - event.offsetX) < Math.abs(x(best) - event.offsetX)) best = k;
+    for (let k = 0; k < dots.length; k++)
+      if (best === null || Math.abs(x(k) - event.offsetX) < Math.abs(x(best) - event.offsetX)) best = k;
     return best === null || Math.abs(x(best) - event.offsetX) > 20 ? null : best;
   }
 
@@ -140,7 +143,10 @@ export function createChart(text, beams) {
       pen.fillText(beams.say(dots[pointed].x, dots[pointed].y), box.right, box.bottom + 12);
     }
     pen.fillStyle = colour("--muted");
-    const labels = /** @type {["left" | "right", number][]} */ ([["left", 0], ["right", dots.length - 1]]).slice(0, pointed === null ? 2 : 1);
+    const labels = /** @type {["left" | "right", number][]} */ ([
+      ["left", 0],
+      ["right", dots.length - 1],
+    ]).slice(0, pointed === null ? 2 : 1);
     for (const [align, place] of labels) {
       pen.textAlign = align;
       if (dots[place]) pen.fillText(String(dots[place].x), x(place), box.bottom + 12);
@@ -188,12 +194,16 @@ export function createChart(text, beams) {
       const lengths = steps.map(({ length }) => length / Math.max(minLength, 1e-9));
       const counts = steps.map(({ points }) => points / Math.max(minPoints, 1));
       const top = Math.max(1.6, Math.min(1.1 * Math.max(...lengths, ...counts), 12));
-      const x = (/** @type {number} */ place) => box.left + 6 + (place / Math.max(steps.length - 1, 20)) * (box.right - box.left - 12);
+      const x = (/** @type {number} */ place) =>
+        box.left + 6 + (place / Math.max(steps.length - 1, 20)) * (box.right - box.left - 12);
       const y = (/** @type {number} */ value) => box.bottom - (Math.min(value, top) / top) * (box.bottom - box.top);
       axes(pen, box);
       threshold(pen, box, y(1), text.y);
       const last = steps[steps.length - 1];
-      const curves = /** @type {const} */ ([[lengths, "--accent", `L ${last.length.toFixed(2)} m`], [counts, "--good", `P ${last.points}`]]);
+      const curves = /** @type {const} */ ([
+        [lengths, "--accent", `L ${last.length.toFixed(2)} m`],
+        [counts, "--good", `P ${last.points}`],
+      ]);
       curves.forEach(([values, tone, label], k) => {
         pen.strokeStyle = pen.fillStyle = colour(tone);
         pen.lineWidth = 1.6;

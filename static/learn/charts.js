@@ -41,7 +41,11 @@ export function createCharts(text, onBeam, onRun) {
       const within = new Set(trace.span(event.first, event.last));
       const dots = (/** @type {(beam: number) => number} */ of) =>
         beams.map((beam) => ({ x: beam, y: of(beam), inside: within.has(beam), now: beam === event.beam }));
-      distance.set(dots((beam) => trace.distance(beam, line)), params.epsilon, event.beam >= 0 ? text.sayBeam(event.beam, event.value) : "");
+      distance.set(
+        dots((beam) => trace.distance(beam, line)),
+        params.epsilon,
+        event.beam >= 0 ? text.sayBeam(event.beam, event.value) : "",
+      );
       const off = (/** @type {number} */ beam) => {
         const { range, meets } = trace.predicted(beam, line);
         return Math.abs(range - meets);

@@ -14,6 +14,12 @@ export async function fetchInto(place, url, text, onCome) {
   place.replaceChildren();
   const { words, trouble } = await fetchText(url);
   if (trouble === null) return onCome(JSON.parse(words));
-  const again = h("button", { type: "button", class: "button", onclick: () => fetchInto(place, url, text, onCome) }, text.again);
-  return place.replaceChildren(h("div", { class: "panel-error trouble-here", role: "alert" }, h("p", {}, `${text.missing} ${trouble}`), again));
+  const again = h(
+    "button",
+    { type: "button", class: "button", onclick: () => fetchInto(place, url, text, onCome) },
+    text.again,
+  );
+  return place.replaceChildren(
+    h("div", { class: "panel-error trouble-here", role: "alert" }, h("p", {}, `${text.missing} ${trouble}`), again),
+  );
 }

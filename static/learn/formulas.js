@@ -26,7 +26,8 @@ export function createFormulas(text, onTerm) {
   const light = (/** @type {string | null} */ name) => {
     if (name === lit) return;
     lit = name;
-    for (const part of element.querySelectorAll("[data-term]")) part.classList.toggle("lit", part.getAttribute("data-term") === name);
+    for (const part of element.querySelectorAll("[data-term]"))
+      part.classList.toggle("lit", part.getAttribute("data-term") === name);
     onTerm(name);
   };
   element.addEventListener("pointerover", (event) => light(termAt(event.target)));
@@ -48,10 +49,23 @@ export function createFormulas(text, onTerm) {
       lit = null;
       const shown = event && trace ? formulasOf(event, trace, text) : [];
       element.hidden = shown.length === 0;
-      body.replaceChildren(...shown.map(({ title, rows }) => h("div", { class: "formula" }, h("h3", {}, title), ...rows.map((row) => h("div", { class: "formula-row" }, row)))));
-      this.names = [...new Set([...body.querySelectorAll("[data-term]")].map((part) => part.getAttribute("data-term") ?? ""))];
+      body.replaceChildren(
+        ...shown.map(({ title, rows }) =>
+          h(
+            "div",
+            { class: "formula" },
+            h("h3", {}, title),
+            ...rows.map((row) => h("div", { class: "formula-row" }, row)),
+          ),
+        ),
+      );
+      this.names = [
+        ...new Set([...body.querySelectorAll("[data-term]")].map((part) => part.getAttribute("data-term") ?? "")),
+      ];
       legend.replaceChildren(
-        ...this.names.map((name) => h("button", { type: "button", class: "chip term-chip", "data-term": name }, text.names[name])),
+        ...this.names.map((name) =>
+          h("button", { type: "button", class: "chip term-chip", "data-term": name }, text.names[name]),
+        ),
       );
     },
   };
@@ -105,7 +119,16 @@ function predictedPoint({ beam, limit, value }, trace, line, text) {
   return {
     title: text.predicted,
     rows: [
-      math(term("predicted", "ρ′"), "=", fraction(row("− c"), over), "=", fraction(row(num(-c)), row(num(a * Math.cos(bearing) + b * Math.sin(bearing)))), "=", num(meets), words(" m")),
+      math(
+        term("predicted", "ρ′"),
+        "=",
+        fraction(row("− c"), over),
+        "=",
+        fraction(row(num(-c)), row(num(a * Math.cos(bearing) + b * Math.sin(bearing)))),
+        "=",
+        num(meets),
+        words(" m"),
+      ),
       math("| P P′ | = |", term("point", "ρ"), "−", term("predicted", "ρ′"), "| = |", num(range), "−", num(meets), "|"),
       math("=", num(value), value > limit ? ">" : "≤", "δ =", num(limit), words(` m: ${text.noSeed}`)),
     ],
@@ -122,7 +145,19 @@ function fitted({ first, last }, trace, text) {
       math(term("mean", "x̄"), "=", num(x), words(",  "), term("mean", "ȳ"), "=", num(y)),
       math("S_xx =", num(xx), words(",  "), "S_xy =", num(xy), words(",  "), "S_yy =", num(yy)),
       math(words("tan 2φ"), "=", fraction("2 S_xy", "S_xx − S_yy"), "→ φ =", num((phi * 180) / Math.PI, 1), words("°")),
-      math("(", term("normal", "a , b"), ") ⟂", term("line", "φ"), "= (", num(a), ",", num(b), ") ,", "c = − ( a x̄ + b ȳ ) =", num(c)),
+      math(
+        "(",
+        term("normal", "a , b"),
+        ") ⟂",
+        term("line", "φ"),
+        "= (",
+        num(a),
+        ",",
+        num(b),
+        ") ,",
+        "c = − ( a x̄ + b ȳ ) =",
+        num(c),
+      ),
     ],
   };
 }
@@ -131,7 +166,15 @@ function fitted({ first, last }, trace, text) {
 function acceptance({ kind, check, points, value, limit, first, last, line }, trace, text) {
   const counted = kind === "line dropped" && check === "min_points";
   const count = counted
-    ? math(term("window", "P_l"), "=", String(points), value < limit ? "<" : "≥", "P_min =", String(limit), words(` : ${text.dropped}`))
+    ? math(
+        term("window", "P_l"),
+        "=",
+        String(points),
+        value < limit ? "<" : "≥",
+        "P_min =",
+        String(limit),
+        words(` : ${text.dropped}`),
+      )
     : math(term("window", "P_l"), "=", String(points), words(` ${text.enough}`));
   if (counted || !line) return { title: text.accepted, rows: [count] };
   const length = lengthOf(trace, first, last, line);
@@ -141,7 +184,14 @@ function acceptance({ kind, check, points, value, limit, first, last, line }, tr
     rows: [
       count,
       math(term("length", "L_l"), "=", root(row(power("( x_e − x_s )", "2"), "+", power("( y_e − y_s )", "2")))),
-      math("=", num(length), sign, "L_min =", num(limit), words(` m: ${kind === "line kept" ? text.kept : text.dropped}`)),
+      math(
+        "=",
+        num(length),
+        sign,
+        "L_min =",
+        num(limit),
+        words(` m: ${kind === "line kept" ? text.kept : text.dropped}`),
+      ),
     ],
   };
 }
@@ -152,9 +202,25 @@ function angle({ value, limit, kind }, [a, b], [a2, b2], text) {
   return {
     title: text.angle,
     rows: [
-      math(words("sin "), "α = |", term("line", "a_1"), term("other", "b_2"), "−", term("line", "b_1"), term("other", "a_2"), "|"),
+      math(
+        words("sin "),
+        "α = |",
+        term("line", "a_1"),
+        term("other", "b_2"),
+        "−",
+        term("line", "b_1"),
+        term("other", "a_2"),
+        "|",
+      ),
       math("= |", signed(a), "·", signed(b2), "−", signed(b), "·", signed(a2), "|"),
-      math("α =", degrees(value), words("°"), value < limit ? "<" : "≥", degrees(limit), words(`°: ${kind === "lines merged" ? text.oneLine : text.twoLines}`)),
+      math(
+        "α =",
+        degrees(value),
+        words("°"),
+        value < limit ? "<" : "≥",
+        degrees(limit),
+        words(`°: ${kind === "lines merged" ? text.oneLine : text.twoLines}`),
+      ),
     ],
   };
 }
@@ -177,7 +243,18 @@ function cut({ value, limit, beam, last }, text) {
   return {
     title: text.cut,
     rows: [
-      math(term("point", "P_k"), words(`, k = ${kept ? last : beam}:`), term("line", "d_1"), "=", num(value), kept ? "<" : "≥", term("other", "d_2"), "=", num(limit), words(" m")),
+      math(
+        term("point", "P_k"),
+        words(`, k = ${kept ? last : beam}:`),
+        term("line", "d_1"),
+        "=",
+        num(value),
+        kept ? "<" : "≥",
+        term("other", "d_2"),
+        "=",
+        num(limit),
+        words(" m"),
+      ),
     ],
   };
 }
@@ -191,12 +268,20 @@ function endpoint({ first, ends }, trace, [a, b, c], text) {
     title: text.endpoint(first),
     rows: [
       math(
-        term("ends", "x_s"), "=", fraction(row(power("b", "2"), term("outermost", "x_0"), "− a b", term("outermost", "y_0"), "− a c"), bottom()),
-        "=", num(x1), words(" m"),
+        term("ends", "x_s"),
+        "=",
+        fraction(row(power("b", "2"), term("outermost", "x_0"), "− a b", term("outermost", "y_0"), "− a c"), bottom()),
+        "=",
+        num(x1),
+        words(" m"),
       ),
       math(
-        term("ends", "y_s"), "=", fraction(row(power("a", "2"), term("outermost", "y_0"), "− a b", term("outermost", "x_0"), "− b c"), bottom()),
-        "=", num(y1), words(" m"),
+        term("ends", "y_s"),
+        "=",
+        fraction(row(power("a", "2"), term("outermost", "y_0"), "− a b", term("outermost", "x_0"), "− b c"), bottom()),
+        "=",
+        num(y1),
+        words(" m"),
       ),
       math(words("P₀ = ("), num(x), ",", num(y), words("),  (a, b, c) = ("), num(a), ",", num(b), ",", num(c), ")"),
     ],

@@ -24,7 +24,10 @@ export function matches(trace, { kind, check, direction, beam }) {
   const { columns: c } = trace;
   const [kindAt, checkAt] = [c.kinds.indexOf(kind), check === null ? -1 : c.checks.indexOf(check)];
   return c.kind.flatMap((each, k) =>
-    each === kindAt && (check === null || c.check[k] === checkAt) && (direction === null || c.direction[k] === direction) && (beam === null || c.beam[k] === beam)
+    each === kindAt &&
+    (check === null || c.check[k] === checkAt) &&
+    (direction === null || c.direction[k] === direction) &&
+    (beam === null || c.beam[k] === beam)
       ? [k]
       : [],
   );
@@ -46,14 +49,18 @@ export function missing(goal, state, trace, start, step, text) {
   /** @type {string[]} */
   const lacks = [];
   const found = state.segments.length;
-  const others = Object.entries(state.params).filter(([name, value]) => value !== start[name]).map(([name]) => name);
+  const others = Object.entries(state.params)
+    .filter(([name, value]) => value !== start[name])
+    .map(([name]) => name);
   if (changed.length && !others.length) lacks.push(text.nothingChanged);
   const stray = changed.length ? others.filter((name) => !changed.includes(name)) : [];
   if (stray.length) lacks.push(text.wrongThreshold);
   if (changed.length && others.length > 1) lacks.push(text.onlyOne);
   if (lines && (found < lines[0] || found > lines[1])) lacks.push(text.lines(found, lines));
-  for (const [one, other] of together) if (lineOf(one) < 0 || lineOf(one) !== lineOf(other)) lacks.push(text.together(one, other));
-  for (const [one, other] of apart) if (lineOf(one) < 0 || lineOf(other) < 0 || lineOf(one) === lineOf(other)) lacks.push(text.apart(one, other));
+  for (const [one, other] of together)
+    if (lineOf(one) < 0 || lineOf(one) !== lineOf(other)) lacks.push(text.together(one, other));
+  for (const [one, other] of apart)
+    if (lineOf(one) < 0 || lineOf(other) < 0 || lineOf(one) === lineOf(other)) lacks.push(text.apart(one, other));
   for (const beam of inside) if (lineOf(beam) < 0) lacks.push(text.inside(beam));
   for (const beam of outside) if (lineOf(beam) >= 0) lacks.push(text.outside(beam));
   if (at) {

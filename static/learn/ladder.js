@@ -12,7 +12,13 @@ import { fetchInto } from "./fetched.js";
 /** @typedef {import("../wire.js").Params} Params */
 /** @typedef {{name: string, beams: number, values: number[], lines: number[], runs: [number, number, string][][]}} Sweep */
 
-const TONES = /** @type {Record<string, string>} */ ({ "": "--accent", delta: "--failed", epsilon: "--trouble", max_dropout: "--muted", max_gap: "--muted" });
+const TONES = /** @type {Record<string, string>} */ ({
+  "": "--accent",
+  delta: "--failed",
+  epsilon: "--trouble",
+  max_dropout: "--muted",
+  max_gap: "--muted",
+});
 
 /**
  * @param {typeof import("../text/learn.js").learnText.ladder} text
@@ -38,10 +44,20 @@ export function createLadder(text, { session, onGo, onParams }) {
   const seeds = h("canvas", { class: "chart-canvas" });
   const seedsSaid = h("span", { class: "off-screen" });
   const seedsNow = h("span", { class: "muted", "aria-hidden": "true" });
-  const legend = h("span", { class: "ladder-legend" }, ...Object.entries(text.tones).map(([check, words]) => h("span", {}, h("i", { class: `key key-${check || "found"}` }), words)));
+  const legend = h(
+    "span",
+    { class: "ladder-legend" },
+    ...Object.entries(text.tones).map(([check, words]) =>
+      h("span", {}, h("i", { class: `key key-${check || "found"}` }), words),
+    ),
+  );
   const picture = h("canvas", { class: "sweep-canvas", role: "img" });
   const trouble = h("div", { class: "sweep-trouble" });
-  const choice = h("select", { class: "select", "aria-label": text.threshold, onchange: () => ((name = choice.value), refresh()) });
+  const choice = h("select", {
+    class: "select",
+    "aria-label": text.threshold,
+    onchange: () => ((name = choice.value), refresh()),
+  });
   const value = h("span", { class: "muted sweep-value" });
   const slider = createSlider({
     label: text.threshold,
@@ -53,7 +69,14 @@ export function createLadder(text, { session, onGo, onParams }) {
     "div",
     { class: "ladder", hidden: true },
     h("figure", { class: "chart" }, h("figcaption", {}, text.seeds, legend, seedsNow), seeds, seedsSaid),
-    h("figure", { class: "chart sweep" }, h("figcaption", {}, choice, h("span", {}, text.sweep), value), picture, slider.element, trouble),
+    h(
+      "figure",
+      { class: "chart sweep" },
+      h("figcaption", {}, choice, h("span", {}, text.sweep), value),
+      picture,
+      slider.element,
+      trouble,
+    ),
   );
 
   function knob() {
@@ -72,7 +95,12 @@ export function createLadder(text, { session, onGo, onParams }) {
   }
 
   picture.addEventListener("click", (event) => {
-    if (swept) set(swept.values[Math.min(Math.floor((event.offsetX / picture.clientWidth) * swept.values.length), swept.values.length - 1)]);
+    if (swept)
+      set(
+        swept.values[
+          Math.min(Math.floor((event.offsetX / picture.clientWidth) * swept.values.length), swept.values.length - 1)
+        ],
+      );
   });
   const walk = createWalk(seeds, text.seeds, {
     count: () => tried.length,
@@ -96,7 +124,9 @@ export function createLadder(text, { session, onGo, onParams }) {
     if (!trace) return null;
     const beam = (x / seeds.clientWidth) * trace.beams;
     let best = null;
-    for (const index of tried) if (best === null || Math.abs(trace.columns.first[index] - beam) < Math.abs(trace.columns.first[best] - beam)) best = index;
+    for (const index of tried)
+      if (best === null || Math.abs(trace.columns.first[index] - beam) < Math.abs(trace.columns.first[best] - beam))
+        best = index;
     return best;
   }
 
@@ -146,7 +176,12 @@ export function createLadder(text, { session, onGo, onParams }) {
     }
     if (marked) pen.strokeRect(...marked);
     pen.globalAlpha = 1;
-    setText(seedsSaid, Object.entries(counts).map(([check, n]) => `${text.tones[check]}: ${n}`).join(", "));
+    setText(
+      seedsSaid,
+      Object.entries(counts)
+        .map(([check, n]) => `${text.tones[check]}: ${n}`)
+        .join(", "),
+    );
   }
 
   function drawSweep() {
@@ -157,14 +192,21 @@ export function createLadder(text, { session, onGo, onParams }) {
       const from = (k / values.length) * width;
       for (const [first, last, tone] of row) {
         pen.fillStyle = tone;
-        pen.fillRect(from, (first / beams) * height, width / values.length + 0.5, Math.max(((last - first + 1) / beams) * height, 0.7));
+        pen.fillRect(
+          from,
+          (first / beams) * height,
+          width / values.length + 0.5,
+          Math.max(((last - first + 1) / beams) * height, 0.7),
+        );
       }
     });
     const at = placeOf(knob(), params[name]) * width;
     pen.fillStyle = colour("--ink");
     pen.fillRect(at - 0.8, 0, 1.6, height);
     let nearest = 0;
-    values.forEach((each, k) => (nearest = Math.abs(each - params[name]) < Math.abs(values[nearest] - params[name]) ? k : nearest));
+    values.forEach(
+      (each, k) => (nearest = Math.abs(each - params[name]) < Math.abs(values[nearest] - params[name]) ? k : nearest),
+    );
     const words = text.at(knob().symbol.replace("_", " "), withUnit(knob(), params[name]), swept.lines[nearest]);
     setText(value, words);
     picture.setAttribute("aria-label", `${text.sweepHelp} ${words}`);
@@ -185,10 +227,15 @@ export function createLadder(text, { session, onGo, onParams }) {
     if (wanted === made || busy) return drawSweep();
     busy = true;
     made = wanted;
-    await fetchInto(trouble, `/api/sweep?session=${encodeURIComponent(session())}&name=${name}`, text, (/** @type {Sweep} */ told) => {
-      swept = told;
-      drawSweep();
-    });
+    await fetchInto(
+      trouble,
+      `/api/sweep?session=${encodeURIComponent(session())}&name=${name}`,
+      text,
+      (/** @type {Sweep} */ told) => {
+        swept = told;
+        drawSweep();
+      },
+    );
     busy = false;
     // What changed meanwhile.
     return refresh();
@@ -205,7 +252,11 @@ export function createLadder(text, { session, onGo, onParams }) {
     /** @param {Knob[]} next */
     setKnobs(next) {
       knobs = next;
-      choice.replaceChildren(...next.map((each) => h("option", { value: each.name, selected: each.name === name }, each.symbol.replace("_", " "))));
+      choice.replaceChildren(
+        ...next.map((each) =>
+          h("option", { value: each.name, selected: each.name === name }, each.symbol.replace("_", " ")),
+        ),
+      );
     },
     /** @param {Trace} next */
     setTrace(next) {

@@ -31,7 +31,11 @@ import { compared, variables } from "./values.js";
  * @param {{onStep: (step: number | null) => void, onChange: (patch: Patch, gesture?: string | null) => void,
  *          onDraw: () => void, settled: () => boolean, session: () => string}} handlers
  */
-export function mountLearn({ stage, view: planView, dock, panel }, words, { onStep, onChange, onDraw, settled, session }) {
+export function mountLearn(
+  { stage, view: planView, dock, panel },
+  words,
+  { onStep, onChange, onDraw, settled, session },
+) {
   const text = words.learn;
   /** @type {Trace | null} */
   let trace = null;
@@ -53,11 +57,17 @@ export function mountLearn({ stage, view: planView, dock, panel }, words, { onSt
     formulas.light(at && trace && event ? termAt(at, formulas.names, event, trace, planView.project) : null);
   });
   const charts = createCharts(text.charts, showBeam, choose);
-  const ladder = createLadder(text.ladder, { session, onGo: (wanted) => stepper.go(wanted), onParams: (next, gesture) => onChange({ params: next }, gesture) });
+  const ladder = createLadder(text.ladder, {
+    session,
+    onGo: (wanted) => stepper.go(wanted),
+    onParams: (next, gesture) => onChange({ params: next }, gesture),
+  });
   const predict = createPredict(text.predict, { onAnswer: answered, onToggle: () => (stepper.say(null), show()) });
   const trail = switchButton(text.views.trail, () => show());
   trail.title = text.views.trailHelp;
-  const views = /** @type {const} */ (["step", "all"]).map((name) => switchButton(text.views[name], () => choosePage(name)));
+  const views = /** @type {const} */ (["step", "all"]).map((name) =>
+    switchButton(text.views[name], () => choosePage(name)),
+  );
   const stepper = mountStepper(dock, text, {
     onStep,
     onBeam: choose,
@@ -65,7 +75,12 @@ export function mountLearn({ stage, view: planView, dock, panel }, words, { onSt
     settled,
     mayStep,
     answers: predict.buttons,
-    extras: [h("span", { class: "chips", role: "group", "aria-label": text.views.label }, ...views), trail, predict.toggle, predict.score],
+    extras: [
+      h("span", { class: "chips", role: "group", "aria-label": text.views.label }, ...views),
+      trail,
+      predict.toggle,
+      predict.score,
+    ],
   });
   const lessons = createLessons(words, { onChange, onDraw, onGo: (wanted) => stepper.go(wanted) });
   const listingPlace = h("div", { class: "listing-place" });
@@ -76,11 +91,16 @@ export function mountLearn({ stage, view: planView, dock, panel }, words, { onSt
   panel.append(lessons.element, h("div", { class: "method" }, other, listingPlace, formulas.element));
   dock.append(charts.element, ladder.element);
   choosePage("step");
-  fetchInto(listingPlace, new URL("./listing.json", import.meta.url).href, text.listing, (/** @type {{algorithms: Algorithm[]}} */ { algorithms }) => {
-    listing = createListing(algorithms, text.listing);
-    listingPlace.append(listing.element);
-    show();
-  });
+  fetchInto(
+    listingPlace,
+    new URL("./listing.json", import.meta.url).href,
+    text.listing,
+    (/** @type {{algorithms: Algorithm[]}} */ { algorithms }) => {
+      listing = createListing(algorithms, text.listing);
+      listingPlace.append(listing.element);
+      show();
+    },
+  );
 
   /** @param {string} words @param {() => void} onSwitch */
   function switchButton(words, onSwitch) {
@@ -108,7 +128,9 @@ export function mountLearn({ stage, view: planView, dock, panel }, words, { onSt
     if (!question) return true;
     stepper.say(question);
     dock.classList.add("asking");
-    const dots = (event.beam >= 0 && event.phase === "growth" ? [event.beam] : trace.span(event.first, event.last)).flatMap((beam) => [trace?.point(beam)]);
+    const dots = (
+      event.beam >= 0 && event.phase === "growth" ? [event.beam] : trace.span(event.first, event.last)
+    ).flatMap((beam) => [trace?.point(beam)]);
     overlay.set("question", { dots: /** @type {[number, number][]} */ (dots.filter(Boolean)) });
     return false;
   }
@@ -121,12 +143,22 @@ export function mountLearn({ stage, view: planView, dock, panel }, words, { onSt
 
   /** Every fit of the growing line up to here. @param {Event | null} event */
   function trailOf(event) {
-    if (!trace || !own || !event || trail.getAttribute("aria-pressed") !== "true" || (event.phase !== "growth" && event.kind !== "seed found")) return null;
+    if (
+      !trace ||
+      !own ||
+      !event ||
+      trail.getAttribute("aria-pressed") !== "true" ||
+      (event.phase !== "growth" && event.kind !== "seed found")
+    )
+      return null;
     /** @type {[[number, number], [number, number]][]} */
     const lines = [];
     for (let k = event.index; k >= 0 && trace.columns.candidate[k] === event.candidate; k--) {
       const each = trace.at(k);
-      const part = each.line && (each.kind === "seed found" || each.kind === "point added") ? stretch(trace, trace.span(each.first, each.last), each.line) : null;
+      const part =
+        each.line && (each.kind === "seed found" || each.kind === "point added")
+          ? stretch(trace, trace.span(each.first, each.last), each.line)
+          : null;
       if (part) lines.push(longer(part));
     }
     // Beyond some hundred they could not be told apart.
@@ -136,11 +168,16 @@ export function mountLearn({ stage, view: planView, dock, panel }, words, { onSt
 
   const awaited = new Set(["lessons", "knobs"]);
   let opened = false;
-  fetchInto(lessons.trouble, "/api/lessons", text.lesson, (/** @type {Parameters<typeof lessons.setLessons>[0]} */ told) => {
-    lessons.setLessons(told);
-    awaited.delete("lessons");
-    openFromAddress();
-  });
+  fetchInto(
+    lessons.trouble,
+    "/api/lessons",
+    text.lesson,
+    (/** @type {Parameters<typeof lessons.setLessons>[0]} */ told) => {
+      lessons.setLessons(told);
+      awaited.delete("lessons");
+      openFromAddress();
+    },
+  );
 
   /** A link with ?lesson=… opens it, once thresholds and lessons are there. */
   function openFromAddress() {
@@ -183,7 +220,9 @@ export function mountLearn({ stage, view: planView, dock, panel }, words, { onSt
     const event = present();
     if (!event || !trace) return;
     const inside = trace.span(event.first, event.last);
-    const points = [...inside, event.beam].flatMap((beam) => [trace?.point(beam) ?? []]).filter((point) => point.length === 2);
+    const points = [...inside, event.beam]
+      .flatMap((beam) => [trace?.point(beam) ?? []])
+      .filter((point) => point.length === 2);
     const [xs, ys] = [0, 1].map((k) => points.map((point) => Number(point[k])));
     const room = 0.5 + 0.15 * Math.hypot(Math.max(...xs) - Math.min(...xs), Math.max(...ys) - Math.min(...ys));
     planView.fit([Math.min(...xs) - room, Math.min(...ys) - room, Math.max(...xs) + room, Math.max(...ys) + room]);

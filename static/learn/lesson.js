@@ -66,7 +66,16 @@ export function createLessons(words, { onChange, onGo, onDraw }) {
     h("span", { class: "lesson-item-title" }, drawText.open),
     h("span", { class: "muted" }, drawText.openHint),
   );
-  const overview = h("div", { class: "lesson-overview" }, h("h2", {}, text.overview), h("p", { class: "hint" }, text.overviewHint), trouble, broken, list, drawing);
+  const overview = h(
+    "div",
+    { class: "lesson-overview" },
+    h("h2", {}, text.overview),
+    h("p", { class: "hint" }, text.overviewHint),
+    trouble,
+    broken,
+    list,
+    drawing,
+  );
   const title = h("h2", { class: "lesson-title", tabIndex: -1 });
   const close = iconButton("close", text.close, () => leave());
   const body = h("div", { class: "lesson-body", "aria-live": "polite" });
@@ -79,7 +88,13 @@ export function createLessons(words, { onChange, onGo, onDraw }) {
   const next = h("button", { type: "button", class: "button primary", onclick: () => forward() }, text.next);
   const count = h("span", { class: "muted" });
   const foot = h("div", { class: "lesson-foot" }, back, count, h("span", { class: "spacer" }), hint, next);
-  const reader = h("div", { class: "lesson-reader", hidden: true }, h("div", { class: "lesson-head" }, title, close), h("div", { class: "lesson-scroll" }, body, places, task), foot);
+  const reader = h(
+    "div",
+    { class: "lesson-reader", hidden: true },
+    h("div", { class: "lesson-head" }, title, close),
+    h("div", { class: "lesson-scroll" }, body, places, task),
+    foot,
+  );
   const element = h("section", { class: "lesson", "aria-label": text.label }, overview, reader);
 
   /** @returns {string[]} */
@@ -100,7 +115,13 @@ export function createLessons(words, { onChange, onGo, onDraw }) {
           h(
             "button",
             { type: "button", class: "lesson-item", "data-lesson": each.id, onclick: () => open(each.id) },
-            h("span", { class: "lesson-item-title" }, ...symbols(each.title), done.has(each.id) ? icon("check") : null, done.has(each.id) ? h("span", { class: "off-screen" }, text.doneMark) : null),
+            h(
+              "span",
+              { class: "lesson-item-title" },
+              ...symbols(each.title),
+              done.has(each.id) ? icon("check") : null,
+              done.has(each.id) ? h("span", { class: "off-screen" }, text.doneMark) : null,
+            ),
             h("span", { class: "muted" }, ...symbols(each.about)),
           ),
         ),
@@ -120,7 +141,12 @@ export function createLessons(words, { onChange, onGo, onDraw }) {
     sliders = new Map(
       knobs
         .filter(({ name }) => chosen.knobs.includes(name))
-        .map((knob) => [knob.name, createThreshold(knob, words.tune, (name, value) => onChange({ params: { [name]: value } }, `${name} ${gestureCount()}`))]),
+        .map((knob) => [
+          knob.name,
+          createThreshold(knob, words.tune, (name, value) =>
+            onChange({ params: { [name]: value } }, `${name} ${gestureCount()}`),
+          ),
+        ]),
     );
     places.replaceChildren(...[...sliders.values()].map((slider) => slider.element));
     address(id);
@@ -180,7 +206,11 @@ export function createLessons(words, { onChange, onGo, onDraw }) {
     reader.querySelector(".lesson-scroll")?.scrollTo(0, 0);
     pending = { find: step?.find ?? null };
     const { method, params } = wanted();
-    const elsewhere = view.recording !== lesson.recording || view.frame !== lesson.frame || view.method !== method || !same(params, view.params);
+    const elsewhere =
+      view.recording !== lesson.recording ||
+      view.frame !== lesson.frame ||
+      view.method !== method ||
+      !same(params, view.params);
     /** @type {Patch} */
     const patch = { method, selected: step?.selected ?? null };
     if (method === METHOD) patch.params = params;
@@ -201,7 +231,9 @@ export function createLessons(words, { onChange, onGo, onDraw }) {
     const usual = Object.fromEntries(knobs.map((knob) => [knob.name, knob.default]));
     const page = lesson?.steps[at] ?? lesson?.task;
     const other = page && "method" in page ? page.method : null;
-    return other ? { method: other, params: {} } : { method: METHOD, params: { ...usual, ...lesson?.params, ...page?.params } };
+    return other
+      ? { method: other, params: {} }
+      : { method: METHOD, params: { ...usual, ...lesson?.params, ...page?.params } };
   }
 
   function showHint() {

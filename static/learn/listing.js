@@ -21,7 +21,11 @@ export function createListing(algorithms, text) {
   const blocks = algorithms.map((algorithm) => createBlock(algorithm));
   const values = h("dl", { class: "values", "aria-label": text.values });
   const buttons = algorithms.map(({ phase }) =>
-    h("button", { type: "button", class: "chip", "aria-pressed": "false", onclick: () => choose(phase) }, text.tabs[phase]),
+    h(
+      "button",
+      { type: "button", class: "chip", "aria-pressed": "false", onclick: () => choose(phase) },
+      text.tabs[phase],
+    ),
   );
   const element = h(
     "section",
@@ -38,7 +42,13 @@ export function createListing(algorithms, text) {
   function createBlock({ phase, title, lines: code }) {
     const notes = code.filter(({ note }) => note);
     const rows = code.map(({ text: words, indent = 0, events = [], note, extension }, k) => {
-      const mark = note ? noteMark(notes.findIndex((line) => line.note === note), note, phase) : null;
+      const mark = note
+        ? noteMark(
+            notes.findIndex((line) => line.note === note),
+            note,
+            phase,
+          )
+        : null;
       const row = h(
         "li",
         { class: "code-line", "data-line": `${phase} ${k + 1}` },
@@ -84,7 +94,9 @@ export function createListing(algorithms, text) {
      * @param {string} compared what the lit line compares, with its numbers
      */
     set(event, now, compared) {
-      values.replaceChildren(...now.map(([name, value]) => h("div", {}, h("dt", {}, ...symbols(name)), h("dd", {}, value))));
+      values.replaceChildren(
+        ...now.map(([name, value]) => h("div", {}, h("dt", {}, ...symbols(name)), h("dd", {}, value))),
+      );
       values.hidden = now.length === 0;
       const before = lit;
       if (lit) {

@@ -34,7 +34,8 @@ export function createMarks() {
     if (!trace?.length) return;
     // The thumb of a range input stays within its track.
     const room = width - 14;
-    const x = (/** @type {number} */ index) => 7 + (index / Math.max(1, /** @type {Trace} */ (trace).length - 1)) * room;
+    const x = (/** @type {number} */ index) =>
+      7 + (index / Math.max(1, /** @type {Trace} */ (trace).length - 1)) * room;
     if (loop) {
       pen.fillStyle = colour("--accent-soft");
       pen.fillRect(x(loop.from) - 1, 0, Math.max(2, x(loop.to ?? loop.from) - x(loop.from) + 2), HEIGHT);

@@ -29,7 +29,10 @@ function token(word) {
 
 /** @param {...Part} parts words, separated by spaces, and shapes */
 export function row(...parts) {
-  return element("mrow", ...parts.flatMap((part) => (typeof part === "string" ? part.split(" ").filter(Boolean).map(token) : [part])));
+  return element(
+    "mrow",
+    ...parts.flatMap((part) => (typeof part === "string" ? part.split(" ").filter(Boolean).map(token) : [part])),
+  );
 }
 
 /** @param {Part} top @param {Part} bottom */
@@ -50,7 +53,10 @@ export function power(base, power) {
 /** @param {string} words */
 export function words(words) {
   // Ordinary spaces at its ends would be lost.
-  return element("mtext", words.replace(/^ +| +$/g, (spaces) => "\u00a0".repeat(spaces.length)));
+  return element(
+    "mtext",
+    words.replace(/^ +| +$/g, (spaces) => "\u00a0".repeat(spaces.length)),
+  );
 }
 
 /** A part that stands for something in the scene. @param {string} name @param {Part} part */

@@ -58,7 +58,8 @@ export function shapeOf(name, event, trace) {
   const at = beam >= 0 ? trace.point(beam) : null;
   const points = inside.flatMap((each) => trace.point(each) ?? []);
   const dots = /** @type {Point[]} */ (inside.map((each) => trace.point(each)).filter((point) => point !== null));
-  const along = (/** @type {import("./trace.js").Line | null} */ of) => (of ? stretch(trace, at ? [...inside, beam] : inside, of) : null);
+  const along = (/** @type {import("./trace.js").Line | null} */ of) =>
+    of ? stretch(trace, at ? [...inside, beam] : inside, of) : null;
   const here = along(line);
   switch (name) {
     case "point":
@@ -85,9 +86,28 @@ export function shapeOf(name, event, trace) {
       return there && { lines: [there] };
     }
     case "band":
-      return here && line && { lines: [1, -1].map((side) => /** @type {[Point, Point]} */ (here.map(([x, y]) => [x + side * limit * line[0], y + side * limit * line[1]]))) };
+      return (
+        here &&
+        line && {
+          lines: [1, -1].map(
+            (side) =>
+              /** @type {[Point, Point]} */ (
+                here.map(([x, y]) => [x + side * limit * line[0], y + side * limit * line[1]])
+              ),
+          ),
+        }
+      );
     case "normal":
-      return line && { lines: [[[0, 0], [-line[2] * line[0], -line[2] * line[1]]]] };
+      return (
+        line && {
+          lines: [
+            [
+              [0, 0],
+              [-line[2] * line[0], -line[2] * line[1]],
+            ],
+          ],
+        }
+      );
     case "mean": {
       const n = points.length / 2;
       const sum = dots.reduce(([sx, sy], [x, y]) => [sx + x, sy + y], [0, 0]);

@@ -14,7 +14,8 @@ export function questionOf(event, text) {
   if (check === "end" || check === "nearer" || (phase === "overlap" && kind === "line dropped")) return null;
   if (!YES.has(kind) && !NO.has(kind)) return null;
   if (phase === "seed") return { words: text.seed(event), answers: text.seedAnswers };
-  if (kind === "point added" || kind === "growth stopped") return { words: text.point(event), answers: text.pointAnswers };
+  if (kind === "point added" || kind === "growth stopped")
+    return { words: text.point(event), answers: text.pointAnswers };
   if (phase === "growth") return { words: text.line(event), answers: text.lineAnswers };
   return { words: text.pair, answers: text.pairAnswers };
 }
@@ -30,10 +31,24 @@ export function createPredict(text, { onAnswer, onToggle }) {
   let right = 0;
   let all = 0;
   const score = h("span", { class: "predict-score", role: "status" });
-  const yes = h("button", { type: "button", class: "button primary", "data-answer": "yes", onclick: () => answer(true) });
-  const no = h("button", { type: "button", class: "button primary", "data-answer": "no", onclick: () => answer(false) });
+  const yes = h("button", {
+    type: "button",
+    class: "button primary",
+    "data-answer": "yes",
+    onclick: () => answer(true),
+  });
+  const no = h("button", {
+    type: "button",
+    class: "button primary",
+    "data-answer": "no",
+    onclick: () => answer(false),
+  });
   const buttons = h("span", { class: "predict-answers", hidden: true }, yes, no);
-  const toggle = h("button", { type: "button", class: "button", "aria-pressed": "false", onclick: () => turn(!on) }, text.toggle);
+  const toggle = h(
+    "button",
+    { type: "button", class: "button", "aria-pressed": "false", onclick: () => turn(!on) },
+    text.toggle,
+  );
   toggle.title = text.help;
 
   /** @param {boolean} next */

@@ -52,7 +52,7 @@ export function mountStepper(dock, words, { onStep, onBeam, onZoom, settled, may
 
   const player = new Player(USUAL_SPEED, {
     ready: settled,
-    atEnd: () => loop?.to === null || loop === null ? last() <= (step ?? -1) : false,
+    atEnd: () => (loop?.to === null || loop === null ? last() <= (step ?? -1) : false),
     rewind: () => go(0),
     next: () => move(1, true),
     onState(playing) {
@@ -75,11 +75,20 @@ export function mountStepper(dock, words, { onStep, onBeam, onZoom, settled, may
   );
   tooltip(levels, text.level);
   const jumpButtons = JUMPS.map((name) => {
-    const button = h("button", { type: "button", class: "button", "data-jump": name, onclick: () => jump(name) }, text.jumps[name]);
+    const button = h(
+      "button",
+      { type: "button", class: "button", "data-jump": name, onclick: () => jump(name) },
+      text.jumps[name],
+    );
     tooltip(button, () => text.jumpTo(button.textContent ?? "", trace?.marks[name].length ?? 0));
     return button;
   });
-  const jumps = h("span", { class: "jumps", role: "group", "aria-label": text.jump }, h("span", { class: "muted" }, text.jump), ...jumpButtons);
+  const jumps = h(
+    "span",
+    { class: "jumps", role: "group", "aria-label": text.jump },
+    h("span", { class: "muted" }, text.jump),
+    ...jumpButtons,
+  );
   const looping = iconButton("loop", text.loopStart, toggleLoop);
   const numberField = createNumberField({
     label: text.number,
@@ -105,7 +114,13 @@ export function mountStepper(dock, words, { onStep, onBeam, onZoom, settled, may
     },
   });
   tooltip(beamField.element, text.beamHint);
-  const beamPlace = h("span", { class: "counter" }, h("span", { class: "of" }, text.beam), beamField.element, beamField.error);
+  const beamPlace = h(
+    "span",
+    { class: "counter" },
+    h("span", { class: "of" }, text.beam),
+    beamField.element,
+    beamField.error,
+  );
   const total = h("span", { class: "of" });
   const marks = createMarks();
   const slider = createSlider({
@@ -121,7 +136,18 @@ export function mountStepper(dock, words, { onStep, onBeam, onZoom, settled, may
     iconButton("forward", text.forward, () => move(1)),
     iconButton("last", text.last, () => move(Infinity)),
   ];
-  const controls = h("div", { class: "replay-controls stepper-controls" }, ...buttons, levels, speed, looping, iconButton("zoom", text.zoom, onZoom), beamPlace, h("span", { class: "spacer" }), jumps);
+  const controls = h(
+    "div",
+    { class: "replay-controls stepper-controls" },
+    ...buttons,
+    levels,
+    speed,
+    looping,
+    iconButton("zoom", text.zoom, onZoom),
+    beamPlace,
+    h("span", { class: "spacer" }),
+    jumps,
+  );
   const scrubber = h(
     "div",
     { class: "stepper-scrubber" },
@@ -196,11 +222,16 @@ export function mountStepper(dock, words, { onStep, onBeam, onZoom, settled, may
     const shown = event && !plain && !instead && symbolOf(check);
     const unit = check === "min_points" || check === "max_dropout" ? "" : "m";
     const { value = null, limit = null } = event ?? {};
-    versus.set(shown ? { value, limit, symbol: symbolOf(check).replace("_", " "), unit, least: LEAST.has(check) } : null);
+    versus.set(
+      shown ? { value, limit, symbol: symbolOf(check).replace("_", " "), unit, least: LEAST.has(check) } : null,
+    );
     numberField.set(step === null ? "–" : String(step + 1));
     setText(total, text.of(length()));
     numberField.element.style.width = `${String(length()).length + 2}ch`;
-    slider.set(step !== null && length() > 1 ? step / last() : 0, step === null ? words.phases.whole : `${step + 1} ${text.of(length())}`);
+    slider.set(
+      step !== null && length() > 1 ? step / last() : 0,
+      step === null ? words.phases.whole : `${step + 1} ${text.of(length())}`,
+    );
     for (const button of jumpButtons) {
       const name = /** @type {Jump} */ (button.dataset.jump);
       button.disabled = (trace?.marks[name].at(-1) ?? -1) <= (step ?? -1);

@@ -74,7 +74,8 @@ export class Trace {
     this.length = columns.kind.length;
     this.beams = columns.x.length;
     const kinds = columns.kind.map((kind) => columns.kinds[kind]);
-    const those = (/** @type {readonly string[]} */ wanted) => kinds.flatMap((kind, k) => (wanted.includes(kind) ? [k] : []));
+    const those = (/** @type {readonly string[]} */ wanted) =>
+      kinds.flatMap((kind, k) => (wanted.includes(kind) ? [k] : []));
     this.marks = /** @type {Record<Jump, number[]>} */ (
       Object.fromEntries(JUMPS.map((name) => [name, those(columns.jumps[name] ?? [])]))
     );
@@ -124,7 +125,8 @@ export class Trace {
     if (kind !== "lines merged") return line;
     const { columns: c } = this;
     for (let k = index - 1; k >= 0; k--) {
-      if (c.candidate[k] === candidate && ["line kept", "lines merged"].includes(c.kinds[c.kind[k]])) return this.at(k).line;
+      if (c.candidate[k] === candidate && ["line kept", "lines merged"].includes(c.kinds[c.kind[k]]))
+        return this.at(k).line;
     }
     return line;
   }

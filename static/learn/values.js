@@ -6,12 +6,21 @@ import { num } from "./mathml.js";
 /** @typedef {import("./trace.js").Event} Event */
 /** @typedef {import("./trace.js").Trace} Trace */
 
-const SYMBOL = /** @type {Record<string, string>} */ ({ epsilon: "ε", delta: "δ", min_points: "P_min", min_length: "L_min", max_dropout: "D_max", max_gap: "gap_max" });
+const SYMBOL = /** @type {Record<string, string>} */ ({
+  epsilon: "ε",
+  delta: "δ",
+  min_points: "P_min",
+  min_length: "L_min",
+  max_dropout: "D_max",
+  max_gap: "gap_max",
+});
 
 /** @param {Event} event @returns {[string, string][]} */
 export function variables(event) {
   const { phase, first, last, beam, points, kind, line } = event;
-  const normal = line ? /** @type {[string, string][]} */ ([["(a, b, c)", `(${line.map((v) => num(v)).join(", ")})`]]) : [];
+  const normal = line
+    ? /** @type {[string, string][]} */ ([["(a, b, c)", `(${line.map((v) => num(v)).join(", ")})`]])
+    : [];
   if (phase === "seed") {
     const at = beam >= 0 ? /** @type {[string, string][]} */ ([["k", String(beam)]]) : [];
     return [["i", String(first)], ["j", String(last)], ...at, ...normal];

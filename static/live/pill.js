@@ -19,7 +19,13 @@ export function createLive(text, { onFollow }) {
   const newer = h("span", { class: "live-newer" });
   const button = h(
     "button",
-    { type: "button", class: "live-pill", "aria-pressed": "false", hidden: true, onclick: () => onFollow(!state?.live) },
+    {
+      type: "button",
+      class: "live-pill",
+      "aria-pressed": "false",
+      hidden: true,
+      onclick: () => onFollow(!state?.live),
+    },
     h("span", { class: "live-dot", "aria-hidden": "true" }),
     text.live,
     newer,
@@ -31,7 +37,16 @@ export function createLive(text, { onFollow }) {
   const delay = h("span", { class: "live-delay" });
   const dropped = h("span", { class: "live-dropped" });
   const publishing = h("span", { class: "live-publishing" });
-  const element = h("span", { class: "connection live-status", hidden: true }, dot, words, rate, delay, dropped, publishing);
+  const element = h(
+    "span",
+    { class: "connection live-status", hidden: true },
+    dot,
+    words,
+    rate,
+    delay,
+    dropped,
+    publishing,
+  );
   tooltip(delay, text.delayHelp);
   tooltip(dropped, () => (status ? text.help(status.most, status.total, status.refused) : ""));
   tooltip(rate, () => (status ? text.help(status.most, status.total, status.refused) : ""));

@@ -39,7 +39,12 @@ export function showSend(words, params) {
   form.append(answer.element, h("div", { class: "dialog-buttons" }, send));
   form.addEventListener("submit", async (event) => {
     event.preventDefault();
-    const asked = { address: address.input.value.trim(), node: node.input.value.trim(), ros: Number(ros.value), extensions: extensions.checked };
+    const asked = {
+      address: address.input.value.trim(),
+      node: node.input.value.trim(),
+      ros: Number(ros.value),
+      extensions: extensions.checked,
+    };
     localStorage.setItem(KEY, JSON.stringify(asked));
     send.disabled = true;
     send.textContent = text.busy;
@@ -64,7 +69,13 @@ export function showPublish(words, session) {
   const topic = field(text.topic, "/lineseg/segments", "text");
   const answer = createAnswer();
   const begin = h("button", { type: "submit", class: "button primary" }, text.button);
-  const form = h("form", { class: "robot-form" }, topic.row, answer.element, h("div", { class: "dialog-buttons" }, begin));
+  const form = h(
+    "form",
+    { class: "robot-form" },
+    topic.row,
+    answer.element,
+    h("div", { class: "dialog-buttons" }, begin),
+  );
   form.addEventListener("submit", async (event) => {
     event.preventDefault();
     const { trouble } = await post("/api/robot/segments", { session, on: true, topic: topic.input.value.trim() });
@@ -109,13 +120,22 @@ function createAnswer() {
     element,
     clear: () => element.replaceChildren(),
     show: (/** @type {HTMLElement[]} */ ...content) => element.replaceChildren(...content),
-    refuse: (/** @type {string} */ why) => element.replaceChildren(h("p", { class: "panel-error", role: "alert" }, why)),
+    refuse: (/** @type {string} */ why) =>
+      element.replaceChildren(h("p", { class: "panel-error", role: "alert" }, why)),
   };
 }
 
 /** @param {string} label @param {string} value @param {string} inputMode */
 function field(label, value, inputMode) {
-  const input = h("input", { type: "text", class: "robot-input", value, required: true, spellcheck: false, autocomplete: "off", inputMode });
+  const input = h("input", {
+    type: "text",
+    class: "robot-input",
+    value,
+    required: true,
+    spellcheck: false,
+    autocomplete: "off",
+    inputMode,
+  });
   return { input, row: h("label", { class: "robot-field" }, h("span", {}, label), input) };
 }
 

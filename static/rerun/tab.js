@@ -32,16 +32,39 @@ export function mountRerun(stage, text, { session, dark, onFrame, cancelLabel })
 
   const words = h("span", { class: "rerun-words", role: "status" });
   const bar = h("progress", { class: "progress rerun-progress", max: 1, hidden: true });
-  const cancel = h("button", { type: "button", class: "button", hidden: true, onclick: () => work?.abort() }, cancelLabel);
-  const again = h("button", { type: "button", class: "button primary", hidden: true, onclick: () => show() }, text.again);
+  const cancel = h(
+    "button",
+    { type: "button", class: "button", hidden: true, onclick: () => work?.abort() },
+    cancelLabel,
+  );
+  const again = h(
+    "button",
+    { type: "button", class: "button primary", hidden: true, onclick: () => show() },
+    text.again,
+  );
   const save = h("a", { class: "button", download: "", hidden: true }, text.download);
-  const head = h("div", { class: "rerun-head" }, words, bar, cancel, again, save, iconButton("close", text.close, close));
+  const head = h(
+    "div",
+    { class: "rerun-head" },
+    words,
+    bar,
+    cancel,
+    again,
+    save,
+    iconButton("close", text.close, close),
+  );
   const place = h("div", { class: "rerun-place" });
   const box = h("section", { class: "rerun", "aria-label": text.viewer, hidden: true }, head, place);
   stage.append(box);
   const button = h(
     "button",
-    { type: "button", class: "mode", "aria-pressed": "false", title: text.tabHelp, onclick: () => (box.hidden ? open() : close()) },
+    {
+      type: "button",
+      class: "mode",
+      "aria-pressed": "false",
+      title: text.tabHelp,
+      onclick: () => (box.hidden ? open() : close()),
+    },
     text.tab,
   );
 

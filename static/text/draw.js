@@ -15,7 +15,8 @@ export const drawText = {
   save: "Save as NPZ",
   saveHelp: "The scan with its true walls, as a recording",
   hint: "Drag the ends of a wall, its middle, a circle or the laser; arrow keys move what is chosen.",
-  full: (/** @type {number} */ walls, /** @type {number} */ circles) => `A drawing has at most ${walls} walls and ${circles} circles.`,
+  full: (/** @type {number} */ walls, /** @type {number} */ circles) =>
+    `A drawing has at most ${walls} walls and ${circles} circles.`,
   notANumber: (/** @type {string} */ typed) => `“${typed}” is not a number.`,
   handle: {
     wallStart: (/** @type {number} */ n) => `Wall ${n}, start`,
@@ -26,10 +27,29 @@ export const drawText = {
     laser: "Laser",
   },
   fields: {
-    wall: /** @type {[string, string][]} */ ([["x₁", "m"], ["y₁", "m"], ["x₂", "m"], ["y₂", "m"]]),
-    circle: /** @type {[string, string][]} */ ([["x", "m"], ["y", "m"], ["radius", "m"]]),
-    laser: /** @type {[string, string][]} */ ([["x", "m"], ["y", "m"], ["heading", "°"]]),
-    beams: /** @type {[string, string][]} */ ([["first", "°"], ["last", "°"], ["step", "°"], ["range", "m"], ["σ", "m"]]),
+    wall: /** @type {[string, string][]} */ ([
+      ["x₁", "m"],
+      ["y₁", "m"],
+      ["x₂", "m"],
+      ["y₂", "m"],
+    ]),
+    circle: /** @type {[string, string][]} */ ([
+      ["x", "m"],
+      ["y", "m"],
+      ["radius", "m"],
+    ]),
+    laser: /** @type {[string, string][]} */ ([
+      ["x", "m"],
+      ["y", "m"],
+      ["heading", "°"],
+    ]),
+    beams: /** @type {[string, string][]} */ ([
+      ["first", "°"],
+      ["last", "°"],
+      ["step", "°"],
+      ["range", "m"],
+      ["σ", "m"],
+    ]),
   },
   beams: "Beams",
 };

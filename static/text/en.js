@@ -45,11 +45,13 @@ export const text = {
     download: "Download",
     close: "Close",
     importTitle: "Import parameters",
-    importHint: "Paste ROS 2 YAML, a ROS 1 launch file, JSON, Python or flags, or choose a file. You can also drop one on the page.",
+    importHint:
+      "Paste ROS 2 YAML, a ROS 1 launch file, JSON, Python or flags, or choose a file. You can also drop one on the page.",
     importLabel: "Parameters",
     importFile: "Choose file…",
     importApply: "Apply",
-    imported: (/** @type {number} */ n) => `${n} ${n === 1 ? "parameter" : "parameters"} imported. Ctrl+Z takes it back.`,
+    imported: (/** @type {number} */ n) =>
+      `${n} ${n === 1 ? "parameter" : "parameters"} imported. Ctrl+Z takes it back.`,
     importedNothing: "These parameters are the present ones already.",
   },
   stage: {
@@ -201,10 +203,14 @@ export const text = {
       noA: "Pin a result as A first (B).",
       legend: (/** @type {string} */ label, /** @type {string} */ low, /** @type {string} */ high) =>
         `Colours of ${label}: ${low} to ${high}. Fit them to the present values`,
-      worse: { higher: "Higher is more doubtful: the stronger colour.", lower: "Lower is more doubtful: the stronger colour." },
+      worse: {
+        higher: "Higher is more doubtful: the stronger colour.",
+        lower: "Lower is more doubtful: the stronger colour.",
+      },
       scale: "The colours keep their values while you change thresholds.",
       refit: "Click to fit them to the present values.",
-      hint: (/** @type {number} */ frame, /** @type {string} */ words) => `Frame ${frame.toLocaleString("en")}: ${words}`,
+      hint: (/** @type {number} */ frame, /** @type {string} */ words) =>
+        `Frame ${frame.toLocaleString("en")}: ${words}`,
     },
     stepRange: (/** @type {number} */ most) => `Decisions are 1 to ${most.toLocaleString("en")}.`,
   },

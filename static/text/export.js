@@ -22,7 +22,8 @@ export const exportText = {
   },
   card: {
     label: "Failure pack",
-    from: (/** @type {string} */ recording, /** @type {number} */ frame) => `frame ${frame.toLocaleString("en")} of ${recording}`,
+    from: (/** @type {string} */ recording, /** @type {number} */ frame) =>
+      `frame ${frame.toLocaleString("en")} of ${recording}`,
     noNote: "no note",
     taken: "The parameters of the pack are taken. Ctrl+Z takes it back.",
     take: "Its parameters",

@@ -14,10 +14,13 @@ export const inspectText = {
     any: "any",
     rangeLabel: (/** @type {string} */ end) => `Only frames with this score ${end}`,
     count: (/** @type {number} */ shown, /** @type {number} */ all) =>
-      shown === all ? counted(all, "frame", "frames") : `${shown.toLocaleString("en")} of ${counted(all, "frame", "frames")}`,
+      shown === all
+        ? counted(all, "frame", "frames")
+        : `${shown.toLocaleString("en")} of ${counted(all, "frame", "frames")}`,
     pending: "The scores of this recording are being computed.",
     none: "No frame has a score in this range, and passes the filter.",
-    row: (/** @type {number} */ frame, /** @type {string} */ score, /** @type {string} */ words) => `Frame ${frame}, ${score}. ${words}`,
+    row: (/** @type {number} */ frame, /** @type {string} */ score, /** @type {string} */ words) =>
+      `Frame ${frame}, ${score}. ${words}`,
     notANumber: (/** @type {string} */ typed) => `“${typed}” is not a number.`,
   },
   filter: {
@@ -48,7 +51,8 @@ export const inspectText = {
     labelled: "labelled frames",
     sampled: (/** @type {number} */ stride) => `every ${stride}th frame`,
     pending: "…",
-    unknown: "The true lines of this recording are not known. Say in Labels which they are; or an NPZ file may hold the true walls as `wall`, one number for each beam.",
+    unknown:
+      "The true lines of this recording are not known. Say in Labels which they are; or an NPZ file may hold the true walls as `wall`, one number for each beam.",
     judgedBy: "Judged by",
     references: { labels: "the labels of people", wall: "the walls in the recording" },
     unlabelled: "Nobody has labelled the lines of this frame.",
@@ -89,7 +93,10 @@ export const inspectText = {
     all: "all frames",
     pending: "…",
     fates: /** @type {Record<string, {label: string, help: string}>} */ ({
-      kept: { label: "kept", help: "Lines of A that are still there: more than half of the beams of both together are shared" },
+      kept: {
+        label: "kept",
+        help: "Lines of A that are still there: more than half of the beams of both together are shared",
+      },
       lost: { label: "lost", help: "Lines of A with nothing in their place in B" },
       gained: { label: "gained", help: "Lines of B where A had none" },
       split: { label: "split", help: "Lines of A on which two or more lines of B lie" },

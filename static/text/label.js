@@ -25,7 +25,8 @@ export const labelText = {
   remove: "Delete",
   removeHelp: "Delete the chosen line (Del)",
   hint: "Drag the ends of a line along the beams; arrow keys move the handle in use, ten beams with Shift.",
-  proposed: (/** @type {number} */ n) => `Nobody has said which lines are true here. Shown are the ${counted(n, "line", "lines")} of the present result; the first edit keeps them.`,
+  proposed: (/** @type {number} */ n) =>
+    `Nobody has said which lines are true here. Shown are the ${counted(n, "line", "lines")} of the present result; the first edit keeps them.`,
   accept: "They are right",
   acceptHelp: "Keep the lines of the present result as the true ones",
   forget: "Forget",
@@ -37,7 +38,8 @@ export const labelText = {
   choose: "Choose a line first.",
   tooShort: "A line needs two points or more.",
   alone: "There is no neighbour to merge with.",
-  row: (/** @type {number} */ n, /** @type {string} */ beams, /** @type {string} */ length) => `Line ${n}, beams ${beams}, ${length}`,
+  row: (/** @type {number} */ n, /** @type {string} */ beams, /** @type {string} */ length) =>
+    `Line ${n}, beams ${beams}, ${length}`,
   columns: { number: "", beams: "beams", points: "points", length: "length" },
   m: (/** @type {number} */ value) => `${value.toFixed(2)} m`,
   handle: {
@@ -54,7 +56,8 @@ export const labelText = {
     away: "Not saved: the server does not answer. It is tried again until it does; leave this page open.",
     refused: (/** @type {string} */ why) => `Not saved: ${why}`,
     retry: "Try again",
-    conflict: (/** @type {number} */ frame) => `Frame ${frame} was changed in another tab at the same time. This is what it says; your edit was not saved.`,
+    conflict: (/** @type {number} */ frame) =>
+      `Frame ${frame} was changed in another tab at the same time. This is what it says; your edit was not saved.`,
     mine: "Save mine instead",
     live: "A live recording cannot be labelled, because its frames come and go. Save it as a file, and open that.",
     trouble: (/** @type {string} */ why) => `${why} Nothing is saved until then, and the file stays as it is.`,

@@ -16,9 +16,11 @@ const AGAIN = "Try again";
 
 /** Why a step, or a point, was refused. @param {Event} event */
 function refusal({ beam, check, value, limit }) {
-  if (check === "max_dropout") return `${value} beams without a return lie before beam ${beam}, more than D_max\u00a0=\u00a0${limit}`;
+  if (check === "max_dropout")
+    return `${value} beams without a return lie before beam ${beam}, more than D_max\u00a0=\u00a0${limit}`;
   if (check === "max_gap") return `before beam ${beam} there is a gap of ${m(value)}, wider than ${m(limit)}`;
-  if (check === "delta") return `beam ${beam} lies ${m(value)} from where the line predicts it, more than δ\u00a0=\u00a0${m(limit)}`;
+  if (check === "delta")
+    return `beam ${beam} lies ${m(value)} from where the line predicts it, more than δ\u00a0=\u00a0${m(limit)}`;
   return `beam ${beam} lies ${m(value)} from the line; ε allows ${m(limit)}`;
 }
 
@@ -44,13 +46,18 @@ const SENTENCES = {
     e.value < e.limit
       ? `The overlap is cut behind beam ${e.last}: every shared point is nearer to the first line (${m(e.value)}) than to the second (${m(e.limit)}). The second begins at beam ${e.beam}.`
       : `The overlap is cut at beam ${e.beam}: it is the first shared point not nearer to the first line (${m(e.value)}) than to the second (${m(e.limit)}).`,
-  endpoints: (e) => `The outermost points, beams ${e.first} and ${e.last}, are projected on the line: its ends are ${m(e.value)} apart.`,
+  endpoints: (e) =>
+    `The outermost points, beams ${e.first} and ${e.last}, are projected on the line: its ends are ${m(e.value)} apart.`,
 };
 
 export const learnText = {
   modes: { label: "Mode", tune: "Tune", learn: "Learn", inspect: "Inspect" },
   panel: "Learn",
-  keys: { jumps: "in Learn: next refusal, merge, cut", zoom: "in Learn: zoom to the decision", answer: "in Learn: answers of a prediction" },
+  keys: {
+    jumps: "in Learn: next refusal, merge, cut",
+    zoom: "in Learn: zoom to the decision",
+    answer: "in Learn: answers of a prediction",
+  },
   sentence: (/** @type {Event} */ event) => event.text ?? SENTENCES[event.kind]?.(event) ?? event.kind,
   otherMethod: (/** @type {string} */ label, /** @type {string} */ citation) =>
     `${label} (${citation}) is replayed here decision by decision. Pseudocode, formulas, charts and lessons are those of region growing.`,
@@ -101,7 +108,8 @@ export const learnText = {
     number: "Number of the decision",
     of: (/** @type {number} */ n) => `of ${n.toLocaleString("en")}`,
     range: (/** @type {number} */ most) => `Decisions are 1 to ${most.toLocaleString("en")}.`,
-    beamHint: "Enter runs to the next decision about this beam, and tells why it is in a line or not; so does a click on its point in the scene.",
+    beamHint:
+      "Enter runs to the next decision about this beam, and tells why it is in a line or not; so does a click on its point in the scene.",
   },
   lesson: {
     label: "Lesson",
@@ -109,7 +117,8 @@ export const learnText = {
     missing: "The lessons did not come. Any frame can be stepped through without them.",
     again: AGAIN,
     unknown: (/** @type {string} */ id) => `There is no lesson “${id}”; these are all.`,
-    overviewHint: "Each is a few minutes long and ends with one thing to do. Or just step through any frame of your own.",
+    overviewHint:
+      "Each is a few minutes long and ends with one thing to do. Or just step through any frame of your own.",
     close: "Back to the list of lessons",
     back: "Back",
     next: "Next",
@@ -129,8 +138,10 @@ export const learnText = {
     onlyOne: "More than one threshold has been changed; one is enough.",
     lines: (/** @type {number} */ found, /** @type {[number, number]} */ [least, most]) =>
       `There ${found === 1 ? "is 1 line" : `are ${found} lines`}; ${least === most ? least : most > 99 ? `at least ${least}` : `${least} to ${most}`} ${least === 1 && most === 1 ? "is" : "are"} asked for.`,
-    together: (/** @type {number} */ one, /** @type {number} */ other) => `Beams ${one} and ${other} are not in one line.`,
-    apart: (/** @type {number} */ one, /** @type {number} */ other) => `Beams ${one} and ${other} are not in two lines.`,
+    together: (/** @type {number} */ one, /** @type {number} */ other) =>
+      `Beams ${one} and ${other} are not in one line.`,
+    apart: (/** @type {number} */ one, /** @type {number} */ other) =>
+      `Beams ${one} and ${other} are not in two lines.`,
     inside: (/** @type {number} */ beam) => `Beam ${beam} is in no line any more.`,
     outside: (/** @type {number} */ beam) => `Beam ${beam} is in a line.`,
     at: "This is not the decision that is asked for.",
@@ -185,32 +196,50 @@ export const learnText = {
     noLine: "No line was fitted: the way is broken.",
     noGrowth: "No line is growing now.",
     sayBeam: (/** @type {number} */ beam, /** @type {number} */ value) => `Beam ${beam}: ${m(value)}`,
-    sayGrowth: (/** @type {{points: number, length: number}} */ { points, length }) => `${points} points, ${m(length)} long`,
+    sayGrowth: (/** @type {{points: number, length: number}} */ { points, length }) =>
+      `${points} points, ${m(length)} long`,
   },
-  views: { label: "Charts", step: "This step", all: "All steps", trail: "Trail", trailHelp: "Draw every fit of the growing line so far" },
+  views: {
+    label: "Charts",
+    step: "This step",
+    all: "All steps",
+    trail: "Trail",
+    trailHelp: "Draw every fit of the growing line so far",
+  },
   ladder: {
     seeds: "Every window tried",
-    window: (/** @type {number} */ first, /** @type {number} */ last, /** @type {string} */ fate) => `Beams ${first} to ${last}: ${fate}`,
+    window: (/** @type {number} */ first, /** @type {number} */ last, /** @type {string} */ fate) =>
+      `Beams ${first} to ${last}: ${fate}`,
     missing: "This picture could not be made.",
     again: AGAIN,
-    tones: /** @type {Record<string, string>} */ ({ "": "seed", delta: "refused by δ", epsilon: "by ε", max_dropout: "broken" }),
+    tones: /** @type {Record<string, string>} */ ({
+      "": "seed",
+      delta: "refused by δ",
+      epsilon: "by ε",
+      max_dropout: "broken",
+    }),
     sweep: "over its range, beam by beam",
-    sweepHelp: "One column for each value of the threshold; colours are lines, beams run downwards. Click to take a value.",
+    sweepHelp:
+      "One column for each value of the threshold; colours are lines, beams run downwards. Click to take a value.",
     threshold: "Threshold",
-    at: (/** @type {string} */ symbol, /** @type {string} */ value, /** @type {number} */ lines) => `${symbol} = ${value}: ${lines} ${lines === 1 ? "line" : "lines"}`,
+    at: (/** @type {string} */ symbol, /** @type {string} */ value, /** @type {number} */ lines) =>
+      `${symbol} = ${value}: ${lines} ${lines === 1 ? "line" : "lines"}`,
   },
   predict: {
     toggle: "Predict",
     help: "Before each decision, say how it will go (keys 1 and 2)",
     seed: (/** @type {Event} */ e) => `Beams ${e.first} to ${e.last}: will they be a seed?`,
     seedAnswers: ["1 Seed", "2 No seed"],
-    point: (/** @type {Event} */ e) => `Beam ${e.beam}: does it join the growing line, or does growth ${e.direction > 0 ? "forward" : "backward"} stop here?`,
+    point: (/** @type {Event} */ e) =>
+      `Beam ${e.beam}: does it join the growing line, or does growth ${e.direction > 0 ? "forward" : "backward"} stop here?`,
     pointAnswers: ["1 In", "2 Out"],
-    line: (/** @type {Event} */ e) => `The line of beams ${e.first} to ${e.last}, ${e.points} points: is it kept or dropped?`,
+    line: (/** @type {Event} */ e) =>
+      `The line of beams ${e.first} to ${e.last}, ${e.points} points: is it kept or dropped?`,
     lineAnswers: ["1 Kept", "2 Dropped"],
     pair: "Two neighbouring lines share points: one wall or two?",
     pairAnswers: ["1 One", "2 Two"],
-    score: (/** @type {number} */ right, /** @type {number} */ all) => (all ? `${right} of ${all} right` : "Press → for the first question"),
+    score: (/** @type {number} */ right, /** @type {number} */ all) =>
+      all ? `${right} of ${all} right` : "Press → for the first question",
     right: "Right.",
     wrong: "No.",
   },
@@ -221,7 +250,12 @@ export const learnText = {
     misprint: "Where this differs from the printed listing",
     extension: "not in the paper",
     values: "Values now",
-    tabs: /** @type {Record<string, string>} */ ({ seed: "1 Seed", growth: "2 Growth", overlap: "3 Overlap", endpoints: "Endpoints" }),
+    tabs: /** @type {Record<string, string>} */ ({
+      seed: "1 Seed",
+      growth: "2 Growth",
+      overlap: "3 Overlap",
+      endpoints: "Endpoints",
+    }),
     follow: "The tab follows the step.",
   },
 };

@@ -18,7 +18,8 @@ export const rerunText = {
   close: "Back to the scene",
   broken: "The server broke off.",
   cancelled: "Recording was cancelled.",
-  noDrawing: "rerun's viewer needs WebGL 2 or WebGPU, which this browser does not offer. Download the recording and open it with “rerun run.rrd”.",
+  noDrawing:
+    "rerun's viewer needs WebGL 2 or WebGPU, which this browser does not offer. Download the recording and open it with “rerun run.rrd”.",
   crashed: (/** @type {string} */ why) => `rerun's viewer does not run here: ${why} The recording can be downloaded.`,
   follows: "Frames follow the cursor on rerun's timeline “frame”",
 };

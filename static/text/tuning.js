@@ -8,7 +8,9 @@ export const tuningText = {
     show: "Sensitivity",
     help: "Under each slider: what the whole recording would give with this threshold elsewhere, and the others as they are. Click to go there.",
     sample: (/** @type {number} */ frames, /** @type {number} */ of) =>
-      frames < of ? `${frames.toLocaleString("en")} of ${of.toLocaleString("en")} frames` : `all ${of.toLocaleString("en")} frames`,
+      frames < of
+        ? `${frames.toLocaleString("en")} of ${of.toLocaleString("en")} frames`
+        : `all ${of.toLocaleString("en")} frames`,
     pending: "computing…",
     picture: (/** @type {string} */ symbol) => `Sensitivity to ${symbol}: click to set it`,
     short: /** @type {Record<string, string>} */ ({
@@ -39,7 +41,8 @@ export const tuningText = {
     broken: "The server gave no answer; open the table again once it is there.",
     sweep: (/** @type {string} */ name, /** @type {number} */ settings, /** @type {number} */ files) =>
       `${name}: ${settings.toLocaleString("en")} settings of ${files} ${files === 1 ? "file" : "files"}`,
-    hintOfSweep: "Of the other swept thresholds the best is shown; a click takes the whole setting. The ring is where you are.",
+    hintOfSweep:
+      "Of the other swept thresholds the best is shown; a click takes the whole setting. The ring is where you are.",
     stopped: "stopped",
     nothing: "This measure has no value here. TR, FR and completeness need a recording that knows its walls.",
   },

@@ -37,12 +37,28 @@ export function createAuto(text, { ask, stop, onAdopt }) {
     { class: "select", "aria-label": text.objective, onchange: () => ((chosen = true), tickUsual(), clear()) },
     ...Object.entries(text.objectives).map(([value, label]) => h("option", { value }, label)),
   );
-  const count = h("select", { class: "select", "aria-label": text.trials }, ...TRIALS.map((n) => h("option", { value: String(n), selected: n === 100 }, String(n))));
+  const count = h(
+    "select",
+    { class: "select", "aria-label": text.trials },
+    ...TRIALS.map((n) => h("option", { value: String(n), selected: n === 100 }, String(n))),
+  );
   const boxes = h("div", { class: "auto-thresholds", role: "group", "aria-label": text.thresholds });
-  const start = h("button", { type: "button", class: "button primary", onclick: () => (running ? stop() : begin(false)) }, text.start);
-  const anew = h("button", { type: "button", class: "button quiet", hidden: true, onclick: () => begin(true) }, text.anew);
+  const start = h(
+    "button",
+    { type: "button", class: "button primary", onclick: () => (running ? stop() : begin(false)) },
+    text.start,
+  );
+  const anew = h(
+    "button",
+    { type: "button", class: "button quiet", hidden: true, onclick: () => begin(true) },
+    text.anew,
+  );
   tooltip(anew, text.anewHelp);
-  const adopt = h("button", { type: "button", class: "button", hidden: true, onclick: () => best && (onAdopt(best), toast(text.adopted)) }, text.adopt);
+  const adopt = h(
+    "button",
+    { type: "button", class: "button", hidden: true, onclick: () => best && (onAdopt(best), toast(text.adopted)) },
+    text.adopt,
+  );
   const says = h("p", { class: "auto-text" }, text.intro);
   const caution = h("p", { class: "auto-caution muted" });
   const verdict = h("p", { class: "auto-verdict", role: "status", hidden: true });
@@ -53,7 +69,15 @@ export function createAuto(text, { ask, stop, onAdopt }) {
   const axes = h("div", { class: "auto-axes muted" });
   const bars = h("div", { class: "auto-bars" });
   tooltip(bars, text.importanceHelp, "left");
-  const pictures = h("div", { class: "auto-pictures", hidden: true }, history, parallel, axes, h("h3", {}, text.importance), bars);
+  const pictures = h(
+    "div",
+    { class: "auto-pictures", hidden: true },
+    history,
+    parallel,
+    axes,
+    h("h3", {}, text.importance),
+    bars,
+  );
   const element = h(
     "div",
     { class: "auto-page" },
@@ -91,7 +115,9 @@ export function createAuto(text, { ask, stop, onAdopt }) {
 
   /** @param {boolean} afresh */
   function begin(afresh) {
-    tuned = ticks().filter(({ checked }) => checked).map(({ value }) => value);
+    tuned = ticks()
+      .filter(({ checked }) => checked)
+      .map(({ value }) => value);
     clear();
     setRunning(true);
     ask({ objective: objective.value, thresholds: tuned, trials: Number(count.value), anew: afresh });
@@ -111,14 +137,22 @@ export function createAuto(text, { ask, stop, onAdopt }) {
     setText(progress, text.progress(trials.length));
     if (!scored.length) return;
     paintHistory(history, scored);
-    paintParallel(parallel, scored, tuned.map((name) => /** @type {Knob} */ (knobs.find((knob) => knob.name === name))));
+    paintParallel(
+      parallel,
+      scored,
+      tuned.map((name) => /** @type {Knob} */ (knobs.find((knob) => knob.name === name))),
+    );
     const top = scored.reduce((one, other) => (Number(other.score) > Number(one.score) ? other : one));
     best = top.params;
     adopt.hidden = false;
-    const values = tuned.map((name) => knobs.find((knob) => knob.name === name)).map((knob) => knob && `${knob.symbol} ${withUnit(knob, top.params[knob.name])}`);
+    const values = tuned
+      .map((name) => knobs.find((knob) => knob.name === name))
+      .map((knob) => knob && `${knob.symbol} ${withUnit(knob, top.params[knob.name])}`);
     setText(progress, `${text.progress(trials.length)}, ${text.best(Number(top.score).toFixed(3))}`);
     adopt.textContent = `${text.adopt}: ${values.join(", ")}`;
-    axes.replaceChildren(...tuned.map((name) => h("span", {}, knobs.find((knob) => knob.name === name)?.symbol ?? name)));
+    axes.replaceChildren(
+      ...tuned.map((name) => h("span", {}, knobs.find((knob) => knob.name === name)?.symbol ?? name)),
+    );
   }
 
   let painting = 0;
@@ -173,7 +207,13 @@ export function createAuto(text, { ask, stop, onAdopt }) {
 
 /** @param {string} className @param {string} label */
 function picture(className, label) {
-  const element = svg("svg", { class: className, viewBox: `0 0 ${WIDTH} ${HEIGHT}`, preserveAspectRatio: "none", role: "img", "aria-label": label });
+  const element = svg("svg", {
+    class: className,
+    viewBox: `0 0 ${WIDTH} ${HEIGHT}`,
+    preserveAspectRatio: "none",
+    role: "img",
+    "aria-label": label,
+  });
   const title = svg("title");
   title.textContent = label;
   element.append(title);
@@ -192,7 +232,9 @@ function paintHistory(element, scored) {
   const x = (/** @type {number} */ k) => 4 + (k / Math.max(1, scores.length - 1)) * (WIDTH - 8);
   const y = (/** @type {number} */ score) => 6 + (1 - (high > low ? (score - low) / (high - low) : 1)) * (HEIGHT - 12);
   let top = -Infinity;
-  const steps = scores.map((score, k) => ((top = Math.max(top, score)), `${k ? "L" : "M"}${x(k).toFixed(1)} ${y(top).toFixed(1)}`)).join("");
+  const steps = scores
+    .map((score, k) => ((top = Math.max(top, score)), `${k ? "L" : "M"}${x(k).toFixed(1)} ${y(top).toFixed(1)}`))
+    .join("");
   const dots = scores.map((score, k) => `M${x(k).toFixed(1)} ${y(score).toFixed(1)}h0`).join("");
   const stay = { "vector-effect": "non-scaling-stroke" };
   show(element, [
@@ -206,7 +248,8 @@ function paintHistory(element, scored) {
 function paintParallel(element, scored, axes) {
   const sorted = [...scored].sort((one, other) => Number(one.score) - Number(other.score));
   const x = (/** @type {number} */ k) => ((k + 0.5) / axes.length) * WIDTH;
-  const y = (/** @type {Knob} */ knob, /** @type {Trial} */ trial) => 4 + (1 - placeOf(knob, trial.params[knob.name])) * (HEIGHT - 8);
+  const y = (/** @type {Knob} */ knob, /** @type {Trial} */ trial) =>
+    4 + (1 - placeOf(knob, trial.params[knob.name])) * (HEIGHT - 8);
   const stay = { "vector-effect": "non-scaling-stroke" };
   show(element, [
     ...axes.map((_, k) => svg("path", { class: "axis", d: `M${x(k)} 0V${HEIGHT}`, ...stay })),
@@ -228,7 +271,13 @@ function paintBars(element, importance, knobs) {
       const bar = h("span", { class: "auto-bar" });
       bar.style.width = `${Math.round(100 * share)}%`;
       const symbol = knobs.find((knob) => knob.name === name)?.symbol ?? name;
-      return h("div", { class: "auto-row" }, h("span", {}, symbol), h("span", { class: "auto-track" }, bar), h("span", { class: "muted" }, `${Math.round(100 * share)} %`));
+      return h(
+        "div",
+        { class: "auto-row" },
+        h("span", {}, symbol),
+        h("span", { class: "auto-track" }, bar),
+        h("span", { class: "muted" }, `${Math.round(100 * share)} %`),
+      );
     }),
   );
 }

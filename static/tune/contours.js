@@ -16,7 +16,8 @@ export function contour(heights, level) {
       const corners = [heights[j][i], heights[j][i + 1], heights[j + 1][i + 1], heights[j + 1][i]];
       if (corners.some((corner) => corner === null)) continue;
       const cuts = crossings(/** @type {number[]} */ (corners), level).map(([x, y]) => [i + x, j + y]);
-      for (let k = 0; k + 1 < cuts.length; k += 2) strokes.push([cuts[k][0], cuts[k][1], cuts[k + 1][0], cuts[k + 1][1]]);
+      for (let k = 0; k + 1 < cuts.length; k += 2)
+        strokes.push([cuts[k][0], cuts[k][1], cuts[k + 1][0], cuts[k + 1][1]]);
     }
   }
   return strokes;
@@ -24,7 +25,12 @@ export function contour(heights, level) {
 
 /** Where the level crosses the sides of a cell, anticlockwise from its lower side. @param {number[]} corners @param {number} level */
 function crossings(corners, level) {
-  const places = [[0, 0], [1, 0], [1, 1], [0, 1]];
+  const places = [
+    [0, 0],
+    [1, 0],
+    [1, 1],
+    [0, 1],
+  ];
   /** @type {number[][]} */
   const found = [];
   for (let k = 0; k < 4; k++) {

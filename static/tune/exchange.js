@@ -23,7 +23,9 @@ export function createExchange(words, { params, method, onImport, first, more })
       {
         title: text.parameters,
         items: [
-          ...Object.keys(text.formats).filter((to) => method().ros || !to.startsWith("ros")).map((to) => ({ label: text.formats[to].label, run: () => showParams(to) })),
+          ...Object.keys(text.formats)
+            .filter((to) => method().ros || !to.startsWith("ros"))
+            .map((to) => ({ label: text.formats[to].label, run: () => showParams(to) })),
           { label: text.import, run: showImport },
         ],
       },
@@ -34,14 +36,22 @@ export function createExchange(words, { params, method, onImport, first, more })
   /** @param {string} to */
   async function showParams(to) {
     const { label, file } = text.formats[to];
-    const query = new URLSearchParams({ to, method: method().name, ...Object.fromEntries(Object.entries(params()).map(([k, v]) => [k, String(v)])) });
+    const query = new URLSearchParams({
+      to,
+      method: method().name,
+      ...Object.fromEntries(Object.entries(params()).map(([k, v]) => [k, String(v)])),
+    });
     const { words: content, trouble } = await fetchText(`/api/params?${query}`);
     const copyButton = h("button", { type: "button", class: "button primary" }, text.copy);
     copyButton.addEventListener("click", async () => {
       await copy(content);
       copyButton.textContent = text.copied;
     });
-    const save = h("button", { type: "button", class: "button", onclick: () => download(file, content) }, text.download);
+    const save = h(
+      "button",
+      { type: "button", class: "button", onclick: () => download(file, content) },
+      text.download,
+    );
     openDialog(
       text.title(label),
       text.close,
@@ -53,7 +63,12 @@ export function createExchange(words, { params, method, onImport, first, more })
   function showImport() {
     const area = h("textarea", { class: "code", rows: 10, spellcheck: false, "aria-label": text.importLabel });
     const error = h("p", { class: "panel-error", role: "alert", hidden: true });
-    const file = h("input", { type: "file", class: "off-screen", accept: ".yaml,.yml,.launch,.xml,.json,.py,.txt", tabIndex: -1 });
+    const file = h("input", {
+      type: "file",
+      class: "off-screen",
+      accept: ".yaml,.yml,.launch,.xml,.json,.py,.txt",
+      tabIndex: -1,
+    });
     file.addEventListener("change", async () => {
       const [chosen] = file.files ?? [];
       if (chosen) area.value = await chosen.text();

@@ -70,7 +70,12 @@ export function createExplanation(text, { onClose, onChange }) {
       const buttons = found.flatMap(({ name, value, text: why }) => {
         const knob = knobs.find((each) => each.name === name);
         if (!knob || value === null) return [];
-        const button = h("button", { type: "button", class: "button what-if-change", onclick: () => onChange(name, value) }, symbol(knob.symbol), withUnit(knob, value));
+        const button = h(
+          "button",
+          { type: "button", class: "button what-if-change", onclick: () => onChange(name, value) },
+          symbol(knob.symbol),
+          withUnit(knob, value),
+        );
         tooltip(button, why);
         return [button];
       });

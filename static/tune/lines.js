@@ -34,7 +34,12 @@ export function createLines(text, onSelect) {
     );
     dropped.set(
       candidates.map((line) => ({
-        cells: [`${line.first}–${line.last}`, String(line.points), text.m(line.length), symbols.get(line.check) ?? line.check],
+        cells: [
+          `${line.first}–${line.last}`,
+          String(line.points),
+          text.m(line.length),
+          symbols.get(line.check) ?? line.check,
+        ],
         current: inside(line) && explanation?.segment === -1,
         beam: middle(line, n),
         note: line.text,

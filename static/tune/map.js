@@ -15,7 +15,13 @@ const LEVELS = 8;
 // What is measured of the recording on the screen; a sweep may know more.
 const LIVE = ["coverage", "segments", "true_rate", "false_rate", "completeness", "f_score"];
 // Dark to light, as viridis: lightness alone tells heights apart.
-const STOPS = [[68, 1, 84], [59, 82, 139], [33, 145, 140], [94, 201, 98], [253, 231, 37]];
+const STOPS = [
+  [68, 1, 84],
+  [59, 82, 139],
+  [33, 145, 140],
+  [94, 201, 98],
+  [253, 231, 37],
+];
 
 /**
  * @param {typeof import("../text/tuning.js").tuningText.map} text
@@ -38,20 +44,38 @@ export function createMap(text, { ask, stop, onSet }) {
   let asked = "";
   let measureChosen = false;
 
-  const choice = (/** @type {string} */ label) => h("select", { class: "select", "aria-label": label, onchange: begin });
+  const choice = (/** @type {string} */ label) =>
+    h("select", { class: "select", "aria-label": label, onchange: begin });
   const [x, y, measure] = [choice(text.x), choice(text.y), choice(text.measure)];
   measure.addEventListener("change", () => (measureChosen = true));
   const file = choice(text.file);
   const files = field(text.file, file);
   files.hidden = true;
   const source = h("span", { class: "map-source muted" });
-  const close = h("button", { type: "button", class: "button", hidden: true, onclick: () => setTable(null) }, text.close);
+  const close = h(
+    "button",
+    { type: "button", class: "button", hidden: true, onclick: () => setTable(null) },
+    text.close,
+  );
   const canvas = h("canvas", { class: "map-canvas", role: "img" });
   const [up, across] = [h("span", { class: "map-up muted" }), h("span", { class: "map-across muted" })];
   const readout = h("p", { class: "map-readout" });
   const state = h("span", { class: "muted", role: "status" });
-  const button = h("button", { type: "button", class: "button", onclick: () => (running ? stop() : begin()) }, text.again);
-  const opening = h("button", { type: "button", class: "button", title: text.openHelp, onclick: () => chooseFile(([chosen]) => chosen && open(chosen)) }, text.open);
+  const button = h(
+    "button",
+    { type: "button", class: "button", onclick: () => (running ? stop() : begin()) },
+    text.again,
+  );
+  const opening = h(
+    "button",
+    {
+      type: "button",
+      class: "button",
+      title: text.openHelp,
+      onclick: () => chooseFile(([chosen]) => chosen && open(chosen)),
+    },
+    text.open,
+  );
   const scale = h("div", { class: "map-scale muted" });
   const hint = h("p", { class: "hint" }, text.hint);
   const element = h(
@@ -67,13 +91,17 @@ export function createMap(text, { ask, stop, onSet }) {
     hint,
   );
   new ResizeObserver(paint).observe(canvas);
-  new MutationObserver(() => (element.hidden ? running && stop() : wanted())).observe(element, { attributeFilter: ["hidden"] });
+  new MutationObserver(() => (element.hidden ? running && stop() : wanted())).observe(element, {
+    attributeFilter: ["hidden"],
+  });
 
   const knobOf = (/** @type {string} */ name) => /** @type {Knob} */ (knobs.find((knob) => knob.name === name));
   /** What an axis spans: the slider, or the values that were swept. @param {string} name @returns {Knob} */
   const spanOf = (name) => {
     const values = table?.axes[name];
-    return values ? { ...knobOf(name), low: values[0], high: values[values.length - 1], log: knobOf(name).log && values[0] > 0 } : knobOf(name);
+    return values
+      ? { ...knobOf(name), low: values[0], high: values[values.length - 1], log: knobOf(name).log && values[0] > 0 }
+      : knobOf(name);
   };
 
   /** What the map depends on: all but the two thresholds that it spans. */
@@ -120,7 +148,10 @@ export function createMap(text, { ask, stop, onSet }) {
     button.hidden = table !== null;
     close.hidden = table === null;
     files.hidden = !table || table.files.length < 2;
-    file.replaceChildren(h("option", { value: "" }, text.allFiles), ...(table?.files ?? []).map((name, k) => h("option", { value: String(k) }, name.split(/[\\/]/).pop())));
+    file.replaceChildren(
+      h("option", { value: "" }, text.allFiles),
+      ...(table?.files ?? []).map((name, k) => h("option", { value: String(k) }, name.split(/[\\/]/).pop())),
+    );
     setText(source, table ? text.sweep(table.name, table.settings, table.files.length) : "");
     setText(hint, table ? text.hintOfSweep : text.hint);
     offer();
@@ -132,13 +163,17 @@ export function createMap(text, { ask, stop, onSet }) {
     const axes = knobs.filter(({ name }) => !table || table.axes[name]);
     [x, y].forEach((select, k) => {
       const chosen = select.value;
-      select.replaceChildren(...axes.map(({ name, symbol, label }) => h("option", { value: name }, `${symbol} ${label}`)));
+      select.replaceChildren(
+        ...axes.map(({ name, symbol, label }) => h("option", { value: name }, `${symbol} ${label}`)),
+      );
       select.value = axes.some(({ name }) => name === chosen) ? chosen : (axes[k]?.name ?? "");
     });
     const chosen = measure.value;
     const there = measures.filter(({ name }) => (table ? table.measures.includes(name) : LIVE.includes(name)));
     measure.replaceChildren(...there.map(({ name, label, help }) => h("option", { value: name, title: help }, label)));
-    measure.value = there.some(({ name }) => name === chosen) ? chosen : (there.find(({ name }) => name === "f_score") ?? there[0])?.name ?? "";
+    measure.value = there.some(({ name }) => name === chosen)
+      ? chosen
+      : ((there.find(({ name }) => name === "f_score") ?? there[0])?.name ?? "");
   }
 
   /** @param {boolean} on @param {string} words */
@@ -181,7 +216,8 @@ export function createMap(text, { ask, stop, onSet }) {
       }
     }
     pen.stroke();
-    if (within(kx) && within(ky)) ring(pen, placeOf(kx, params[kx.name]) * canvas.width, (1 - placeOf(ky, params[ky.name])) * canvas.height, ratio);
+    if (within(kx) && within(ky))
+      ring(pen, placeOf(kx, params[kx.name]) * canvas.width, (1 - placeOf(ky, params[ky.name])) * canvas.height, ratio);
     const words = measures.find(({ name }) => name === shown?.measure);
     setText(scale, `${words?.label ?? ""} ${low.toFixed(3)} – ${high.toFixed(3)} ${words?.unit ?? ""}`);
     setText(across, `${kx.symbol} ${withUnit(kx, kx.low)} – ${withUnit(kx, kx.high)}`);
@@ -209,7 +245,9 @@ export function createMap(text, { ask, stop, onSet }) {
   canvas.addEventListener("pointermove", (event) => {
     if (!shown?.heights?.length) return;
     const { params: values, height } = under(event);
-    const words = Object.entries(values).map(([name, value]) => `${knobOf(name).symbol} ${withUnit(knobOf(name), value)}`);
+    const words = Object.entries(values).map(
+      ([name, value]) => `${knobOf(name).symbol} ${withUnit(knobOf(name), value)}`,
+    );
     setText(readout, `${words.join(", ")}: ${height === null ? "–" : height.toFixed(3)}`);
   });
 
@@ -229,7 +267,8 @@ export function createMap(text, { ask, stop, onSet }) {
     setTruth(truth) {
       if (table) return;
       if (!measureChosen && measures.length) measure.value = truth ? "f_score" : "coverage";
-      for (const option of measure.options) option.disabled = !truth && Boolean(measures.find(({ name }) => name === option.value)?.truth);
+      for (const option of measure.options)
+        option.disabled = !truth && Boolean(measures.find(({ name }) => name === option.value)?.truth);
     },
     /** @param {Params} next */
     setParams(next) {
@@ -258,7 +297,18 @@ export function createMap(text, { ask, stop, onSet }) {
       return undefined;
     },
     get current() {
-      return shown && { x: shown.x, y: shown.y, measure: shown.measure, sweep: table?.name, side: shown.xs?.length, frames: shown.frames, heights: shown.heights, running };
+      return (
+        shown && {
+          x: shown.x,
+          y: shown.y,
+          measure: shown.measure,
+          sweep: table?.name,
+          side: shown.xs?.length,
+          frames: shown.frames,
+          heights: shown.heights,
+          running,
+        }
+      );
     },
   };
 }
@@ -277,7 +327,10 @@ function shade(place) {
 
 /** The borders of a cell, half way to its neighbours. @param {number[]} places @param {number} k @param {number} first @param {number} last */
 function edges(places, k, first, last) {
-  return [k === 0 ? first : (places[k - 1] + places[k]) / 2, k === places.length - 1 ? last : (places[k] + places[k + 1]) / 2];
+  return [
+    k === 0 ? first : (places[k - 1] + places[k]) / 2,
+    k === places.length - 1 ? last : (places[k] + places[k + 1]) / 2,
+  ];
 }
 
 /** @param {number[]} places @param {number} at */
@@ -294,7 +347,10 @@ function nearest(knob, values, value) {
 
 /** @param {CanvasRenderingContext2D} pen @param {number} x @param {number} y @param {number} ratio */
 function ring(pen, x, y, ratio) {
-  for (const [colour, width] of /** @type {const} */ ([["#000", 4], ["#fff", 2]])) {
+  for (const [colour, width] of /** @type {const} */ ([
+    ["#000", 4],
+    ["#fff", 2],
+  ])) {
     pen.strokeStyle = colour;
     pen.lineWidth = width * ratio;
     pen.beginPath();

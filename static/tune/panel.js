@@ -34,9 +34,21 @@ export function mountPanel(panel, text, { onParams, onSelect, onUndo, onRedo }, 
   const redo = iconButton("redo", text.tune.redo, onRedo);
   const presets = createMenu({ label: text.tune.presetChoose, name: text.tune.preset, groups: presetGroups });
   tooltip(presets.button, text.tune.presetHelp, "left");
-  const resetAll = h("button", { type: "button", class: "button", onclick: () => onParams(defaults(), null) }, text.tune.resetAll);
+  const resetAll = h(
+    "button",
+    { type: "button", class: "button", onclick: () => onParams(defaults(), null) },
+    text.tune.resetAll,
+  );
   tooltip(resetAll, text.tune.resetAllHelp);
-  const toolbar = h("div", { class: "panel-toolbar" }, presets.element, h("span", { class: "spacer" }), undo, redo, resetAll);
+  const toolbar = h(
+    "div",
+    { class: "panel-toolbar" },
+    presets.element,
+    h("span", { class: "spacer" }),
+    undo,
+    redo,
+    resetAll,
+  );
   const legend = h(
     "p",
     { class: "histogram-legend" },
@@ -51,13 +63,23 @@ export function mountPanel(panel, text, { onParams, onSelect, onUndo, onRedo }, 
   const extensions = h(
     "details",
     { class: "extensions" },
-    h("summary", {}, text.tune.extensions, h("span", { class: "tag" }, text.tune.extensionMark), h("span", { class: "changed-dot" })),
+    h(
+      "summary",
+      {},
+      text.tune.extensions,
+      h("span", { class: "tag" }, text.tune.extensionMark),
+      h("span", { class: "changed-dot" }),
+    ),
     more,
   );
   const lines = createLines(text.lines, onSelect);
   const tabs = createTabs([
     ...inspecting.map((page) => ({ ...page, mode: "inspect" })),
-    { name: "thresholds", label: text.tune.tabs.thresholds, content: h("div", {}, toolbar, message, tuner.legend, main, legend, extensions) },
+    {
+      name: "thresholds",
+      label: text.tune.tabs.thresholds,
+      content: h("div", {}, toolbar, message, tuner.legend, main, legend, extensions),
+    },
     { name: "lines", label: text.tune.tabs.lines, content: lines.element },
     ...tuner.pages.map((page) => ({ ...page, mode: "tune" })),
   ]);
@@ -87,8 +109,10 @@ export function mountPanel(panel, text, { onParams, onSelect, onUndo, onRedo }, 
     setMethod(method) {
       const next = method.knobs;
       knobs = next;
-      const changed = (/** @type {string} */ name, /** @type {number} */ value) => onParams({ [name]: value }, `${name} ${gestureCount()}`);
-      const create = (/** @type {Knob} */ knob) => (knob.kind === "bool" ? createSwitch : createThreshold)(knob, text.tune, changed);
+      const changed = (/** @type {string} */ name, /** @type {number} */ value) =>
+        onParams({ [name]: value }, `${name} ${gestureCount()}`);
+      const create = (/** @type {Knob} */ knob) =>
+        (knob.kind === "bool" ? createSwitch : createThreshold)(knob, text.tune, changed);
       thresholds = new Map(next.map((knob) => [knob.name, create(knob)]));
       const rows = (/** @type {boolean} */ extension) =>
         next.filter((knob) => knob.extension === extension).map((knob) => thresholds.get(knob.name)?.element ?? "");
@@ -150,7 +174,14 @@ function createTabs(tabs) {
   const buttons = tabs.map(({ name, label }, k) =>
     h(
       "button",
-      { type: "button", role: "tab", id: `tab-${name}`, "aria-controls": `page-${name}`, class: "tab", onclick: () => choose(k) },
+      {
+        type: "button",
+        role: "tab",
+        id: `tab-${name}`,
+        "aria-controls": `page-${name}`,
+        class: "tab",
+        onclick: () => choose(k),
+      },
       label,
       counts.get(name),
     ),

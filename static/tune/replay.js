@@ -33,7 +33,12 @@ export function mountReplay(dock, words, { onStep, settled }) {
   /** @type {Knob[]} */
   let knobs = [];
 
-  const enter = h("button", { type: "button", class: "button replay-enter", onclick: () => go(0) }, icon("play"), text.enter);
+  const enter = h(
+    "button",
+    { type: "button", class: "button replay-enter", onclick: () => go(0) },
+    icon("play"),
+    text.enter,
+  );
   const count = h("span", { class: "muted" });
   const idle = h("div", { class: "replay-idle" }, enter, count);
 

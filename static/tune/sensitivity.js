@@ -25,10 +25,21 @@ export function createSensitivity(text, { onSet, onShow }) {
   const keys = new Map(
     LINES.map((line) => [
       line,
-      h("button", { type: "button", class: "curve-key", "data-line": line, onclick: () => toggle(line) }, h("span", { class: "swatch" }), text.short[line]),
+      h(
+        "button",
+        { type: "button", class: "curve-key", "data-line": line, onclick: () => toggle(line) },
+        h("span", { class: "swatch" }),
+        text.short[line],
+      ),
     ]),
   );
-  const legend = h("div", { class: "curves-legend", role: "group", "aria-label": text.label }, all, ...keys.values(), note);
+  const legend = h(
+    "div",
+    { class: "curves-legend", role: "group", "aria-label": text.label },
+    all,
+    ...keys.values(),
+    note,
+  );
   /** @type {Map<string, ReturnType<typeof createCurve>>} */
   let curves = new Map();
   let truth = false;
@@ -94,9 +105,17 @@ export function createSensitivity(text, { onSet, onShow }) {
  * @param {(value: number) => void} onSet
  */
 function createCurve(knob, text, onSet) {
-  const picture = svg("svg", { class: "curve-picture", viewBox: `0 0 ${WIDTH} ${HEIGHT}`, preserveAspectRatio: "none", "aria-hidden": "true" });
+  const picture = svg("svg", {
+    class: "curve-picture",
+    viewBox: `0 0 ${WIDTH} ${HEIGHT}`,
+    preserveAspectRatio: "none",
+    "aria-hidden": "true",
+  });
   const paths = new Map(
-    LINES.map((line) => [line, svg("path", { class: "curve-line", "data-line": line, "vector-effect": "non-scaling-stroke" })]),
+    LINES.map((line) => [
+      line,
+      svg("path", { class: "curve-line", "data-line": line, "vector-effect": "non-scaling-stroke" }),
+    ]),
   );
   const mark = svg("line", { class: "curve-mark", y1: 0, y2: HEIGHT, "vector-effect": "non-scaling-stroke" });
   picture.append(...paths.values(), mark);

@@ -47,11 +47,21 @@ export function createThreshold(knob, text, onChange) {
     onclick: () => (hideTooltip(reset), change(knob.default)),
   });
   tooltip(reset, text.reset(withUnit(knob, knob.default)));
-  const mark = h("button", { type: "button", class: "what-if-mark", hidden: true, onclick: () => (hideTooltip(mark), change(marked)) });
+  const mark = h("button", {
+    type: "button",
+    class: "what-if-mark",
+    hidden: true,
+    onclick: () => (hideTooltip(mark), change(marked)),
+  });
   tooltip(mark, () => mark.getAttribute("aria-label") ?? "");
   let marked = value;
   const histogram = hasHistogram(knob) ? createHistogram(knob) : null;
-  const name = h("span", { class: "threshold-name" }, symbol(knob.symbol), h("span", { class: "threshold-label" }, knob.label));
+  const name = h(
+    "span",
+    { class: "threshold-name" },
+    symbol(knob.symbol),
+    h("span", { class: "threshold-label" }, knob.label),
+  );
   const row = h(
     "div",
     { class: "threshold", "data-knob": knob.name },
@@ -147,4 +157,3 @@ export function symbol(name) {
 function sum(counts) {
   return (counts ?? []).reduce((total, count) => total + count, 0);
 }
-

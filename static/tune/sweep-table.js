@@ -12,13 +12,18 @@ const HEAD = "file,epsilon,";
 /** Whether a file is the table of a sweep, by its name or its first words. @param {File} file */
 export async function isSweepTable(file) {
   if (/\.parquet$/i.test(file.name)) return true;
-  return /\.csv$/i.test(file.name) && (await file.slice(0, HEAD.length + 3).text()).replace(/^\ufeff/, "").startsWith(HEAD);
+  return (
+    /\.csv$/i.test(file.name) && (await file.slice(0, HEAD.length + 3).text()).replace(/^\ufeff/, "").startsWith(HEAD)
+  );
 }
 
 /** @param {File} file @param {string} broken what to say without an answer @returns {Promise<{table?: SweepTable, trouble?: string}>} */
 export async function readSweepTable(file, broken) {
   try {
-    const response = await fetch(`/api/sweep-table?name=${encodeURIComponent(file.name)}`, { method: "POST", body: file });
+    const response = await fetch(`/api/sweep-table?name=${encodeURIComponent(file.name)}`, {
+      method: "POST",
+      body: file,
+    });
     const words = await response.text();
     return response.ok ? { table: new SweepTable(file.name, JSON.parse(words)) } : { trouble: messageOf(words) };
   } catch {
@@ -79,7 +84,11 @@ export class SweepTable {
       if (value === null || (wanted !== null && from !== wanted)) return;
       const frames = columns.frames[row] ?? 0;
       const values = names.map((name) => /** @type {number} */ (columns[name][row]));
-      const setting = found.get(values.join()) ?? { sum: 0, frames: 0, params: Object.fromEntries(names.map((name, k) => [name, values[k]])) };
+      const setting = found.get(values.join()) ?? {
+        sum: 0,
+        frames: 0,
+        params: Object.fromEntries(names.map((name, k) => [name, values[k]])),
+      };
       setting.sum += value * frames;
       setting.frames += frames;
       found.set(values.join(), setting);

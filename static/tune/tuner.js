@@ -21,7 +21,10 @@ const METHOD = "region-growing";
 export function createTuner(text, { session, onParams }) {
   const address = () => {
     const id = session();
-    return id && `${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/api/tuning?session=${encodeURIComponent(id)}`;
+    return (
+      id &&
+      `${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/api/tuning?session=${encodeURIComponent(id)}`
+    );
   };
   const bench = new Workbench(address, {
     onAnswer(answer) {
@@ -30,7 +33,10 @@ export function createTuner(text, { session, onParams }) {
     },
     onMeasures: (measures) => (map.setMeasures(measures), setTruth()),
   });
-  const sensitivity = createSensitivity(text.curves, { onSet: (name, value) => onParams({ [name]: value }), onShow: () => ask() });
+  const sensitivity = createSensitivity(text.curves, {
+    onSet: (name, value) => onParams({ [name]: value }),
+    onShow: () => ask(),
+  });
   const map = createMap(text.map, {
     ask: (x, y, measure) => bench.ask("map", { params, x, y, measure }),
     stop: () => bench.stop("map"),

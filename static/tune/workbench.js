@@ -70,7 +70,9 @@ export class Workbench {
     if (answer.type === "measures") return this.#onMeasures(answer.measures);
     if (answer.type === "error") {
       // Refused before it began: of whatever was asked last.
-      const open = [...this.#latest].filter(([, { wish }]) => wish).sort(([, one], [, other]) => other.job - one.job)[0];
+      const open = [...this.#latest]
+        .filter(([, { wish }]) => wish)
+        .sort(([, one], [, other]) => other.job - one.job)[0];
       if (open) this.#receive({ type: open[0], job: open[1].job, done: true, message: answer.message });
       return undefined;
     }

@@ -43,7 +43,11 @@ export function icon(name) {
  * @returns {HTMLButtonElement & {show: (name: IconName, label: string) => void}}
  */
 export function iconButton(name, label, onClick) {
-  const button = h("button", { type: "button", class: "icon-button", "aria-label": label, onclick: onClick }, icon(name));
+  const button = h(
+    "button",
+    { type: "button", class: "icon-button", "aria-label": label, onclick: onClick },
+    icon(name),
+  );
   tooltip(button, () => button.getAttribute("aria-label") ?? "");
   let shown = name;
   /** @param {IconName} next @param {string} nextLabel */

@@ -51,7 +51,9 @@ function decimals(knob) {
  */
 export function format(knob, value) {
   const short = value.toFixed(decimals(knob));
-  return Math.abs(Number(short) - value) < 1e-9 * Math.max(1, Math.abs(value)) ? short : String(Number(value.toPrecision(6)));
+  return Math.abs(Number(short) - value) < 1e-9 * Math.max(1, Math.abs(value))
+    ? short
+    : String(Number(value.toPrecision(6)));
 }
 
 /** @param {Knob} knob @param {number} value */

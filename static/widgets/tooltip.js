@@ -31,7 +31,8 @@ export function tooltip(element, content, side = "below") {
     clearTimeout(timer);
     timer = setTimeout(show, DELAY_MS);
   });
-  for (const gone of ["pointerleave", "pointerdown", "focusout"]) element.addEventListener(gone, () => hideTooltip(element));
+  for (const gone of ["pointerleave", "pointerdown", "focusout"])
+    element.addEventListener(gone, () => hideTooltip(element));
 }
 
 /** @param {Element} [element] only if the tooltip is this element's */

@@ -7,7 +7,12 @@ export function createVersus() {
   const fill = h("div", { class: "versus-fill" });
   const limit = h("div", { class: "versus-limit" });
   const words = h("span", { class: "versus-words" });
-  const element = h("div", { class: "versus" }, words, h("div", { class: "versus-bar", "aria-hidden": "true" }, fill, limit));
+  const element = h(
+    "div",
+    { class: "versus" },
+    words,
+    h("div", { class: "versus-bar", "aria-hidden": "true" }, fill, limit),
+  );
 
   return {
     element,

@@ -38,7 +38,16 @@ export function createWalk(element, label, { count, start, say, onAt, onTake }) 
   element.addEventListener("focus", () => element.matches(":focus-visible") && go(here()));
   element.addEventListener("blur", () => go(null));
   element.addEventListener("keydown", (event) => {
-    const by = { ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1, PageUp: FAR, PageDown: -FAR, Home: -Infinity, End: Infinity }[event.key];
+    const by = {
+      ArrowRight: 1,
+      ArrowUp: 1,
+      ArrowLeft: -1,
+      ArrowDown: -1,
+      PageUp: FAR,
+      PageDown: -FAR,
+      Home: -Infinity,
+      End: Infinity,
+    }[event.key];
     const takes = event.key === "Enter" || event.key === " ";
     if (!count() || event.ctrlKey || event.metaKey || event.altKey || (by === undefined && !takes)) return;
     event.preventDefault();
