@@ -22,27 +22,27 @@ from starlette.exceptions import HTTPException
 from starlette.staticfiles import StaticFiles
 from starlette.types import Scope
 
-from .api import add_api
-from .export import add_export
 from .guard import Guard, is_loopback
-from .inspection import add_inspection
-from .label_files import LabelFiles
-from .labels import add_labels
-from .library import Library
-from .live import Address, Live
-from .live.back import add_back
-from .live.push import add_push
+from .live.hub import Address, Live
 from .places import data_folder, user_folder
-from .recent import Recent
-from .rerun_tab import add_rerun
-from .session import Watch
-from .sessions import SessionLimits, Sessions
-from .sweep_table import add_sweep_table
-from .tab import add_sockets
-from .tuning import add_tuning
-from .uploads import Uploads
-from .viser_relay import LARGEST_MESSAGE
-from .warm_up import WarmUp
+from .routes.api import add_api
+from .routes.export import add_export
+from .routes.inspection import add_inspection
+from .routes.labels import add_labels
+from .routes.push import add_push
+from .routes.rerun import add_rerun
+from .routes.robot import add_back
+from .routes.sweep_table import add_sweep_table
+from .routes.tab import add_sockets
+from .routes.tuning import add_tuning
+from .routes.viser_relay import LARGEST_MESSAGE
+from .session.session import Watch
+from .session.sessions import SessionLimits, Sessions
+from .session.warm_up import WarmUp
+from .shelf.label_files import LabelFiles
+from .shelf.library import Library
+from .shelf.recent import Recent
+from .shelf.uploads import Uploads
 
 SHUTDOWN_SECONDS = 3
 

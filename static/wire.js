@@ -90,10 +90,10 @@
  * @property {number | null} margin
  */
 
-/** Numbers of a frame or recording against its truth (app/judge.py); null where one is not defined. @typedef {Record<string, number | null>} Agreement */
+/** Numbers of a frame or recording against its truth (app/frame/judge.py); null where one is not defined. @typedef {Record<string, number | null>} Agreement */
 
 /**
- * What is said of the frame, and where it is kept (app/labels.py).
+ * What is said of the frame, and where it is kept (app/routes/labels.py).
  * @typedef {object} Labels
  * @property {number} revision
  * @property {import("./label/lines.js").Line[] | null} lines null: nobody has said which are true

@@ -12,7 +12,7 @@ import numpy as np
 from lineseg.readers.laser_scan import LaserScan
 from lineseg.segment import Extraction
 
-from ..palette import segment_colours
+from ..scene.palette import segment_colours
 
 # Both versions of ROS know the type by its short name.
 MARKER_ARRAY = "visualization_msgs/MarkerArray"

@@ -13,7 +13,7 @@ from websockets.sync.client import connect
 
 from lineseg import Params
 
-from . import check_address
+from .hub import check_address
 from .robot import LARGEST_MESSAGE, OPEN_SECONDS, why_not
 from .rosbridge import RobotError, RosBridge
 

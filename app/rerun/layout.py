@@ -14,9 +14,9 @@ from lineseg import SCORES, Recording, Thresholds
 from lineseg.colours import SEGMENTS
 from lineseg.rerun import LINE, NO_LINE, POINT, THIN
 
-from ..palette import LIGHT
-from ..picture import bounds_of
-from ..shapes import Bounds
+from ..scene.palette import LIGHT
+from ..scene.picture import bounds_of
+from ..scene.shapes import Bounds
 
 POINTS_OF = {"points": "laser/points", "seeds": "laser/seeds"}
 BIG = -3.0

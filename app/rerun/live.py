@@ -20,8 +20,8 @@ import rerun as rr
 from lineseg import Recording
 from lineseg.rerun import dropped_strips, hue_of_beams, hues_of, raised, segment_strips
 
-from ..findings import Findings
-from ..replay import state_at
+from ..frame.findings import Findings
+from ..scene.replay import state_at
 from ..view import View
 from .layout import announce, parameters
 from .record import seed_beams

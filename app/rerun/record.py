@@ -16,9 +16,9 @@ from lineseg.decisions import Kind
 from lineseg.rerun import dropped_strips, hue_of_beams, hues_of, raised, segment_strips
 from lineseg.survey import survey
 
-from ..palette import LIGHT
-from ..picture import truth
-from ..replay import foot, is_line
+from ..scene.palette import LIGHT
+from ..scene.picture import truth
+from ..scene.replay import foot, is_line
 from .layout import POINTS_OF, announce
 from .rows import Moments, send_rows, times
 

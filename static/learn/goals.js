@@ -1,5 +1,5 @@
 // @ts-check
-// Whether the task of a lesson is done; what it asks for is data (app/lessons.py).
+// Whether the task of a lesson is done; what it asks for is data (app/shelf/lessons.py).
 
 /** @typedef {import("../wire.js").State} State */
 /** @typedef {import("../wire.js").Params} Params */

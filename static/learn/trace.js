@@ -1,5 +1,5 @@
 // @ts-check
-// The decisions of one frame as the page holds them: columns from the server (app/stepping.py), read one at a time.
+// The decisions of one frame as the page holds them: columns from the server (app/frame/stepping.py), read one at a time.
 
 /** @typedef {[number, number, number]} Line a, b, c */
 

@@ -1,0 +1,84 @@
+"""The segments of a frame against its true lines."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lineseg import Agreement, FrameLabels, Recording, Thresholds, agreements
+from lineseg.finite import finite_or_none
+from lineseg.labels import Labels
+from lineseg.truth import Matching, demands_of, match, true_ends, true_lines
+
+from ..shelf.label_files import Known
+from .findings import Findings
+
+# Of a longer recording so many frames are judged, evenly spread: each is extracted once more for this.
+MOST_FRAMES = 2000
+
+
+class Judged(NamedTuple):
+    """matching: which segment is which true line; ends: (lines, 2, 2) [m] of the true lines."""
+
+    matching: Matching
+    ends: NDArray[np.float64]
+
+
+def references(recording: Recording, known: Known | None) -> list[str]:
+    """By what segments can be judged: "labels" of people, the "wall" that the recording holds."""
+    there = {"labels": known is not None and bool(known.labelled), "wall": recording.wall is not None}
+    return [name for name, is_there in there.items() if is_there]
+
+
+def reference_of(wanted: str, available: list[str]) -> str:
+    """The wanted one, else the one that there is, else ""."""
+    return wanted if wanted in available else next(iter(available), "")
+
+
+def judged(found: Findings, said: FrameLabels | None = None) -> Judged | None:
+    """None where the truth is unknown. said: is the truth instead of the walls."""
+    if said is not None:
+        truth = said.truth(found.scan)
+        return None if truth is None else Judged(match(found.extraction, truth, said.ends), said.ends)
+    if found.scan.wall is None:
+        return None
+    lines = true_lines(found.scan, demands_of(found.trace.params))
+    ends = true_ends(found.scan, lines)
+    return Judged(match(found.extraction, lines, ends), ends)
+
+
+def judged_recording(
+    recording: Recording, method: str, params: Thresholds, said: Labels | None = None
+) -> tuple[Agreement, int]:
+    """How a method agrees with the truth over a recording, and of how many frames one was looked at.
+
+    said: is the truth instead of the walls, of the frames that have lines in it.
+    """
+    frames = np.arange(len(recording)) if said is None else np.array([f for f in said if said[f].lines is not None])
+    stride = -(-len(frames) // MOST_FRAMES)
+    chosen = frames[::stride]
+    part = recording.only(chosen)
+    if said is None:
+        return Agreement.of_all(each for each in agreements(part, params, method) if each is not None), stride
+    labels = [said[int(frame)] for frame in chosen]
+    found = agreements(part, params, method, lambda k: labels[k].truth(part[k]), lambda k: labels[k].ends)
+    return Agreement.of_all(each for each in found if each is not None), stride
+
+
+def as_json(agreement: Agreement) -> dict[str, float | None]:
+    """The numbers of the paper's Table 4 and more; null where one is not defined."""
+    numbers = {
+        "trueLines": agreement.true_lines,
+        "segments": agreement.segments,
+        "matches": agreement.matches,
+        "trueRate": agreement.true_rate,
+        "falseRate": agreement.false_rate,
+        "completeness": agreement.completeness,
+        "splits": agreement.splits,
+        "merges": agreement.merges,
+        "endpointMedian": agreement.endpoint_error(50),
+        "endpointMost": agreement.endpoint_error(95),
+    }
+    return {name: finite_or_none(value) for name, value in numbers.items()}

@@ -1,0 +1,112 @@
+"""What the page asks for besides its socket: uploads, thresholds as text, a recording as a file."""
+
+from __future__ import annotations
+
+import tempfile
+from pathlib import Path
+from typing import Any
+
+from fastapi import FastAPI, Request
+from fastapi.responses import PlainTextResponse, Response
+from starlette.concurrency import run_in_threadpool
+from starlette.exceptions import HTTPException
+
+from lineseg import EXTRACTORS, Thresholds, save_npz
+from lineseg.writers import PARAMS_WRITERS, params_text, read_params
+
+from ..session.sessions import Sessions
+from ..shelf.lessons import Lessons, lesson_files, read_lessons
+from ..shelf.library import Library
+from ..shelf.uploads import TooLargeError, TooManyError
+from ..tuning.sweep import sweep
+from .attachment import attachment
+from .body import body_of
+
+LONGEST_PARAMS = 256 * 1024
+
+
+def add_api(app: FastAPI, library: Library, sessions: Sessions) -> None:
+    """Routes of /api but the session's socket."""
+
+    @app.post("/api/upload")
+    async def upload(request: Request, name: str = "recording") -> dict[str, str]:
+        try:
+            kept = await library.uploads.receive(name, _announced_size(request), request.stream())
+        except TooLargeError as error:
+            raise HTTPException(413, str(error)) from None
+        except TooManyError as error:
+            raise HTTPException(429, str(error)) from None
+        except ValueError as error:
+            raise HTTPException(400, str(error)) from None
+        except OSError as error:
+            raise HTTPException(507, f"{name[:80]} could not be stored: {error.strerror}") from None
+        library.changed()
+        return {"recording": f"upload:{kept.id}"}
+
+    @app.get("/api/params")
+    async def write_params(request: Request) -> PlainTextResponse:
+        values = dict(request.query_params)
+        to, method = values.pop("to", "ros2"), values.pop("method", "region-growing")
+        if to not in PARAMS_WRITERS:
+            raise HTTPException(400, f"thresholds cannot be written as {to!r}; they can as {', '.join(PARAMS_WRITERS)}")
+        try:
+            params = _thresholds(method).but(**{name: _number(name, text) for name, text in values.items()})
+            return PlainTextResponse(params_text(params, to))
+        except ValueError as error:
+            raise HTTPException(400, str(error)) from None
+
+    @app.post("/api/params")
+    async def import_params(request: Request, method: str = "region-growing") -> dict[str, dict[str, float]]:
+        text = await _text(request)
+        try:
+            params = await run_in_threadpool(read_params, text, type(_thresholds(method)))
+        except ValueError as error:
+            raise HTTPException(400, str(error)) from None
+        return {"params": params.numbers()}
+
+    @app.get("/api/lessons")
+    def lessons() -> Lessons:
+        return read_lessons(lesson_files())
+
+    @app.get("/api/sweep")
+    def sweep_threshold(session: str = "", name: str = "epsilon") -> dict[str, Any]:
+        shown = sessions.shown(session)
+        known = [field for field, _, _ in shown.view.params.knobs()]
+        if name not in known:
+            raise HTTPException(400, f"there is no threshold {name[:40]!r}; there are {', '.join(known)}")
+        return sweep(shown.found.scan, shown.view.method, shown.view.params, name)
+
+    @app.get("/api/recording")
+    def recording(session: str = "") -> Response:
+        shown = sessions.shown(session)
+        with tempfile.TemporaryDirectory() as folder:
+            save_npz(shown.recording, Path(folder) / "recording.npz")
+            content = (Path(folder) / "recording.npz").read_bytes()
+        headers = attachment(library.label(shown.view.recording), "npz")
+        return Response(content, media_type="application/octet-stream", headers=headers)
+
+
+def _thresholds(method: str) -> Thresholds:
+    if method not in EXTRACTORS:
+        raise ValueError(f"there is no method {method[:40]!r}; there are {', '.join(EXTRACTORS)}")
+    return EXTRACTORS[method].params_type()
+
+
+def _announced_size(request: Request) -> int | None:
+    length = request.headers.get("content-length", "")
+    return int(length) if length.isascii() and length.isdigit() else None
+
+
+def _number(name: str, text: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        raise ValueError(f"{name} is {text[:40]!r}, which is not a number") from None
+
+
+async def _text(request: Request) -> str:
+    body = await body_of(request, LONGEST_PARAMS, "a file of thresholds has")
+    try:
+        return body.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        raise HTTPException(400, "this is no text in UTF-8") from None

@@ -1,0 +1,67 @@
+"""What a person takes along: the frame as a drawing or in a failure pack, the segments of the recording."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Iterator
+
+from fastapi import FastAPI, Request
+from fastapi.responses import Response, StreamingResponse
+from starlette.concurrency import run_in_threadpool
+from starlette.exceptions import HTTPException
+
+from lineseg import EXTRACTORS, Extraction, Scan, write_pack
+from lineseg.writers import SEGMENT_WRITERS, figure_svg, figure_title, segment_lines
+
+from ..live.ring import first_of
+from ..session.session import Shown
+from ..session.sessions import Sessions
+from ..shelf.library import Library
+from .attachment import attachment
+from .body import body_of
+
+LONGEST_NOTE = 64 * 1024
+SEGMENT_TYPES = {"jsonl": "application/x-ndjson", "csv": "text/csv", "geojson": "application/geo+json"}
+
+
+def add_export(app: FastAPI, library: Library, sessions: Sessions) -> None:
+    """Routes of /api that make files of what a tab shows."""
+
+    def named(shown: Shown, suffix: str) -> dict[str, str]:
+        """Headers of a file of one frame, counted from 1 as on the page."""
+        number = first_of(shown.recording) + shown.view.frame + 1
+        return attachment(f"{library.label(shown.view.recording)}_{number}", suffix)
+
+    @app.get("/api/figure")
+    def figure(session: str = "") -> Response:
+        shown = sessions.shown(session)
+        title = figure_title(shown.recording, shown.view.frame, EXTRACTORS[shown.view.method].label)
+        drawing = figure_svg(shown.found.scan, shown.found.extraction, title)
+        return Response(drawing, media_type="image/svg+xml", headers=named(shown, "svg"))
+
+    @app.post("/api/pack")
+    async def pack(request: Request, session: str = "") -> Response:
+        shown = sessions.shown(session)
+        body = await body_of(request, LONGEST_NOTE, "a note has")
+        try:
+            note = body.decode()
+        except UnicodeDecodeError:
+            raise HTTPException(400, "this note is no text in UTF-8") from None
+        made = io.BytesIO()
+        await run_in_threadpool(write_pack, made, shown.recording, shown.view.frame, shown.view.params, note)
+        return Response(made.getvalue(), media_type="application/zip", headers=named(shown, "zip"))
+
+    @app.get("/api/segments")
+    async def segments(session: str = "", to: str = "jsonl") -> StreamingResponse:
+        shown = sessions.shown(session)
+        if to not in SEGMENT_WRITERS:
+            raise HTTPException(400, f"segments cannot be written as {to!r}; they can as {', '.join(SEGMENT_WRITERS)}")
+        headers = attachment(library.label(shown.view.recording), to)
+        return StreamingResponse(segment_lines(to, _rows(shown)), media_type=SEGMENT_TYPES[to], headers=headers)
+
+
+def _rows(shown: Shown) -> Iterator[tuple[int, Scan, Extraction]]:
+    """Every frame under the thresholds on the screen."""
+    extract = EXTRACTORS[shown.view.method].extract
+    for frame, scan in enumerate(shown.recording):
+        yield frame, scan, extract(scan, shown.view.params)

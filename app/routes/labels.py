@@ -1,0 +1,128 @@
+"""What the page says of frames, true lines, tags and a note, saved at once."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+from fastapi import FastAPI, Request
+from fastapi.responses import JSONResponse, Response
+from pydantic import Field, ValidationError
+from starlette.concurrency import run_in_threadpool
+from starlette.exceptions import HTTPException
+
+from lineseg import ConflictError, FrameLabels, Recording, Scan, TrueLine
+
+from ..shelf.label_files import LIVE, Known, LabelFiles
+from ..shelf.library import Library
+from ..wire import Count, Message, Name, Number, RecordingId, sentence
+from .body import body_of
+
+LONGEST = 1 << 20
+Place = tuple[Number, Number]
+
+
+class Line(Message):
+    """Without its ends they are those of the points."""
+
+    first: Count
+    last: Count
+    start: Place | None = None
+    end: Place | None = None
+
+
+class Said(Message):
+    """Everything that is said of a frame; revision: the one that this is on top of."""
+
+    recording: RecordingId
+    topic: Name | None = None
+    frame: Count
+    revision: Count
+    lines: Annotated[list[Line], Field(max_length=5000)] | None
+    tags: Annotated[list[Annotated[str, Field(min_length=1, max_length=60)]], Field(max_length=100)]
+    note: Annotated[str, Field(max_length=20_000)]
+
+
+def add_labels(app: FastAPI, library: Library, files: LabelFiles) -> None:
+    """Routes of /api/labels."""
+
+    @app.get("/api/labels")
+    def overview(recording: str = "", topic: str | None = None) -> dict[str, Any]:
+        known = files.known(recording, _open(library, recording, topic))
+        if known is None:
+            raise HTTPException(400, LIVE)
+        return {"stamp": known.stamp, "frames": {frame: _brief(said) for frame, said in known.labels.items()}}
+
+    @app.get("/api/labels/points")
+    def points(frame: int, recording: str = "", topic: str | None = None) -> dict[str, Any]:
+        scan = _scan(_open(library, recording, topic), frame)
+        xy = [[round(float(x), 4), round(float(y), 4)] if x == x else None for x, y in scan.xy]
+        return {"points": xy, "fullCircle": scan.full_circle}
+
+    @app.put("/api/labels")
+    async def save(request: Request) -> Response:
+        body = await body_of(request, LONGEST, "what is said of a frame has")
+        try:
+            said = Said.model_validate_json(body)
+        except ValidationError as error:
+            raise HTTPException(422, sentence(error)) from None
+        return await run_in_threadpool(_save, library, files, said)
+
+
+def told(known: Known, frame: int) -> dict[str, Any]:
+    """What the page is told of the frame that it shows."""
+    return as_json(known.of(frame)) | {
+        "file": known.path.name,
+        "folder": str(known.path.parent),
+        "apart": known.apart,
+        "stamp": known.stamp,
+        "trouble": known.trouble,
+    }
+
+
+def as_json(said: FrameLabels) -> dict[str, Any]:
+    lines = None if said.lines is None else [vars(line) for line in said.lines]
+    return {"revision": said.revision, "lines": lines, "tags": said.tags, "note": said.note}
+
+
+def _brief(said: FrameLabels) -> dict[str, Any]:
+    return as_json(said) | {"lines": None if said.lines is None else len(said.lines)}
+
+
+def _save(library: Library, files: LabelFiles, said: Said) -> Response:
+    try:
+        recording = _open(library, said.recording, said.topic)
+        labels = _labels(said, _scan(recording, said.frame))
+        saved = files.save(said.recording, recording, said.frame, labels)
+    except ConflictError as error:
+        return JSONResponse({"message": str(error), "theirs": as_json(error.theirs)}, status_code=409)
+    except ValueError as error:
+        raise HTTPException(400, str(error)) from None
+    except OSError as error:
+        raise HTTPException(507, f"{error.filename or 'the labels'} cannot be written: {error.strerror}.") from None
+    return JSONResponse(as_json(saved))
+
+
+def _labels(said: Said, scan: Scan) -> FrameLabels:
+    lines = None if said.lines is None else tuple(_line(line, scan) for line in said.lines)
+    return FrameLabels(lines, tuple(said.tags), said.note, said.revision)
+
+
+def _line(line: Line, scan: Scan) -> TrueLine:
+    if line.start is None or line.end is None:
+        return TrueLine.over(scan, line.first, line.last)
+    return TrueLine(line.first, line.last, line.start, line.end)
+
+
+def _open(library: Library, id: str, topic: str | None) -> Recording:
+    if id.startswith("live:"):
+        raise HTTPException(400, LIVE)
+    try:
+        return library.recording(id, topic)
+    except (ValueError, OSError) as error:
+        raise HTTPException(404, str(error)) from None
+
+
+def _scan(recording: Recording, frame: int) -> Scan:
+    if not 0 <= frame < len(recording):
+        raise HTTPException(400, f"frame {frame}: {recording.name} has the frames 0 to {len(recording) - 1}")
+    return recording[frame]

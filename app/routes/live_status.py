@@ -1,0 +1,28 @@
+"""Keeps a page informed of the live source that it shows, also while no scan comes."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+from collections.abc import Awaitable, Callable
+
+from starlette.websockets import WebSocketDisconnect
+
+from ..live.hub import Live
+from ..session.session import Session
+from ..wire import LiveStatus
+
+EVERY = 0.25
+
+
+async def tell_live(tell: Callable[[LiveStatus], Awaitable[None]], session: Session, live: Live) -> None:
+    """Tell the status whenever it has changed, until cancelled or the page is gone."""
+    told = None
+    with contextlib.suppress(WebSocketDisconnect, RuntimeError):
+        while True:
+            source = live.get(session.view.recording)
+            status = source.status(session.id) if source is not None else None
+            if status is not None and status != told:
+                await tell(status)
+            told = status
+            await asyncio.sleep(EVERY)

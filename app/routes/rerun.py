@@ -1,0 +1,139 @@
+"""What the page asks for about rerun: to record what a tab looks at, the recording, and rerun's web viewer."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import secrets
+import tempfile
+import threading
+from collections.abc import AsyncIterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from fastapi import FastAPI
+from fastapi.responses import FileResponse, StreamingResponse
+from starlette.concurrency import run_in_threadpool
+from starlette.exceptions import HTTPException
+
+from lineseg.readers import Cancelled
+
+from ..places import data_folder
+from ..session.sessions import Sessions
+from ..shelf.library import Library
+from .attachment import attachment
+
+if TYPE_CHECKING:
+    from ..rerun.record import Run
+
+MOST_KEPT = 8
+TELL_SECONDS = 0.1
+MISSING = 501
+
+
+class RerunFiles:
+    """A folder with what was recorded, the newest few, and with the files of the viewer once they are asked for."""
+
+    def __init__(self) -> None:
+        self._temporary = tempfile.TemporaryDirectory(prefix="lineseg-rerun-", ignore_cleanup_errors=True)
+        self._folder = Path(self._temporary.name)
+        self._kept: list[str] = []
+        self._unpacking = threading.Lock()
+
+    def close(self) -> None:
+        self._temporary.cleanup()
+
+    def recorded(self, id: str) -> Path | None:
+        return self._folder / f"{id}.rrd" if id in self._kept else None
+
+    def viewer(self, name: str) -> Path:
+        """A file of the viewer; blocks while they are unpacked."""
+        from ..rerun.viewer import unpack
+
+        with self._unpacking:
+            if not (self._folder / "unpacked").exists():
+                unpack(self._folder)
+                (self._folder / "unpacked").touch()
+        return self._folder / name
+
+    async def record(self, run: Run) -> AsyncIterator[str]:
+        """Record, and tell in lines of JSON how far it is, at last the id of the recording, or why there is none.
+
+        Whoever stops listening stops the work.
+        """
+        from ..rerun.record import save
+
+        id, stop, told = secrets.token_urlsafe(12), threading.Event(), {"done": 0, "total": len(run.frames)}
+
+        def advance(done: int, total: int) -> None:
+            if stop.is_set():
+                raise Cancelled("the recording for rerun was stopped")
+            told["done"] = done
+
+        work = asyncio.create_task(asyncio.to_thread(save, run, self._folder / f"{id}.rrd", advance))
+        try:
+            while not work.done():
+                yield _line(told)
+                await asyncio.wait([work], timeout=TELL_SECONDS)
+            if (error := work.exception()) is not None:
+                yield _line({"message": f"this could not be recorded: {error}"})
+                return
+            self._keep(id)
+            yield _line({"recording": id, "bytes": (self._folder / f"{id}.rrd").stat().st_size})
+        finally:
+            stop.set()
+
+    def _keep(self, id: str) -> None:
+        self._kept.append(id)
+        while len(self._kept) > MOST_KEPT:
+            (self._folder / f"{self._kept.pop(0)}.rrd").unlink(missing_ok=True)
+
+
+def add_rerun(app: FastAPI, library: Library, sessions: Sessions) -> RerunFiles:
+    """Routes of /api/rerun and /rerun/; what is returned is to be closed."""
+    files = RerunFiles()
+
+    @app.post("/api/rerun")
+    async def record(session: str = "", steps: bool = False) -> StreamingResponse:
+        shown = sessions.shown(session)
+        try:
+            from ..rerun.record import Run
+        except ModuleNotFoundError as error:
+            raise HTTPException(MISSING, str(error)) from None
+        view, recording = shown.view, shown.recording
+        frames = range(view.frame, view.frame + 1) if steps else range(len(recording))
+        run = Run(recording, library.label(view.recording), view.method, view.params, frames, steps)
+        return StreamingResponse(files.record(run), media_type="application/x-ndjson")
+
+    @app.get("/api/rerun/{id}.rrd")
+    async def recorded(id: str, name: str | None = None) -> FileResponse:
+        file = files.recorded(id)
+        if file is None:
+            raise HTTPException(
+                404, f"this recording is no longer kept, only the newest {MOST_KEPT} are; record it again"
+            )
+        headers = attachment(name, "rrd") if name is not None else {}
+        return FileResponse(file, media_type="application/octet-stream", headers=headers)
+
+    @app.get("/rerun/")
+    async def page() -> FileResponse:
+        return FileResponse(data_folder("static") / "rerun" / "viewer.html", headers={"Cache-Control": "no-cache"})
+
+    @app.get("/rerun/{name}")
+    async def viewer(name: str) -> FileResponse:
+        types = {"re_viewer.js": "text/javascript", "re_viewer_bg.wasm": "application/wasm"}
+        if name not in types:
+            raise HTTPException(404, f"rerun's viewer has no file {name[:40]!r}")
+        try:
+            file = await run_in_threadpool(files.viewer, name)
+        except ModuleNotFoundError as error:
+            raise HTTPException(MISSING, str(error)) from None
+        except OSError as error:
+            raise HTTPException(500, str(error)) from None
+        return FileResponse(file, media_type=types[name], headers={"Cache-Control": "no-cache"})
+
+    return files
+
+
+def _line(message: dict[str, Any]) -> str:
+    return json.dumps(message) + "\n"

@@ -1,0 +1,222 @@
+"""The sockets of a browser tab: its messages, and its scene."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import logging
+from concurrent.futures import CancelledError
+from dataclasses import asdict, replace
+from importlib.metadata import version
+
+from fastapi import FastAPI
+from pydantic import BaseModel
+from starlette.exceptions import HTTPException
+from starlette.requests import Request
+from starlette.responses import RedirectResponse, Response
+from starlette.websockets import WebSocket, WebSocketDisconnect
+
+from lineseg import EXTRACTORS
+
+from ..session.session import Session
+from ..session.sessions import Sessions, TooManySessionsError
+from ..shelf.library import Library
+from ..view import STRIP_SCORES, View
+from ..wire import (
+    BadMessageError,
+    Cancel,
+    Change,
+    Close,
+    Failure,
+    Follow,
+    Hello,
+    MethodEntry,
+    Recordings,
+    ScoreEntry,
+    Surveyed,
+    Welcome,
+    parse,
+)
+from .live_status import tell_live
+from .viser_relay import client_page, relay
+
+# What a tab may change while it mirrors another.
+OWN = frozenset({"dark", "camera", "layers"})
+MIRRORING = "this tab follows a presenter; stop following to change what it shows"
+
+NO_HELLO, CLOSED, TOO_MANY = 4000, 4001, 4002
+SEND_SECONDS = 30.0
+
+log = logging.getLogger(__name__)
+
+
+def add_sockets(app: FastAPI, library: Library, sessions: Sessions, topic: str | None) -> None:
+    """Routes of /api/session and /s/{session}/viser/."""
+    methods = [MethodEntry.of(method) for method in EXTRACTORS.values()]
+    scores = [ScoreEntry(**asdict(score)) for score in STRIP_SCORES.values()]
+
+    @app.websocket("/api/session")
+    async def session_socket(socket: WebSocket) -> None:
+        await socket.accept()
+        with contextlib.suppress(WebSocketDisconnect):
+            hello = await _hello(socket)
+            if hello is None:
+                return
+            try:
+                session, resumed, complaint = await _session_of(hello, library, sessions, topic)
+            except TooManySessionsError as error:
+                await _tell(socket, Failure(where="server", message=str(error)))
+                await socket.close(TOO_MANY)
+                return
+            welcome = Welcome(
+                session=session.id,
+                resumed=resumed,
+                viser=f"/s/{session.id}/viser/",
+                version=version("lineseg"),
+                methods=methods,
+                scores=scores,
+                recordings=library.entries(),
+                uploadLimit=library.uploads.limit,
+                presenter=session.presenter.id,
+            )
+            await _converse(socket, session, sessions, library, hello, welcome, complaint)
+
+    @app.websocket("/s/{id}/viser")
+    @app.websocket("/s/{id}/viser/")
+    async def viser_socket(socket: WebSocket, id: str) -> None:
+        session = sessions.get(id)
+        if session is None:
+            await socket.close(CLOSED)
+            return
+        await relay(socket, session.viser_port)
+
+    @app.get("/s/{id}/viser/")
+    async def viser_page(request: Request, id: str) -> Response:
+        if sessions.get(id) is None:
+            raise HTTPException(404, "this scene is closed; reload the page")
+        return client_page(request)
+
+    @app.get("/s/{id}/viser")
+    async def viser_without_slash(id: str) -> Response:
+        return RedirectResponse(f"/s/{id}/viser/")
+
+
+async def _hello(socket: WebSocket) -> Hello | None:
+    try:
+        message = parse(await socket.receive_text())
+    except BadMessageError as error:
+        await _tell(socket, Failure(where="server", message=str(error)))
+        message = None
+    if isinstance(message, Hello):
+        return message
+    await socket.close(NO_HELLO, "the first message must be a hello")
+    return None
+
+
+async def _session_of(
+    hello: Hello, library: Library, sessions: Sessions, topic: str | None
+) -> tuple[Session, bool, str | None]:
+    """The former session or a new one with the page's View; and a complaint if that View cannot be had."""
+    changes = hello.view.changes() if hello.view is not None else {}
+    if not changes.get("recording", True):
+        del changes["recording"]
+    former = sessions.resume(hello.session)
+    if former is not None:
+        return former, True, former.restore(changes)
+    view, complaint = View(recording=library.first(), topic=topic).salvaged(changes)
+    if view.topic is None and view.recording == library.first():
+        view = replace(view, topic=topic)
+    return await sessions.open(view), False, complaint
+
+
+async def _converse(
+    socket: WebSocket,
+    session: Session,
+    sessions: Sessions,
+    library: Library,
+    hello: Hello,
+    welcome: Welcome,
+    complaint: str | None,
+) -> None:
+    loop = asyncio.get_running_loop()
+
+    def send(message: BaseModel) -> None:
+        """From the worker's thread; waits until the message is on its way, so that a slow page slows its worker."""
+        sending = asyncio.run_coroutine_threadsafe(_tell(socket, message), loop)
+        try:
+            sending.result(SEND_SECONDS)
+        except (CancelledError, TimeoutError, WebSocketDisconnect, RuntimeError):
+            log.debug("a message to %s was lost", session.id[:6])
+
+    def announce() -> None:
+        asyncio.run_coroutine_threadsafe(_tell(socket, Recordings(recordings=library.entries())), loop)
+
+    def hang_up() -> None:
+        asyncio.run_coroutine_threadsafe(_hang_up(socket), loop)
+
+    forget = library.on_change(announce)
+    telling = asyncio.create_task(tell_live(lambda message: _tell(socket, message), session, library.live))
+    try:
+        await _tell(socket, welcome)
+        if complaint is not None:
+            await _tell(socket, Failure(where="view", message=complaint, rev=hello.rev))
+        session.attach(send, hang_up, hello.rev)
+        if hello.follow is not None:
+            await _follow(socket, session, sessions, hello.follow)
+        await _listen(socket, session, sessions)
+    finally:
+        telling.cancel()
+        forget()
+        session.detach()
+
+
+async def _listen(socket: WebSocket, session: Session, sessions: Sessions) -> None:
+    """Take the page's messages until it goes, or its session ends."""
+    while True:
+        try:
+            message = parse(await socket.receive_text())
+        except BadMessageError as error:
+            await _tell(socket, Failure(where=error.where, message=str(error), rev=error.rev))
+            continue
+        match message:
+            case Change() if session.following and not OWN.issuperset(message.patch.model_fields_set):
+                await _tell(socket, Failure(where="view", message=MIRRORING, rev=message.rev))
+            case Follow():
+                await _follow(socket, session, sessions, message.id)
+            case Change():
+                changes = message.patch.changes()
+                try:
+                    session.change(changes, message.rev)
+                except ValueError as error:
+                    where = "params" if "params" in changes else "view"
+                    await _tell(socket, Failure(where=where, message=str(error), rev=message.rev))
+            case Cancel():
+                session.cancel()
+            case Close():
+                await sessions.close(session)
+                return
+            case Hello():
+                await _tell(socket, Failure(where="server", message="this tab has said hello already"))
+
+
+async def _follow(socket: WebSocket, session: Session, sessions: Sessions, id: str | None) -> None:
+    try:
+        presenter = sessions.presenter(id) if id is not None else None
+    except ValueError as error:
+        await asyncio.to_thread(session.follow, None)
+        session.presenter_is("gone")
+        await _tell(socket, Failure(where="view", message=str(error)))
+        return
+    await asyncio.to_thread(session.follow, presenter)
+
+
+async def _hang_up(socket: WebSocket) -> None:
+    with contextlib.suppress(RuntimeError):
+        await socket.close(CLOSED, "this session was closed, because it was idle or the server stops")
+
+
+async def _tell(socket: WebSocket, message: BaseModel) -> None:
+    if isinstance(message, Surveyed):
+        await socket.send_bytes(message.as_bytes())
+        return
+    await socket.send_text(message.model_dump_json())

@@ -1,0 +1,222 @@
+"""The page's socket for long work: sensitivity curves, maps, auto-tuning; each the newest wins, and can be stopped."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import hashlib
+import json
+import logging
+import math
+import threading
+from collections.abc import Callable, Iterator
+from dataclasses import asdict
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+import numpy as np
+from fastapi import FastAPI
+from pydantic import Field, TypeAdapter, ValidationError
+from starlette.exceptions import HTTPException
+from starlette.websockets import WebSocket, WebSocketDisconnect
+
+from lineseg import Cancelled, Params
+from lineseg.sweep import MEASURES, pool
+from lineseg.sweep.workers import Pool
+from lineseg.tuning import Objective, RecordingBlocks, Trial, Tuning
+
+from ..session.sessions import Sessions
+from ..session.strip import step_back
+from ..tuning.sensitivity import Subject, curves, relief
+from ..wire import Message, Name, Number, sentence
+
+# Of each recording; more would make a trial slow, and say little more.
+MOST_FRAMES = 400
+MOST_TRIALS = 2000
+JUDGE_EVERY = 10
+SURVEYED = "region-growing"
+
+log = logging.getLogger(__name__)
+Values = Annotated[dict[Name, int | Number], Field(max_length=64)]
+
+
+class Curves(Message):
+    type: Literal["curves"]
+    job: int
+    params: Values
+
+
+class Map(Message):
+    type: Literal["map"]
+    job: int
+    params: Values
+    x: Name
+    y: Name
+    measure: Name
+
+
+class Auto(Message):
+    """anew: forget the trials of former runs."""
+
+    type: Literal["auto"]
+    job: int
+    params: Values
+    objective: Literal["truth", "label-free"]
+    thresholds: Annotated[list[Name], Field(max_length=64)]
+    trials: Annotated[int, Field(ge=1, le=MOST_TRIALS)]
+    anew: bool = False
+
+
+class Stop(Message):
+    type: Literal["stop"]
+    what: Literal["curves", "map", "auto"]
+
+
+Wish = Curves | Map | Auto | Stop
+_WISH: TypeAdapter[Wish] = TypeAdapter(Annotated[Wish, Field(discriminator="type")])
+Answers = Iterator[dict[str, Any]]
+
+
+class Slot:
+    """One kind of work: beginning anew stops what is under way. Answers go out in the thread of the work."""
+
+    def __init__(self, name: str, send: Callable[[dict[str, Any]], None]) -> None:
+        self._name, self._send = name, send
+        self._stop: np.ndarray | None = None
+        self._thread: threading.Thread | None = None
+
+    def begin(self, job: int, subject: Subject, work: Callable[[Pool], Answers]) -> None:
+        self.stop()
+        self._stop = subject.stop
+        self._thread = threading.Thread(
+            target=self._run, args=(job, work, self._thread), name=f"tuning {self._name}", daemon=True
+        )
+        self._thread.start()
+
+    def stop(self) -> None:
+        if self._stop is not None:
+            self._stop[0] = True
+
+    def close(self) -> None:
+        """Stop; blocks until the work has ended."""
+        self.stop()
+        if self._thread is not None:
+            self._thread.join(timeout=10)
+
+    def _run(self, job: int, work: Callable[[Pool], Answers], former: threading.Thread | None) -> None:
+        if former is not None:
+            former.join()
+        step_back()
+        about = {"type": self._name, "job": job}
+        try:
+            with pool() as workers:
+                for answer in work(workers):
+                    self._send(about | answer)
+            self._send(about | {"done": True})
+        except Cancelled:
+            self._send(about | {"done": True, "stopped": True})
+        except (ValueError, OSError) as error:
+            self._send(about | {"done": True, "message": str(error)})
+        except Exception as error:
+            log.exception("%s failed", self._name)
+            self._send(about | {"done": True, "message": f"this failed: {type(error).__name__}: {error}"})
+
+
+def add_tuning(app: FastAPI, sessions: Sessions, folder: Path) -> None:
+    """The socket /api/tuning?session=…; folder: where studies are kept."""
+
+    @app.websocket("/api/tuning")
+    async def tuning_socket(socket: WebSocket, session: str = "") -> None:
+        await socket.accept()
+        loop = asyncio.get_running_loop()
+
+        def send(answer: dict[str, Any]) -> None:
+            with contextlib.suppress(Exception):
+                asyncio.run_coroutine_threadsafe(socket.send_text(json.dumps(answer)), loop).result(30)
+
+        slots = {name: Slot(name, send) for name in ("curves", "map", "auto")}
+        measures = {"type": "measures", "measures": [asdict(each) for each in MEASURES.values()]}
+        with contextlib.suppress(WebSocketDisconnect, RuntimeError):
+            await socket.send_text(json.dumps(measures))
+            while True:
+                trouble = _obey(await socket.receive_text(), slots, sessions, session, folder)
+                if trouble is not None:
+                    await socket.send_text(json.dumps({"type": "error", "message": trouble}))
+        await asyncio.gather(*(asyncio.to_thread(slot.close) for slot in slots.values()))
+
+
+def _obey(text: str, slots: dict[str, Slot], sessions: Sessions, session: str, folder: Path) -> str | None:
+    """Begin what is wished, or one sentence why not."""
+    try:
+        wish = _WISH.validate_json(text)
+        if isinstance(wish, Stop):
+            slots[wish.what].stop()
+        else:
+            shown = sessions.shown(session)
+            if shown.view.method != SURVEYED:
+                raise ValueError("only the thresholds of region growing can be tuned yet")
+            subject = Subject(shown.recording, Params().but(**wish.params))
+            slots[wish.type].begin(wish.job, subject, _work_of(wish, subject, folder))
+    except ValidationError as error:
+        return sentence(error)
+    except HTTPException as error:
+        return error.detail
+    except ValueError as error:
+        return str(error)
+    return None
+
+
+def _work_of(wish: Curves | Map | Auto, subject: Subject, folder: Path) -> Callable[[Pool], Answers]:
+    match wish:
+        case Curves():
+            names = [name for name, _, _ in Params.knobs()]
+            return lambda workers: curves(subject, workers, names)
+        case Map(x=x, y=y, measure=measure):
+            if x == y or measure not in MEASURES or not {x, y} <= {name for name, _, _ in Params.knobs()}:
+                raise ValueError(f"a map needs two thresholds and one of {', '.join(MEASURES)}")
+            return lambda workers: relief(subject, workers, x, y, measure)
+        case Auto():
+            return lambda workers: search(subject, workers, wish, folder)
+
+
+def search(subject: Subject, workers: Pool, wish: Auto, folder: Path) -> Answers:
+    """Trials as they come, now and then what matters and what was gained; stopping ends with a verdict too."""
+    objective = Objective(wish.objective)
+    blocks = RecordingBlocks(subject.recording, workers, objective.kind == "label-free", MOST_FRAMES)
+    path = study_path(folder, blocks, wish)
+    if wish.anew:
+        path.unlink(missing_ok=True)
+    tuning = Tuning(blocks, objective, path, wish.thresholds, subject.params)
+    yield {
+        "text": objective.text,
+        "caution": objective.caution,
+        "thresholds": wish.thresholds,
+        "study": str(path),
+        "trials": [_trial(trial) for trial in tuning.trials()],
+    }
+    for tried in range(1, wish.trials + 1):
+        if subject.stop[0]:
+            break
+        yield {"trials": [_trial(tuning.step())]}
+        if tried % JUDGE_EVERY == 0:
+            yield _judged(tuning)
+    yield _judged(tuning)
+
+
+def study_path(folder: Path, blocks: RecordingBlocks, wish: Auto) -> Path:
+    """A file of its own for each recording, objective, and set of thresholds with what the others are."""
+    fixed = {name: value for name, value in wish.params.items() if name not in wish.thresholds}
+    about = json.dumps([blocks.name, list(blocks.frames), wish.objective, wish.thresholds, fixed], sort_keys=True)
+    folder.mkdir(parents=True, exist_ok=True)
+    return folder / f"{hashlib.sha256(about.encode()).hexdigest()[:16]}.db"
+
+
+def _trial(trial: Trial) -> dict[str, Any]:
+    score = None if math.isnan(trial.score) else round(trial.score, 5)
+    return {"number": trial.number, "params": asdict(trial.params), "score": score}
+
+
+def _judged(tuning: Tuning) -> dict[str, Any]:
+    verdict = tuning.verdict()
+    told = {"params": asdict(verdict.params), "text": verdict.text, "gained": verdict.gained}
+    return {"importance": tuning.importance(), "verdict": told}

@@ -1,0 +1,224 @@
+"""View → Picture: everything that is drawn, as arrays. Pure: the same View gives the same Picture."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lineseg import Decision, Recording, Scan, Segment, difference
+from lineseg.difference import KEPT
+
+from ..frame.findings import Findings
+from ..frame.judge import Judged
+from ..view import View
+from .palette import DARK, LIGHT, Colours, Theme
+from .replay import State, decision_geometry, state_at
+from .shapes import Bounds, Lines, Points, dashed, joined, lines_between, points_at
+
+FRAMES_FOR_BOUNDS = 60
+DASH = 0.10
+FALSE_DASH = 0.04
+MISSED_DASH = 0.20
+NORMAL = 0.3
+FAR = 100.0
+
+
+@dataclass(frozen=True, eq=False)
+class Picture:
+    """What is drawn, by the name of its node; what is absent is hidden. bounds: x₁, y₁, x₂, y₂ of the recording [m]."""
+
+    points: dict[str, Points]
+    lines: dict[str, Lines]
+    bounds: Bounds
+
+
+def bounds_of(recording: Recording) -> Bounds:
+    """A box around the laser and nearly all points of the recording; stray far points do not widen it."""
+    frames = np.unique(np.linspace(0, len(recording) - 1, FRAMES_FOR_BOUNDS).astype(int)) if len(recording) else []
+    scans = [recording[int(frame)] for frame in frames]
+    xy = np.concatenate([scan.xy[scan.valid] for scan in scans]) if scans else np.empty((0, 2))
+    if not len(xy):
+        return -5.0, -5.0, 5.0, 5.0
+    low, high = np.percentile(xy, [2, 98], axis=0)
+    margin = 0.05 * max(float((high - low).max()), 1.0)
+    low, high = np.minimum(low, 0.0) - margin, np.maximum(high, 0.0) + margin
+    return float(low[0]), float(low[1]), float(high[0]), float(high[1])
+
+
+def extent_of(scan: Scan, bounds: Bounds) -> Bounds:
+    """The box around the points of one scan; that of the recording if there are none."""
+    xy = scan.xy[scan.valid]
+    if not len(xy):
+        return bounds
+    (x1, y1), (x2, y2) = xy.min(axis=0), xy.max(axis=0)
+    return float(x1), float(y1), float(x2), float(y2)
+
+
+def picture(
+    view: View,
+    recording: Recording,
+    found: Findings,
+    bounds: Bounds,
+    pinned: Findings | None = None,
+    judged: Judged | None = None,
+) -> Picture:
+    """The picture of a View; its frame and step must lie within the recording and the trace.
+
+    pinned: what `view.against` found in this frame; judged: what the truth says of it.
+    """
+    theme = DARK if view.dark else LIGHT
+    state = state_at(found, view.step)
+    points = _points(view, found, state, theme)
+    lines = _lines(view, recording, found, state, bounds, theme)
+    if pinned is not None:
+        lines["pinned"] = pinned_lines(pinned, found, theme)
+    if judged is not None and view.layers.verdicts and view.step is None:
+        lines = {name: drawn for name, drawn in lines.items() if name != "segments"} | verdicts(found, judged, theme)
+    if view.step is not None and view.layers.replay:
+        of_decision = decision_geometry(found, view.step, theme)
+        points |= of_decision[0]
+        lines |= of_decision[1]
+    if view.selected is not None:
+        points["selected"], lines["selected ray"] = selected(found.scan, view.selected, theme)
+    return Picture(points, lines, bounds)
+
+
+def _points(view: View, found: Findings, state: State, theme: Theme) -> dict[str, Points]:
+    layers, points = view.layers, {}
+    if layers.points:
+        points["points"] = scan_points(found.scan, state, theme)
+    if layers.endpoints:
+        points["endpoints"] = points_at(np.concatenate((state.starts, state.ends)), np.tile(state.colours, (2, 1)))
+    if layers.seeds:
+        points["seeds"] = seed_points(found, state, theme)
+    return points
+
+
+def _lines(
+    view: View, recording: Recording, found: Findings, state: State, bounds: Bounds, theme: Theme
+) -> dict[str, Lines]:
+    layers, lines = view.layers, {}
+    if layers.grid:
+        lines["grid"] = grid(bounds, theme)
+    if layers.laser:
+        lines["laser"] = laser(bounds, theme)
+    if layers.truth:
+        lines["truth"] = truth(recording, view.frame, theme)
+    if layers.invalid:
+        lines["invalid"] = invalid_beams(found.scan, bounds, theme)
+    if layers.segments:
+        lines["segments"] = lines_between(state.starts, state.ends, state.colours)
+    if layers.dropped:
+        lines["dropped"] = dropped_lines(found, state.drops, theme)
+    if layers.normals and view.step is None:
+        lines["normals"] = normals(found.extraction.segments, state.colours)
+    return lines
+
+
+def scan_points(scan: Scan, state: State, theme: Theme) -> Points:
+    """Every valid point, in the colour of its line, grey where it has none."""
+    labels = state.labels[scan.valid]
+    colours = np.concatenate((state.colours, np.array([theme.point], dtype=np.uint8)))[labels]
+    return points_at(scan.xy[scan.valid], colours)
+
+
+def seed_points(found: Findings, state: State, theme: Theme) -> Points:
+    """The windows from which the present lines were grown."""
+    windows = [found.trace.beams(*found.seeds[candidate]) for candidate in state.candidates if candidate in found.seeds]
+    beams = np.concatenate(windows) if windows else np.empty(0, dtype=int)
+    return points_at(found.scan.xy[beams], theme.strong)
+
+
+def dropped_lines(found: Findings, drops: Sequence[Decision], theme: Theme) -> Lines:
+    """Candidates that were not kept, dashed between their outermost points."""
+    ends = np.array([found.ends(drop) for drop in drops]).reshape(-1, 2, 2)
+    return dashed(ends[:, 0], ends[:, 1], DASH, theme.faint)
+
+
+def pinned_lines(pinned: Findings, found: Findings, theme: Theme) -> Lines:
+    """The segments of A as broad bands; those that are no longer the same stand out."""
+    fates = difference(pinned.extraction, found.extraction).fates_a
+    colours = np.where((fates == KEPT)[:, None], theme.pinned, theme.changed).astype(np.uint8)
+    segments = pinned.extraction.segments
+    starts, ends = (np.array([getattr(s, name) for s in segments]).reshape(-1, 2) for name in ("start", "end"))
+    return lines_between(starts, ends, colours)
+
+
+def verdicts(found: Findings, judged: Judged, theme: Theme) -> dict[str, Lines]:
+    """Matched segments are drawn through, false ones dotted, missed true lines dashed: no colour is needed."""
+    segments = found.extraction.segments
+    starts, ends = (np.array([getattr(s, name) for s in segments]).reshape(-1, 2) for name in ("start", "end"))
+    matched, missed = judged.matching.line_of >= 0, judged.matching.segment_of < 0
+    return {
+        "matched": lines_between(starts[matched], ends[matched], theme.matched),
+        "false": dashed(starts[~matched], ends[~matched], FALSE_DASH, theme.false),
+        "missed": dashed(judged.ends[missed, 0], judged.ends[missed, 1], MISSED_DASH, theme.missed),
+    }
+
+
+def normals(segments: Sequence[Segment], colours: Colours) -> Lines:
+    """The unit normal of each segment, shortened, at its middle."""
+    middles = np.array([np.add(s.start, s.end) / 2 for s in segments]).reshape(-1, 2)
+    along = np.array([s.line[:2] for s in segments]).reshape(-1, 2)
+    return lines_between(middles, middles + NORMAL * along, colours)
+
+
+def invalid_beams(scan: Scan, bounds: Bounds, theme: Theme) -> Lines:
+    """A tick outside the picture's middle in the direction of each beam without a return."""
+    bearings = scan.bearings[~scan.valid]
+    toward = np.column_stack((np.cos(bearings), np.sin(bearings)))
+    radius = min(max(map(abs, bounds)), scan.range_max if math.isfinite(scan.range_max) else math.inf)
+    return lines_between(0.96 * radius * toward, radius * toward, theme.invalid)
+
+
+def selected(scan: Scan, beam: int, theme: Theme) -> tuple[Points, Lines]:
+    """The beam that is explained, from the laser to its point; without a return, into the distance."""
+    point = scan.xy[beam]
+    bearing = float(scan.bearings[beam])
+    end = point if scan.valid[beam] else (FAR * math.cos(bearing), FAR * math.sin(bearing))
+    return points_at(point, theme.candidate), lines_between((0.0, 0.0), end, theme.candidate)
+
+
+def truth(recording: Recording, frame: int, theme: Theme) -> Lines:
+    """The true walls, seen from the laser; none where they are unknown."""
+    if recording.walls is None or recording.poses is None:
+        return lines_between(np.empty((0, 2)), np.empty((0, 2)), theme.truth)
+    x, y, heading = recording.poses[frame]
+    cos, sin = math.cos(heading), math.sin(heading)
+    ends = (recording.walls.reshape(-1, 2, 2) - (x, y)) @ np.array([[cos, -sin], [sin, cos]])
+    return lines_between(ends[:, 0], ends[:, 1], theme.truth)
+
+
+def laser(bounds: Bounds, theme: Theme) -> Lines:
+    """The laser as an arrowhead that looks along its x axis."""
+    size = 0.012 * max(bounds[2] - bounds[0], bounds[3] - bounds[1])
+    tip, left, notch, right = size * np.array([(1.4, 0.0), (-0.9, 0.8), (-0.4, 0.0), (-0.9, -0.8)])
+    return lines_between([tip, left, notch, right], [left, notch, right, tip], theme.laser)
+
+
+def grid(bounds: Bounds, theme: Theme) -> Lines:
+    """Lines 1, 2 or 5 × 10ⁿ m apart, about a dozen across the recording; the axes stand out."""
+    spacing = grid_spacing(max(bounds[2] - bounds[0], bounds[3] - bounds[1]))
+    x1, y1 = (spacing * (math.floor(low / spacing) - 1) for low in bounds[:2])
+    x2, y2 = (spacing * (math.ceil(high / spacing) + 1) for high in bounds[2:])
+    xs, ys = np.arange(x1, x2 + spacing / 2, spacing), np.arange(y1, y2 + spacing / 2, spacing)
+    upright = _parallels(xs, lambda x: ((x, y1), (x, y2)), theme)
+    level = _parallels(ys, lambda y: ((x1, y), (x2, y)), theme)
+    return joined(upright, level)
+
+
+def _parallels(places: NDArray, ends_at: Callable[[float], tuple], theme: Theme) -> Lines:
+    colours = np.where(np.abs(places)[:, None] < 1e-9, theme.axis, theme.grid).astype(np.uint8)
+    ends = np.array([ends_at(float(place)) for place in places])
+    return lines_between(ends[:, 0], ends[:, 1], colours)
+
+
+def grid_spacing(wide: float) -> float:
+    """1, 2 or 5 × 10ⁿ m, so that 6 to 15 spacings make the width."""
+    rough = wide / 12
+    power = 10.0 ** math.floor(math.log10(rough))
+    return next(step * power for step in (1, 2, 5, 10) if step * power >= rough)

@@ -1,0 +1,154 @@
+"""The state after some decision of the trace, and the geometry of that decision."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lineseg import Decision, Scan
+
+from ..frame.findings import Findings
+from .palette import SEGMENTS, Colours, Theme, segment_colours
+from .shapes import Lines, Points, joined, lines_between, points_at
+
+Line = tuple[float, float, float]
+NO_XY = np.empty((0, 2))
+
+
+@dataclass(frozen=True, eq=False)
+class State:
+    """The lines there are at some moment.
+
+    labels: (beams,) which of the lines a beam belongs to, or −1; colours: (lines, 3); starts, ends: (lines, 2) [m];
+    candidates: the growth each line came from; drops: the lines that had been dropped by then.
+    """
+
+    labels: NDArray[np.int32]
+    colours: Colours
+    starts: NDArray
+    ends: NDArray
+    candidates: tuple[int, ...]
+    drops: tuple[Decision, ...]
+
+
+def state_at(found: Findings, step: int | None) -> State:
+    """After decision `step`; the whole result if step is None."""
+    if step is None:
+        return _final(found)
+    labels = np.full(len(found.scan), -1, dtype=np.int32)
+    lines = found.trace.lines_at(step)
+    starts, ends = np.empty((len(lines), 2)), np.empty((len(lines), 2))
+    for index, traced in enumerate(lines):
+        labels[found.trace.beams(traced.first, traced.last)] = index
+        starts[index] = foot(found.scan.xy[traced.first], traced.line)
+        ends[index] = foot(found.scan.xy[traced.last], traced.line)
+    candidates = tuple(traced.candidate for traced in lines)
+    drops = tuple(drop for drop in found.drops if drop.index <= step)
+    return State(labels, _candidate_colours(found, candidates), starts, ends, candidates, drops)
+
+
+def _final(found: Findings) -> State:
+    segments = found.extraction.segments
+    starts = np.array([segment.start for segment in segments], dtype=float).reshape(-1, 2)
+    ends = np.array([segment.end for segment in segments], dtype=float).reshape(-1, 2)
+    lines = found.trace.lines_at(len(found.trace) - 1) if len(found.trace) else ()
+    candidates = tuple(line.candidate for line in lines)
+    return State(found.extraction.labels, segment_colours(segments), starts, ends, candidates, found.drops)
+
+
+def _candidate_colours(found: Findings, candidates: tuple[int, ...]) -> Colours:
+    """A line has the colour of the segment it ends in from the beginning on; others take turns."""
+    of_segment = segment_colours(found.extraction.segments)
+    by_first = {segment.first: colour for segment, colour in zip(found.extraction.segments, of_segment, strict=True)}
+    last = found.trace.lines_at(len(found.trace) - 1)
+    known = {line.candidate: by_first[line.first] for line in last if line.first in by_first}
+    chosen = [known.get(candidate, SEGMENTS[candidate % len(SEGMENTS)]) for candidate in candidates]
+    return np.array(chosen, dtype=np.uint8).reshape(-1, 3)
+
+
+def decision_geometry(found: Findings, step: int, theme: Theme) -> tuple[dict[str, Points], dict[str, Lines]]:
+    """The window under test, the fitted line with its ε band, P and P′ with the beam, the candidate point."""
+    decision, scan = found.trace[step], found.scan
+    points: dict[str, Points] = {}
+    lines: dict[str, Lines] = {}
+    refused = found.trace.vocabulary.jump_of(decision.kind) in ("refusal", "drop")
+    tone = theme.refused if refused else theme.accepted
+    inside = found.trace.beams(decision.first, decision.last)
+    if decision.phase not in ("growth", "overlap", "endpoints") or decision.kind == "line dropped":
+        points["window"] = points_at(scan.xy[inside], tone)
+    if decision.beam >= 0:
+        points["candidate"] = points_at(scan.xy[decision.beam], theme.candidate)
+    if is_line(decision.line):
+        touched = [*inside, decision.beam] if decision.beam >= 0 else list(inside)
+        start, end = span(scan.xy[touched], decision.line)
+        lines["growing"] = lines_between(start, end, tone)
+        width = band_width(found, decision)
+        if width:
+            lines["band"] = band(start, end, decision.line, width, theme)
+    if decision.other is not None and is_line(decision.other):
+        start, end = span(scan.xy[inside], decision.other)
+        lines["band"] = lines_between(start, end, theme.candidate)
+    if decision.beam >= 0 and is_line(decision.line):
+        points["predicted"], lines["ray"] = prediction(scan, decision, theme)
+    if decision.ends is not None:
+        lines["growing"] = lines_between(decision.ends[:2], decision.ends[2:], tone)
+        outermost = scan.xy[[decision.first, decision.last]]
+        lines["ray"] = lines_between(outermost, np.reshape(decision.ends, (2, 2)), theme.candidate)
+        points["candidate"] = points_at(outermost, theme.candidate)
+    return points, lines
+
+
+def band_width(found: Findings, decision: Decision) -> float:
+    """How far from the line a point may lie at this decision [m]; 0 where that is not asked."""
+    if decision.phase in ("seed", "growth") and decision.kind not in ("line kept", "line dropped"):
+        return found.trace.params.epsilon
+    units = {name: knob.unit for name, _, knob in found.trace.params.knobs()}
+    return decision.limit if decision.beam >= 0 and units.get(decision.check) == "m" else 0.0
+
+
+def prediction(scan: Scan, decision: Decision, theme: Theme) -> tuple[Points, Lines]:
+    """P′, where the beam meets the line, the beam, and the distance that was compared."""
+    point, bearing = scan.xy[decision.beam], float(scan.bearings[decision.beam])
+    toward = np.array([math.cos(bearing), math.sin(bearing)])
+    a, b, c = decision.line
+    slope = a * toward[0] + b * toward[1]
+    predicted = -c / slope * toward if abs(slope) > 1e-6 and -c / slope > 0 else np.full(2, np.nan)
+    near = np.linalg.norm(predicted - point) < 5.0
+    reach = predicted if near and np.linalg.norm(predicted) > np.linalg.norm(point) else point
+    beam = lines_between((0.0, 0.0), reach, theme.faint)
+    other_end = predicted if decision.check == "delta" else foot(point, decision.line)
+    measured = lines_between(point, other_end, theme.candidate)
+    return points_at(predicted if near else NO_XY, theme.strong), joined(beam, measured)
+
+
+def band(start: NDArray, end: NDArray, line: Line, width: float, theme: Theme) -> Lines:
+    """Two parallels at ±width."""
+    shift = width * np.array(line[:2])
+    return lines_between(np.stack((start + shift, start - shift)), np.stack((end + shift, end - shift)), theme.faint)
+
+
+def span(xy: NDArray, line: Line) -> tuple[NDArray, NDArray]:
+    """The part of the line that lies beside the points, a little longer at both ends."""
+    feet = foot(xy[np.isfinite(xy).all(axis=1)], line)
+    along = np.array([-line[1], line[0]])
+    if not len(feet):
+        return np.full(2, np.nan), np.full(2, np.nan)
+    places = feet @ along
+    longer = min(0.15 * max(float(np.ptp(places)), 0.1), 0.3)
+    on_line = feet[0] - places[0] * along
+    return on_line + (places.min() - longer) * along, on_line + (places.max() + longer) * along
+
+
+def foot(xy: NDArray, line: Line | NDArray) -> NDArray:
+    """Points (…, 2) projected on the line; points (…, n, 2), each on its own of n lines (3, n)."""
+    a, b, c = line
+    distance = a * xy[..., 0] + b * xy[..., 1] + c
+    return xy - distance[..., None] * np.array([a, b]).T
+
+
+def is_line(line: Line | NDArray) -> NDArray[np.bool_]:
+    """Whether there is a line, or which there are of (3, n): a seed refused before its fit has none."""
+    return np.isfinite(line).all(axis=0) & (np.hypot(line[0], line[1]) > 0.5)

@@ -1,0 +1,87 @@
+"""From a View to what it shows: what is found and judged, the picture for the scene and the state for the page."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from typing import Any
+
+from lineseg import Recording
+
+from ..frame.findings import Findings, findings
+from ..frame.judge import judged, reference_of, references
+from ..frame.state import state_of
+from ..live.ring import LiveRecording
+from ..routes.labels import told
+from ..scene.picture import Picture, bounds_of, picture
+from ..scene.shapes import Bounds, united
+from ..shelf.label_files import LabelFiles
+from ..shelf.library import Library
+from ..view import View
+
+FRAMES_KEPT = 32
+
+
+@dataclass(frozen=True, eq=False)
+class Content:
+    """view: the one that was asked for, with frame, beam and step within what there is."""
+
+    view: View
+    found: Findings
+    picture: Picture
+    state: dict[str, Any]
+
+
+class Composer:
+    """Remembers what it found in the newest frames. It is used in one thread."""
+
+    def __init__(self, library: Library, files: LabelFiles) -> None:
+        self._library, self._files = library, files
+        self._findings = lru_cache(maxsize=FRAMES_KEPT)(findings)
+        self._judged = lru_cache(maxsize=FRAMES_KEPT)(judged)
+        self._bounds = lru_cache(maxsize=4)(bounds_of)
+        self._live_bounds: tuple[str, int, Bounds] = ("", 0, (0.0, 0.0, 0.0, 0.0))
+
+    def compose(self, view: View, recording: Recording) -> Content:
+        view = _inside(view, recording)
+        found = self._findings(recording, view.frame, view.method, view.params)
+        view = _inside_trace(view, found)
+        bounds = self._bounds_of(view, recording)
+        pinned = view.against and self._findings(recording, view.frame, view.against.method, view.against.params)
+        inspected = view.mode == "inspect" or view.layers.verdicts
+        known = self._files.known(view.recording, recording) if inspected else None
+        available = references(recording, known)
+        by = reference_of(view.reference, available)
+        said = known.of(view.frame) if known is not None and by == "labels" else None
+        judgement = self._judged(found, said) if inspected else None
+        drawing = picture(view, recording, found, bounds, pinned, judgement)
+        state = state_of(view, recording, self._library.label(view.recording), found, bounds, pinned, judgement)
+        state |= {"labels": known and told(known, view.frame), "references": available, "judgedBy": by}
+        return Content(view, found, drawing, state)
+
+    def _bounds_of(self, view: View, recording: Recording) -> Bounds:
+        """Those of a live recording only grow, and seldom, so that the ground does not shake."""
+        if not isinstance(recording, LiveRecording):
+            return self._bounds(recording)
+        source, age, bounds = self._live_bounds
+        if source != view.recording or recording.total >= 2 * age or recording.total >= age + 200:
+            wider = bounds_of(recording)
+            if source == view.recording:
+                wider = united(bounds, wider)
+            self._live_bounds = (view.recording, recording.total, wider)
+        return self._live_bounds[2]
+
+
+def _inside(view: View, recording: Recording) -> View:
+    """The View with its frame, and its beam, within the recording."""
+    frame = min(max(view.frame, 0), len(recording) - 1)
+    beams = int(recording.offsets[frame + 1] - recording.offsets[frame])
+    selected = view.selected if view.selected is not None and 0 <= view.selected < beams else None
+    return replace(view, frame=frame, selected=selected)
+
+
+def _inside_trace(view: View, found: Findings) -> View:
+    """The View with its step within the trace; a trace of no decision has no steps."""
+    if view.step is None or not len(found.trace):
+        return replace(view, step=None)
+    return replace(view, step=min(max(view.step, 0), len(found.trace) - 1))

@@ -1,0 +1,371 @@
+"""One browser tab: its View, and a worker that draws the newest one."""
+
+from __future__ import annotations
+
+import logging
+import threading
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from typing import Any, Literal
+
+import numpy as np
+from pydantic import BaseModel
+
+from lineseg import Recording
+from lineseg.readers import Cancelled
+
+from ..frame.findings import Findings
+from ..frame.stepping import columns_of
+from ..live.ring import LiveRecording
+from ..scene.viser_scene import ViserScene
+from ..shelf.label_files import LabelFiles
+from ..shelf.library import Library
+from ..view import View
+from ..wire import Drawn, Failure, Loading, Traced
+from .composing import Composer
+from .following import Presence, Presenter, mirrored
+from .strip import Strip, key_of
+from .warm_up import WarmUp
+
+Origin = Literal["page", "scene"]
+Send = Callable[[BaseModel], None]
+Watch = Callable[[View, Recording, str, Findings], None]
+
+log = logging.getLogger(__name__)
+# A live recording is drawn at most so often [s]; what came in between is in the recording all the same.
+FOLLOW_EVERY = 0.04
+
+
+@dataclass(frozen=True)
+class Request:
+    """A View to be drawn; `number` counts the requests of a session."""
+
+    number: int
+    view: View
+    rev: int
+    origin: Origin
+
+
+@dataclass(frozen=True, eq=False)
+class Shown:
+    """What is on the screen."""
+
+    view: View
+    recording: Recording
+    found: Findings
+
+    def paused(self, view: View) -> bool:
+        """Whether it is a live recording that `view` keeps as it is."""
+        return isinstance(self.recording, LiveRecording) and self.view.recording == view.recording and not view.live
+
+
+class Session:
+    """Every input changes the View and wakes the worker; while it draws, newer requests replace each other.
+
+    `send` is called in the worker's thread and may block: a page that is slow to read slows its own session only.
+    Making a session starts a viser server and blocks for a moment.
+    """
+
+    def __init__(
+        self,
+        id: str,
+        library: Library,
+        files: LabelFiles,
+        warm_up: WarmUp,
+        view: View,
+        watch: Watch | None = None,
+    ) -> None:
+        self.id = id
+        self._watch = watch
+        self._warm_up = warm_up
+        self.last_input = time.monotonic()
+        self.detached_at: float | None = self.last_input
+        self._library = library
+        self._composer = Composer(library, files)
+        self._send: Send | None = None
+        self._hang_up: Callable[[], None] | None = None
+        self._told: Findings | None = None
+        self._traced: Findings | None = None
+        self._shown: Shown | None = None
+        self._broken: set[str] = set()
+        self._wanted = Request(0, view, 0, "page")
+        self._done = 0
+        self._cancelled = self._closing = False
+        self._changed = threading.Condition()
+        self._scene = ViserScene(self._change_from_scene, self._pick)
+        self._strip = Strip(f"strip {id[:6]}", warm_up.surveyed, self._tell)
+        self._followed = 0.0
+        self.presenter = Presenter()
+        self._leave_presenter: Callable[[], None] | None = None
+        self._presence: Presence | None = None
+        self._forget_live = library.live.on_scan(self._wake)
+        self._forget_labels = files.on_change(self._relabelled)
+        self._worker = threading.Thread(target=self._work, name=f"session {id[:6]}", daemon=True)
+        self._worker.start()
+
+    @property
+    def viser_port(self) -> int:
+        return self._scene.port
+
+    @property
+    def view(self) -> View:
+        with self._changed:
+            return self._wanted.view
+
+    @property
+    def shown(self) -> Shown | None:
+        with self._changed:
+            return self._shown
+
+    def attach(self, send: Send, hang_up: Callable[[], None], rev: int | None = None) -> None:
+        """A page is there: tell it everything. hang_up: called when the session ends; rev: the page's count so far."""
+        with self._changed:
+            self.detached_at = None
+            self.last_input = time.monotonic()
+            self._send, self._hang_up, self._told, self._traced = send, hang_up, None, None
+            self._strip.keep(None)
+            self._ask(self._wanted.view, self._wanted.rev if rev is None else rev, "page")
+        self.presenter.tell("here")
+
+    def detach(self) -> None:
+        with self._changed:
+            self.detached_at = time.monotonic()
+            self._send = self._hang_up = None
+        self._strip.keep(None)
+        self.presenter.tell("away")
+
+    @property
+    def following(self) -> bool:
+        return self._presence in ("here", "away")
+
+    def follow(self, presenter: Presenter | None) -> None:
+        """Mirror a presenter, whose View replaces this one whenever it changes; None: no more."""
+        if self._leave_presenter is not None:
+            self._leave_presenter()
+            self._leave_presenter = None
+        self.presenter_is(None)
+        if presenter is not None and presenter is not self.presenter:
+            self._leave_presenter = presenter.join(self)
+
+    def mirror(self, view: View) -> None:
+        with self._changed:
+            self.last_input = time.monotonic()
+            own = mirrored(self._wanted.view, view)
+            if own != self._wanted.view:
+                self._ask(own, self._wanted.rev, "scene")
+
+    def presenter_is(self, presence: Presence | None) -> None:
+        """Tell the page, with the next picture."""
+        with self._changed:
+            self._presence = presence
+            self._ask(self._wanted.view, self._wanted.rev, "scene")
+
+    def change(self, patch: Mapping[str, Any], rev: int | None = None, origin: Origin = "page") -> None:
+        """Change the View; a bad value is a ValueError, and the View stays as it was."""
+        with self._changed:
+            self.last_input = time.monotonic()
+            view = self._wanted.view.patched(patch)
+            self._ask(view, self._wanted.rev if rev is None else rev, origin)
+
+    def restore(self, patch: Mapping[str, Any]) -> str | None:
+        """Change the View by all of the patch that can be had; a complaint about the rest, if any."""
+        with self._changed:
+            self.last_input = time.monotonic()
+            view, complaint = self._wanted.view.salvaged(patch)
+            self._ask(view, self._wanted.rev, "page")
+        return complaint
+
+    def cancel(self) -> None:
+        """Give up the loading in progress, if any."""
+        with self._changed:
+            self._cancelled = self._done != self._wanted.number
+
+    def close(self) -> None:
+        """Stop the worker and the viser server; blocks until they are gone."""
+        with self._changed:
+            self._closing = True
+            hang_up = self._hang_up
+            self._send = self._hang_up = None
+            self._changed.notify_all()
+        if hang_up is not None:
+            hang_up()
+        self._forget_live()
+        self._forget_labels()
+        self._library.live.leave(self.id)
+        self.follow(None)
+        self.presenter.tell("gone")
+        self._strip.close()
+        self._worker.join(timeout=10)
+        self._scene.stop()
+
+    def _ask(self, view: View, rev: int, origin: Origin) -> None:
+        self._wanted = Request(self._wanted.number + 1, view, rev, origin)
+        self._strip.keep(view)
+        self._changed.notify_all()
+
+    def _change_from_scene(self, patch: Mapping[str, Any]) -> None:
+        if self.following:
+            return
+        try:
+            self.change(patch, origin="scene")
+        except ValueError as error:
+            log.debug("the scene asked for what cannot be: %s", error)
+
+    def _pick(self, point: tuple[float, float], radius: float) -> None:
+        """Select the beam whose point is nearest to a click, or none if none is near."""
+        shown = self.shown
+        if shown is None:
+            return
+        scan = shown.found.scan
+        distances = np.hypot(*(scan.xy - point).T)
+        nearest = int(np.nanargmin(distances)) if scan.valid.any() else -1
+        near = nearest >= 0 and distances[nearest] <= radius
+        self._change_from_scene({"selected": nearest if near else None})
+
+    def _work(self) -> None:
+        while (request := self._next()) is not None:
+            try:
+                self._draw(request)
+            except Cancelled:
+                self._fall_back(request, None)
+            except (ValueError, OSError) as error:
+                self._fall_back(request, str(error))
+            except Exception as error:
+                log.exception("drawing %s failed", request.view)
+                self._fall_back(request, f"this could not be drawn: {type(error).__name__}: {error}")
+
+    def _wake(self) -> None:
+        """A live scan has arrived."""
+        with self._changed:
+            if self._behind():
+                self._changed.notify_all()
+
+    def _relabelled(self, recording: str) -> None:
+        """The labels of a recording were saved, here or in another tab."""
+        with self._changed:
+            if self._wanted.view.recording == recording:
+                self._ask(self._wanted.view, self._wanted.rev, "scene")
+
+    def _behind(self) -> bool:
+        """Whether a newer frame of the live recording on the screen is to be followed."""
+        shown, wanted = self._shown, self._wanted.view
+        if self._send is None or shown is None or not (wanted.live and isinstance(shown.recording, LiveRecording)):
+            return False
+        source = self._library.live.get(wanted.recording)
+        return source is not None and source.ring.total != shown.recording.total
+
+    def _next(self) -> Request | None:
+        with self._changed:
+            while not self._closing and self._done == self._wanted.number:
+                rest = self._followed + FOLLOW_EVERY - time.monotonic() if self._behind() else None
+                if rest is not None and rest <= 0:
+                    self._followed = time.monotonic()
+                    self._ask(self._wanted.view, self._wanted.rev, "page")
+                else:
+                    self._changed.wait(rest)
+            if self._closing:
+                return None
+            self._cancelled = False
+            return self._wanted
+
+    def _draw(self, request: Request) -> None:
+        recording = self._load(request)
+        if isinstance(recording, LiveRecording) and request.view.live:
+            request = replace(request, view=replace(request.view, frame=len(recording) - 1))
+        if not self._warm_up.done.is_set():
+            self._tell(Loading(recording=request.view.recording, label=self._warm_up.label, done=0, total=0))
+            self._warm_up.done.wait()
+        begun = time.perf_counter()
+        content = self._composer.compose(request.view, recording)
+        view, found = content.view, content.found
+        painted = time.perf_counter()
+        self._scene.draw(content.picture, view.params, view.dark)
+        timings = {"pictureMs": _ms(painted - begun), "drawMs": _ms(time.perf_counter() - painted)}
+        with self._changed:
+            self._shown = Shown(view, recording, found)
+            self._done = request.number
+            if self._wanted.number == request.number:
+                self._wanted = replace(request, view=view)
+            send, new_trace = self._send, self._told is not found
+            self._told = found
+            trace_wanted = send is not None and view.mode == "learn" and self._traced is not found
+            if trace_wanted:
+                self._traced = found
+        self._library.live.follow(self.id, view.recording, view.method, view.params)
+        if send is not None:
+            if trace_wanted:
+                send(Traced(trace=columns_of(found)))
+            marks = {"marks": found.marks} if new_trace else {}
+            told = content.state | marks | timings | {"following": self._presence}
+            send(Drawn(rev=request.rev, origin=request.origin, state=told))
+        self.presenter.show(view)
+        if self._watch is not None:
+            self._watch(view, recording, self._library.label(view.recording), found)
+        # After the status: the frame of the scene shares a thread with the page, and its rendering would hold it back.
+        self._scene.flush()
+        self._survey()
+
+    def _survey(self) -> None:
+        """Let the strip follow what is on the screen."""
+        with self._changed:
+            shown = self._shown
+            if shown is not None and self._send is not None:
+                passing = key_of(self._wanted.view) != key_of(shown.view)
+                self._strip.want(shown.view, shown.recording, self._wanted.rev, passing)
+
+    def _load(self, request: Request) -> Recording:
+        view = request.view
+        if not view.recording:
+            raise ValueError("there is no recording to show; drop a file on the page")
+        shown = self.shown
+        if shown is not None and shown.paused(view):
+            return shown.recording
+        label = self._library.label(view.recording)
+
+        def tell(done: int, total: int) -> None:
+            source = self._library.live.get(view.recording)
+            note = source.note if source is not None else ""
+            self._tell(Loading(recording=view.recording, label=label, done=done, total=total, note=note))
+
+        def wanted() -> bool:
+            with self._changed:
+                now = self._wanted.view
+                same = (now.recording, now.topic) == (view.recording, view.topic)
+                return same and not self._cancelled and not self._closing
+
+        recording = self._library.recording(view.recording, view.topic, tell, wanted)
+        if not len(recording):
+            raise ValueError(f"{label} holds no scans")
+        return recording
+
+    def _fall_back(self, request: Request, message: str | None) -> None:
+        """Keep what is on the screen; where nothing is yet, show the first recording that can be shown."""
+        view = request.view
+        with self._changed:
+            self._done = request.number
+            cancelled, self._cancelled = self._cancelled, False
+            now = self._wanted.view
+            if (now.recording, now.topic) == (view.recording, view.topic):
+                self._broken.add(view.recording)
+                other = View(recording=self._library.instead_of(self._broken), dark=view.dark)
+                self._wanted = replace(self._wanted, view=self._shown.view if self._shown else other)
+                if self._shown is None and other.recording:
+                    self._ask(other, self._wanted.rev, "page")
+                else:
+                    self._done = self._wanted.number
+        if message is None and cancelled:
+            message = f"loading {self._library.label(view.recording)} was cancelled"
+        if message is not None:
+            self._tell(Failure(where="recording", message=message, rev=request.rev))
+        self._survey()
+
+    def _tell(self, message: BaseModel) -> None:
+        with self._changed:
+            send = self._send
+        if send is not None:
+            send(message)
+
+
+def _ms(seconds: float) -> float:
+    return round(1e3 * seconds, 2)

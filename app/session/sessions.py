@@ -1,0 +1,115 @@
+"""All tabs of a server: opened, found again, and closed when nobody is there."""
+
+from __future__ import annotations
+
+import asyncio
+import secrets
+import time
+from dataclasses import dataclass
+
+from starlette.exceptions import HTTPException
+
+from ..shelf.label_files import LabelFiles
+from ..shelf.library import Library
+from ..view import View
+from .following import Presenter
+from .session import Session, Shown, Watch
+from .warm_up import WarmUp
+
+REAP_EVERY = 5.0
+
+
+class TooManySessionsError(ValueError):
+    """More tabs than the server takes."""
+
+
+@dataclass(frozen=True)
+class SessionLimits:
+    """most: tabs at once. grace: how long a tab may be away [s]; idle: how long one may be there without input [s]."""
+
+    most: int = 64
+    grace: float = 120.0
+    idle: float = 3600.0
+
+
+class Sessions:
+    """Used in the event loop only; what blocks runs in threads."""
+
+    def __init__(
+        self,
+        library: Library,
+        files: LabelFiles,
+        warm_up: WarmUp,
+        limits: SessionLimits,
+        watch: Watch | None = None,
+    ) -> None:
+        self._library = library
+        self._files = files
+        self._warm_up = warm_up
+        self._limits = limits
+        self._watch = watch
+        self._sessions: dict[str, Session] = {}
+        self._opening = 0
+
+    def __len__(self) -> int:
+        return len(self._sessions)
+
+    def get(self, id: str) -> Session | None:
+        return self._sessions.get(id)
+
+    def shown(self, id: str) -> Shown:
+        """What a tab shows, for an answer over HTTP: 404 if there is no such tab, or nothing in it."""
+        session = self._sessions.get(id)
+        shown = session.shown if session is not None else None
+        if shown is None:
+            raise HTTPException(404, "this tab shows no recording; reload the page")
+        return shown
+
+    def presenter(self, id: str) -> Presenter:
+        """Whoever shows itself under this id; a ValueError if nobody does."""
+        for session in self._sessions.values():
+            if secrets.compare_digest(session.presenter.id, id):
+                return session.presenter
+        raise ValueError("the presenter of this link is gone; ask for a new link")
+
+    def resume(self, id: str | None) -> Session | None:
+        """A former session whose page is away; one that has a page is not shared with another."""
+        session = self._sessions.get(id or "")
+        return session if session is not None and session.detached_at is not None else None
+
+    async def open(self, view: View) -> Session:
+        """A new session; if there are too many, one without a page makes room, else it is a TooManySessionsError."""
+        while len(self._sessions) + self._opening >= self._limits.most:
+            away = [session for session in self._sessions.values() if session.detached_at is not None]
+            if not away:
+                raise TooManySessionsError(
+                    f"{self._limits.most} tabs are open, the most this server takes; close one and reload"
+                )
+            await self.close(min(away, key=lambda session: session.detached_at or 0.0))
+        self._opening += 1
+        try:
+            session = await asyncio.to_thread(
+                Session, secrets.token_urlsafe(16), self._library, self._files, self._warm_up, view, self._watch
+            )
+        finally:
+            self._opening -= 1
+        self._sessions[session.id] = session
+        return session
+
+    async def close(self, session: Session) -> None:
+        if self._sessions.pop(session.id, None) is not None:
+            await asyncio.to_thread(session.close)
+
+    async def close_all(self) -> None:
+        await asyncio.gather(*(self.close(session) for session in list(self._sessions.values())))
+
+    async def reap(self) -> None:
+        """Close, again and again, what nobody looks at any more."""
+        while True:
+            await asyncio.sleep(min(REAP_EVERY, self._limits.grace, self._limits.idle))
+            now = time.monotonic()
+            for session in list(self._sessions.values()):
+                away = session.detached_at
+                gone = away is not None and now - away > self._limits.grace
+                if gone or now - session.last_input > self._limits.idle:
+                    await self.close(session)

@@ -1,0 +1,266 @@
+"""The scores of every frame of the recording on the screen, for the strip of the page's timeline."""
+
+from __future__ import annotations
+
+import contextlib
+import logging
+import os
+import sys
+import threading
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import BaseModel
+
+from lineseg import Params, Recording, Thresholds, differences
+from lineseg.difference import FATES, KEPT
+from lineseg.readers import Cancelled
+from lineseg.score import SCORES
+from lineseg.stability import with_stability
+from lineseg.survey import BESIDE, Survey, survey
+from lineseg.suspicion import suspicion
+
+from ..live.ring import first_of
+from ..view import Against, View, all_weights
+from ..wire import Surveyed
+
+# A glance of this many beams takes some milliseconds of one core: too little to be worth stopping.
+GLANCE_BEAMS = 400_000
+LEAST_STRIDE = 4
+NICENESS = 10
+# The scores of a recording that grows are told anew so often [s].
+LIVE_EVERY = 1.0
+
+log = logging.getLogger(__name__)
+
+
+class Key(NamedTuple):
+    """All of a View that the scores depend on."""
+
+    recording: str
+    topic: str | None
+    method: str
+    params: Thresholds
+    against: Against | None
+    weights: tuple[tuple[str, float], ...]
+    deep: bool
+
+
+def key_of(view: View) -> Key:
+    # Stability takes many surveys, and the suspicion many medians: only where they are looked at, and nothing grows.
+    deep = (view.mode == "inspect" or view.score in ("unstable", "suspicion")) and not view.recording.startswith(
+        "live:"
+    )
+    return Key(view.recording, view.topic, view.method, view.params, view.against, view.weights, deep)
+
+
+@dataclass(frozen=True, eq=False)
+class Subject:
+    """What is to be surveyed, for which revision of the View."""
+
+    key: Key
+    recording: Recording
+    rev: int
+    stop: NDArray[np.bool_]
+
+
+@dataclass(frozen=True, eq=False)
+class Known:
+    """What came of a whole recording; other weights make another suspicion of it. changed: (frames, 0 or 1)."""
+
+    key: Key
+    recording: Recording
+    scores: NDArray[np.float32]
+    changed: NDArray[np.floating]
+    totals: dict[str, int] | None
+
+
+def told(subject: Subject, known: Known) -> Surveyed:
+    """The message of every frame; the suspicion is not known where nobody looks at it."""
+    deep = subject.key.deep
+    rank = suspicion(known.scores, all_weights(subject.key.weights)) if deep else np.full(len(known.scores), np.nan)
+    columns = [known.scores, rank[:, None], known.changed] if deep or known.totals else [known.scores]
+    return surveyed(subject, np.hstack(columns), totals=known.totals)
+
+
+class Strip:
+    """Surveys in a thread of its own, behind everything else: the newest subject wins, and stops the one before.
+
+    A long recording is glanced at first: some of its frames, evenly spread, are there while a slider still moves.
+    ready: set once the kernels are compiled. send: called in the strip's thread and may block.
+    """
+
+    def __init__(self, name: str, ready: threading.Event, send: Callable[[BaseModel], None]) -> None:
+        self._ready, self._send = ready, send
+        self._glance = lru_cache(maxsize=1)(glance_of)
+        self._known: Known | None = None
+        self._pinned: tuple[Recording, Thresholds, Survey] | None = None
+        self._changed = threading.Condition()
+        self._subject: Subject | None = None
+        self._taken = self._closing = False
+        self._grown: Subject | None = None
+        self._rest_until = 0.0
+        self._thread = threading.Thread(target=self._work, name=name, daemon=True)
+        self._thread.start()
+
+    def want(self, view: View, recording: Recording, rev: int, passing: bool = False) -> None:
+        """Survey this, unless it is surveyed already; only glance at it in passing, where a newer one is to come."""
+        key = key_of(view)
+        self.keep(view)
+        with self._changed:
+            subject = Subject(key, recording, rev, np.full(1, passing))
+            if self._subject is None:
+                self._subject, self._taken = subject, False
+            elif self._subject.recording is not recording:
+                self._grown = subject
+                self._rest_until = self._rest_until if view.live else 0.0
+            self._changed.notify_all()
+
+    def keep(self, view: View | None) -> None:
+        """Stop what is not of this View; of None: whatever it is, and it may be wanted again."""
+        with self._changed:
+            if self._subject is not None and (view is None or self._subject.key != key_of(view)):
+                self._subject.stop[0] = True
+                self._subject = self._grown = None
+
+    def close(self) -> None:
+        """Stop; blocks until the thread is gone."""
+        self.keep(None)
+        with self._changed:
+            self._closing = True
+            self._changed.notify_all()
+        self._thread.join(timeout=10)
+
+    def _work(self) -> None:
+        step_back()
+        while (subject := self._next()) is not None:
+            try:
+                for part in self._parts(subject):
+                    if self._stands(subject):
+                        self._send(part)
+            except Cancelled:
+                pass
+            except Exception as error:
+                log.exception("surveying %s failed", subject.key)
+                self._send(surveyed(subject, message=f"no scores: {_one_line(error)}"))
+
+    def _next(self) -> Subject | None:
+        with self._changed:
+            while not self._closing and (self._subject is None or self._taken):
+                rest = self._rest_until - time.monotonic() if self._grown is not None else None
+                if rest is not None and rest <= 0:
+                    self._subject, self._grown, self._taken = self._grown, None, False
+                else:
+                    self._changed.wait(rest)
+            self._taken = True
+            self._rest_until = time.monotonic() + LIVE_EVERY
+            return None if self._closing else self._subject
+
+    def _stands(self, subject: Subject) -> bool:
+        """Whether it still belongs to what is on the screen; a glance may be one change of the thresholds late."""
+        with self._changed:
+            now = self._subject
+            return not self._closing and (now is None or now.key[:2] == subject.key[:2])
+
+    def _parts(self, subject: Subject) -> Iterator[Surveyed]:
+        key, recording = subject.key, subject.recording
+        if len(recording) < 2:
+            yield surveyed(subject, message="one frame: nothing to compare")
+            return
+        while not self._ready.wait(0.1):
+            if subject.stop[0]:
+                return
+        if (
+            self._known is not None
+            and self._known.key == key._replace(weights=())
+            and self._known.recording is recording
+        ):
+            yield told(subject, self._known)
+            return
+        stride = stride_of(recording)
+        # The other methods take too long for a glance that nothing can stop.
+        if stride >= LEAST_STRIDE and isinstance(key.params, Params):
+            yield surveyed(subject, self._glanced_scores(recording, stride, key.params), stride)
+        whole = survey(recording, key.params, subject.stop)
+        assert whole.scores is not None
+        known = Known(key._replace(weights=()), recording, whole.scores, np.empty((len(recording), 0)), None)
+        yield told(subject, known)
+        if key.against is not None:
+            fates = differences(self._pinned_survey(subject, key.against.params), whole, recording)
+            changed = fates.sum(axis=1, keepdims=True) - fates[:, [KEPT]]
+            totals = {name: int(total) for name, total in zip(FATES, fates.sum(axis=0), strict=True)}
+            known = replace(known, changed=changed, totals=totals)
+            yield told(subject, known)
+        if key.deep:
+            deep = with_stability(recording, whole, subject.stop)
+            assert deep.scores is not None
+            known = replace(known, scores=deep.scores)
+            yield told(subject, known)
+        self._known = known
+
+    def _glanced_scores(self, recording: Recording, stride: int, params: Params) -> NDArray[np.float32]:
+        threes = survey(self._glance(recording, stride), params, threads=1)
+        assert threes.scores is not None
+        scores = threes.scores[1::3]
+        # The first and the last frame lie between no two others.
+        ends = np.isin(np.arange(0, len(recording), stride), (0, len(recording) - 1))
+        scores[ends] = np.where([name in BESIDE for name in SCORES], 0, scores[ends])
+        return scores
+
+    def _pinned_survey(self, subject: Subject, params: Thresholds) -> Survey:
+        """Of A, which stays the same while the thresholds of B move."""
+        if self._pinned is None or self._pinned[0] is not subject.recording or self._pinned[1] != params:
+            self._pinned = subject.recording, params, survey(subject.recording, params, subject.stop, scores=False)
+        return self._pinned[2]
+
+
+def surveyed(
+    subject: Subject,
+    scores: NDArray[np.floating] | None = None,
+    stride: int = 1,
+    message: str | None = None,
+    totals: dict[str, int] | None = None,
+) -> Surveyed:
+    """The message for scores (frames, scores) of every stride-th frame."""
+    return Surveyed(
+        rev=subject.rev,
+        recording=subject.key.recording,
+        topic=subject.recording.topic,
+        method=subject.key.method,
+        params=subject.key.params.numbers(),
+        frames=len(subject.recording),
+        first=first_of(subject.recording),
+        stride=stride,
+        message=message,
+        totals=totals,
+        values=b"" if scores is None else scores.T.astype("<f4").tobytes(),
+    )
+
+
+def stride_of(recording: Recording) -> int:
+    """Of how many frames one is glanced at."""
+    return -(-3 * int(recording.offsets[-1]) // GLANCE_BEAMS)
+
+
+def glance_of(recording: Recording, stride: int) -> Recording:
+    """Every stride-th frame, between the two beside it, with which a score may compare it."""
+    glanced = np.arange(0, len(recording), stride)
+    beside = np.column_stack((glanced - 1, glanced, glanced + 1))
+    return recording.only(np.clip(beside, 0, len(recording) - 1).ravel())
+
+
+def _one_line(error: Exception) -> str:
+    said = next(iter(str(error).splitlines()), "")
+    return said if isinstance(error, (ValueError, OSError)) else f"{type(error).__name__}: {said}"
+
+
+def step_back() -> None:
+    """Let other threads go first, and so the threads that this one starts, where threads have a priority."""
+    if sys.platform == "linux":
+        with contextlib.suppress(OSError):
+            os.setpriority(os.PRIO_PROCESS, threading.get_native_id(), NICENESS)

@@ -1,0 +1,1 @@
+"""What is kept on disk and may be opened: recordings, uploads, recent files, labels, lessons."""

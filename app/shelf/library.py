@@ -1,0 +1,265 @@
+"""The recordings that may be opened, by id, and those that are open, shared by all tabs."""
+
+from __future__ import annotations
+
+import hashlib
+import threading
+from collections import OrderedDict
+from collections.abc import Callable, Collection, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+
+from lineseg import Recording
+from lineseg.readers import Cancelled, open_recording
+from lineseg.simulate.drawing import Drawing
+
+from ..live.hub import Live
+from ..places import data_folder
+from ..wire import RecordingEntry
+from .recent import Recent
+from .uploads import Uploads
+
+MOST_OPEN = 12
+MOST_BYTES = 2_000_000_000
+POLL = 0.05
+
+# The id of a drawn world is the world itself, so that a link holds it.
+DRAWN = "drawn:"
+FIRST_DRAWING = "w-2,2,3,2;w3,2,3,-1.5;w3,-1.5,0.5,-1.5;c1.2,0.8,0.25;l0,0,0;b-135,135,0.5,30,0.01;s0"
+DRAWN_LABEL = "Your own world"
+
+Progress = Callable[[int, int], None]
+
+
+@dataclass(frozen=True)
+class _Key:
+    """One stream of one file as it was at some moment; a changed file is another recording."""
+
+    path: Path
+    topic: str | None
+    changed: int
+    size: int
+
+
+class _Load:
+    """A file being read; it is given up when no tab waits for it any more."""
+
+    def __init__(self, key: _Key) -> None:
+        self.done = threading.Event()
+        self.progress = (0, 0)
+        self.waiting = 0
+        self.recording: Recording | None = None
+        self.error: BaseException | None = None
+        self._key = key
+        self._given_up = False
+
+    def start(self, finish: Callable[[_Load], None]) -> None:
+        def work() -> None:
+            try:
+                self.recording = open_recording(self._key.path, topic=self._key.topic, progress=self._report)
+            except BaseException as error:
+                self.error = error
+            finish(self)
+            self.done.set()
+
+        threading.Thread(target=work, name=f"load {self._key.path.name}", daemon=True).start()
+
+    def give_up(self) -> None:
+        self._given_up = True
+
+    def _report(self, done: int, total: int) -> None:
+        if self._given_up:
+            raise Cancelled
+        self.progress = (done, total)
+
+
+class Library:
+    """Only what it lists can be opened: samples, lessons, files of the command line, recent files and uploads."""
+
+    def __init__(self, files: Sequence[Path], recent: Recent, uploads: Uploads, live: Live | None = None) -> None:
+        self.uploads = uploads
+        self.live = live or Live()
+        self._samples = _samples()
+        self._files = {f"file:{_digest(path)}": path for path in map(_absolute, files)}
+        self._recent = {f"recent:{_digest(path)}": path for path in recent.paths()}
+        for path in reversed(self._files.values()):
+            recent.add(path)
+        self._open: OrderedDict[_Key, Recording] = OrderedDict()
+        self._loads: dict[_Key, _Load] = {}
+        self._lock = threading.Lock()
+        self._listeners: list[Callable[[], None]] = []
+
+    def on_change(self, listener: Callable[[], None]) -> Callable[[], None]:
+        """Call `listener`, from any thread, when the list changes; the result ends that."""
+        self._listeners.append(listener)
+        return lambda: self._listeners.remove(listener)
+
+    def changed(self) -> None:
+        for listener in list(self._listeners):
+            listener()
+
+    def entries(self) -> list[RecordingEntry]:
+        """Everything on offer, in the order of the menu."""
+        lessons = [id for id in self._samples if id.startswith("lesson:")]
+        samples = [id for id in self._samples if id.startswith("sample:")]
+        opened = set(self._files.values())
+        rows = [RecordingEntry(id=source.id, label=source.label, group="Live") for source in self.live]
+        rows += [RecordingEntry(id=id, label=path.name, group="Command line") for id, path in self._files.items()]
+        rows += [RecordingEntry(id=f"upload:{up.id}", label=up.name, group="Uploads") for up in self.uploads.all()]
+        rows += [RecordingEntry(id=id, label=_title(self._samples[id]), group="Samples") for id in samples]
+        rows += [RecordingEntry(id=id, label=_title(self._samples[id]), group="Lessons") for id in lessons]
+        rows += [
+            RecordingEntry(id=id, label=path.name, group="Recent", missing=not path.exists())
+            for id, path in self._recent.items()
+            if path not in opened
+        ]
+        rows.append(RecordingEntry(id=f"{DRAWN}{FIRST_DRAWING}", label=DRAWN_LABEL, group="Drawn"))
+        return rows
+
+    def first(self) -> str:
+        """What a new tab shows: a robot or the first file of the command line, else the first sample."""
+        return next(iter([*self.live.robots, *self._files, *self._samples]), "")
+
+    def instead_of(self, broken: Collection[str]) -> str:
+        """What is shown where these ids cannot be; "" if nothing is left."""
+        return next((id for id in [*self._files, *self._samples] if id not in broken), "")
+
+    def label(self, id: str) -> str:
+        if id.startswith(DRAWN):
+            return DRAWN_LABEL
+        return next((entry.label for entry in self.entries() if entry.id == id), id)
+
+    def path(self, id: str) -> Path:
+        """The file behind an id; KeyError-free: an unknown id is a ValueError."""
+        kind, _, name = id.partition(":")
+        try:
+            if kind == "upload":
+                return self.uploads[name].path
+            return {**self._samples, **self._files, **self._recent}[id]
+        except KeyError:
+            if kind == "upload":
+                raise ValueError("this upload is no longer on the server; drop the file on the page again") from None
+            if kind in ("file", "recent"):
+                raise ValueError("the file of this link is not among those that this server knows") from None
+            raise ValueError(f"there is no recording {id[:60]!r}") from None
+
+    def recording(
+        self,
+        id: str,
+        topic: str | None = None,
+        progress: Progress | None = None,
+        wanted: Callable[[], bool] = lambda: True,
+    ) -> Recording:
+        """The recording behind an id, read from its file if it is not open yet; Cancelled once it is not `wanted`.
+
+        Of a live source: what it has sent so far.
+        """
+        if id.startswith("live:"):
+            return self.live.recording(id, lambda: progress and progress(0, 0), wanted)
+        if id.startswith(DRAWN):
+            return _drawn(id.removeprefix(DRAWN))
+        key = self._key(id, topic)
+        with self._lock:
+            if key in self._open:
+                self._open.move_to_end(key)
+                return self._open[key]
+            load = self._loads.get(key)
+            if load is None:
+                load = self._loads[key] = _Load(key)
+                load.start(lambda load: self._finish(key, load))
+            load.waiting += 1
+        try:
+            return _wait(load, progress, wanted)
+        except (ValueError, OSError):
+            if id.startswith("upload:") and topic is None:
+                self.uploads.discard(id.partition(":")[2])
+                self.changed()
+            raise
+        finally:
+            with self._lock:
+                load.waiting -= 1
+                if load.waiting == 0 and not load.done.is_set():
+                    load.give_up()
+                    if self._loads.get(key) is load:
+                        del self._loads[key]
+
+    def _key(self, id: str, topic: str | None) -> _Key:
+        path = self.path(id)
+        try:
+            status = path.stat()
+        except FileNotFoundError:
+            raise ValueError(f"{path.name} is no longer in {path.parent}") from None
+        return _Key(path, topic, status.st_mtime_ns, status.st_size)
+
+    def _finish(self, key: _Key, load: _Load) -> None:
+        with self._lock:
+            if self._loads.get(key) is load:
+                del self._loads[key]
+            if load.recording is None:
+                return
+            self._open[key] = load.recording
+            while len(self._open) > 1 and (len(self._open) > MOST_OPEN or self._bytes() > MOST_BYTES):
+                self._open.popitem(last=False)
+
+    def _bytes(self) -> int:
+        arrays = ((open.ranges, open.bearings, open.wall) for open in self._open.values())
+        return sum(array.nbytes for group in arrays for array in group if array is not None)
+
+
+@lru_cache(maxsize=16)
+def _drawn(text: str) -> Recording:
+    return Drawing.parse(text).recording()
+
+
+def _wait(load: _Load, progress: Progress | None, wanted: Callable[[], bool]) -> Recording:
+    told = None
+    while not load.done.wait(POLL):
+        if not wanted():
+            raise Cancelled
+        if progress is not None and load.progress != told:
+            told = load.progress
+            progress(*told)
+    if load.error is not None:
+        raise load.error
+    assert load.recording is not None
+    return load.recording
+
+
+def _samples() -> dict[str, Path]:
+    """Ids of the samples and lessons; hallway and laboratory first, the same world in other formats after them."""
+    try:
+        folder = data_folder("sample_scans")
+    except FileNotFoundError:
+        return {}
+    samples = sorted(
+        (path for path in folder.iterdir() if path.is_file() and path.suffix not in (".py", ".md", ".json")),
+        key=lambda path: (path.suffix != ".npz", path.name),
+    )
+    lessons = sorted((folder / "lessons").glob("*.npz"))
+    plain = [path for path in samples if path.suffix == ".npz"]
+    ids = {f"sample:{path.stem if path in plain else path.name}": path for path in samples}
+    return ids | {f"lesson:{path.stem}": path for path in lessons}
+
+
+def _title(path: Path) -> str:
+    """hallway.npz → Hallway (simulated), hallway.log → Hallway (log), 4_lost_end.npz → 4 lost end."""
+    number, _, rest = path.stem.partition("_")
+    if number.isdigit():
+        return f"{number} {rest.replace('_', ' ')}"
+    kind = "simulated" if path.suffix == ".npz" else path.suffix.lstrip(".")
+    return f"{_sentence_case(path.stem)} ({kind})"
+
+
+def _sentence_case(name: str) -> str:
+    words = name.replace("_", " ").replace("-", " ")
+    return words[:1].upper() + words[1:]
+
+
+def _absolute(path: Path) -> Path:
+    return Path(path).expanduser().absolute()
+
+
+def _digest(path: Path) -> str:
+    """A name that tells nothing of the user's folders and is the same after a restart, so that links keep working."""
+    return hashlib.sha256(str(path).encode()).hexdigest()[:12]

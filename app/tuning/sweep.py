@@ -1,0 +1,48 @@
+"""One threshold swept over its range: which beams are in which line, at each of its values."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lineseg import EXTRACTORS, Knob, Scan, Thresholds
+from lineseg.sweep.axes import spread
+
+from ..scene.palette import segment_colours
+
+MOST_VALUES = 96
+
+
+def values_of(kind: type, knob: Knob, most: int = MOST_VALUES) -> list[float]:
+    """Values over the range of the slider, as evenly as its scale is; whole numbers where they must be."""
+    return [float(value) for value in spread(knob.low, knob.high, most, kind, knob)]
+
+
+def sweep(scan: Scan, method: str, params: Thresholds, name: str) -> dict[str, Any]:
+    """values; runs: for each of them the stretches of beams [first, last, "#rrggbb"]; lines: how many there are."""
+    kind, knob = {field: (kind, knob) for field, kind, knob in params.knobs()}[name]
+    values = values_of(kind, knob)
+    extractions = [EXTRACTORS[method].extract(scan, params.but(**{name: kind(value)})) for value in values]
+    return {
+        "name": name,
+        "beams": len(scan),
+        "values": values,
+        "lines": [len(extraction.segments) for extraction in extractions],
+        "runs": [_runs(extraction.labels, segment_colours(extraction.segments)) for extraction in extractions],
+    }
+
+
+def _runs(labels: NDArray[np.int32], colours: NDArray[np.uint8]) -> list[tuple[int, int, str]]:
+    """Stretches of beams of one line, with its colour in the scene."""
+    if not len(labels):
+        return []
+    edges = np.flatnonzero(np.diff(labels)) + 1
+    firsts, stops = np.concatenate(([0], edges)), np.concatenate((edges, [len(labels)]))
+    stretches = ((int(first), int(stop) - 1, int(labels[first])) for first, stop in zip(firsts, stops, strict=True))
+    return [(first, last, _hex(colours[label])) for first, last, label in stretches if label >= 0]
+
+
+def _hex(colour: NDArray[np.uint8]) -> str:
+    return "#" + bytes(colour.tolist()).hex()

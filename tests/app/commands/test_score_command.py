@@ -1,0 +1,69 @@
+"""`lineseg score`: the table, its numbers, and what it cannot score."""
+
+import csv
+import io
+import json
+from pathlib import Path
+
+import pytest
+from lineseg_app.__main__ import main
+
+from lineseg import Agreement, FrameLabels, Params, agreements, extract, open_recording, save_labels
+
+HALLWAY = Path(__file__).parents[3] / "sample_scans" / "hallway.npz"
+
+
+@pytest.fixture
+def score(capsys):
+    def call(*arguments):
+        code = main(["score", *map(str, arguments)])
+        return code, *capsys.readouterr()
+
+    return call
+
+
+def test_the_table_says_what_the_library_says(score):
+    total = Agreement.of_all(agreements(open_recording(HALLWAY)))
+    code, out, _ = score(HALLWAY)
+    assert code == 0
+    assert out.startswith("hallway.npz, 300 frames with true lines, region-growing\n")
+    for value in (f"{total.true_rate:.2%}", f"{total.false_rate:.2%}", f"{total.endpoint_error(95):.4f} m"):
+        assert value in out
+
+
+def test_json_and_csv_have_every_frame(score):
+    report = json.loads(score(HALLWAY, "--json", "--epsilon", 0.02)[1])
+    rows = list(csv.DictReader(io.StringIO(score(HALLWAY, "--csv", "--epsilon", 0.02)[1])))
+    frames = list(agreements(open_recording(HALLWAY), Params(epsilon=0.02)))
+    assert report["params"]["epsilon"] == 0.02
+    assert report["matches"] == sum(frame.matches for frame in frames)
+    for agreement, in_json, in_csv in zip(frames, report["frames"], rows, strict=True):
+        assert in_json["matches"] == int(in_csv["matches"]) == agreement.matches
+        assert in_json["true_rate"] == float(in_csv["true_rate"]) == agreement.true_rate
+
+
+def test_labels_are_the_truth_of_the_frames_that_have_them(score, tmp_path):
+    recording, file = open_recording(HALLWAY), tmp_path / "labels.lineseg.json"
+    for frame in (3, 200):
+        save_labels(file, recording, frame, FrameLabels.of(extract(recording[frame])))
+    save_labels(file, recording, 5, FrameLabels(note="no lines drawn"))
+    report = json.loads(score(HALLWAY, "--json", "--truth", file)[1])
+    assert [frame["frame"] for frame in report["frames"]] == [3, 200]
+    assert (report["true_rate"], report["false_rate"], report["endpoint_error_p95"]) == (1, 0, 0)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        ([HALLWAY.with_suffix(".log")], "hallway.log has no truth"),
+        ([HALLWAY, "--truth", "gone.json"], "gone.json: there is no such file"),
+        ([HALLWAY, "--truth", HALLWAY], "hallway.npz holds no text; labels are JSON"),
+        ([HALLWAY, "--method", "guess"], "there is no method 'guess'; there are region-growing"),
+        ([HALLWAY, "--json", "--csv"], "--json and --csv exclude each other"),
+    ],
+)
+def test_what_cannot_be_scored_is_said_in_a_sentence(score, arguments, sentence):
+    code, out, error = score(*arguments)
+    assert (code, out) == (2, "")
+    assert sentence in error
+    assert error.count("\n") == 1

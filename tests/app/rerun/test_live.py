@@ -1,0 +1,85 @@
+"""The live stream, held against rerun's own server."""
+
+from __future__ import annotations
+
+import contextlib
+import subprocess
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+from lineseg_app.frame.findings import findings
+from lineseg_app.rerun.live import LiveRerun, answers
+from lineseg_app.rerun.viewer import executable, free_ports, quiet_environment
+from lineseg_app.view import View
+from rrd import rows_of
+from scenes import wall_ahead
+
+from lineseg import Params, Recording
+
+SECONDS = 60
+
+
+def eventually(check: Callable[[], bool], why: str) -> None:
+    late = time.monotonic() + SECONDS
+    while not check():
+        assert time.monotonic() < late, why
+        time.sleep(0.02)
+
+
+@contextlib.contextmanager
+def rerun_server(port: int, file: Path) -> Iterator[None]:
+    """rerun's own server, which writes what it hears to a file."""
+    flags = ["--serve-grpc", "--bind", "127.0.0.1", "--port", str(port), "--save", str(file)]
+    with subprocess.Popen([executable(), *flags], env=quiet_environment(file.parent)) as program:
+        try:
+            eventually(lambda: answers(port), "rerun's server does not start")
+            yield
+        finally:
+            program.terminate()
+
+
+@pytest.fixture
+def walls() -> Recording:
+    scans = [wall_ahead(4.0 - frame / 2, 10.0, noise=0.005, seed=frame, stamp=float(frame)) for frame in range(5)]
+    return Recording.from_scans(scans, name="walls")
+
+
+def frames_in(file: Path) -> list[int]:
+    if not file.exists():
+        return []
+    with contextlib.suppress(Exception):
+        return [row["frame"] for row in rows_of(file, "/laser/segments") if row.get("frame") is not None]
+    return []
+
+
+def test_a_viewer_hears_frames_and_thresholds_as_they_change_and_one_that_returns_hears_what_is_shown(
+    walls: Recording, tmp_path: Path
+):
+    (port,) = free_ports(1)
+    live = LiveRerun(port)
+
+    def look(frame: int, **values: float) -> None:
+        params = Params().but(**values)
+        view = View(recording="walls", frame=frame, params=params)
+        live.show(view, walls, "walls", findings(walls, frame, "region-growing", params))
+
+    try:
+        look(0)
+        with rerun_server(port, tmp_path / "first.rrd"):
+            eventually(lambda: frames_in(tmp_path / "first.rrd") == [0], "the present frame does not arrive")
+            look(1)
+            eventually(lambda: frames_in(tmp_path / "first.rrd") == [0, 1], "a new frame does not arrive")
+            look(1, min_length=100.0)
+            eventually(lambda: frames_in(tmp_path / "first.rrd") == [0, 1, 1], "new thresholds do not arrive")
+        look(2)
+        with rerun_server(port, tmp_path / "second.rrd"):
+            eventually(lambda: frames_in(tmp_path / "second.rrd") == [2], "the viewer that returns hears nothing")
+            look(3)
+            eventually(lambda: frames_in(tmp_path / "second.rrd") == [2, 3], "it does not hear what comes then")
+    finally:
+        live.close()
+    found = [len(row["strips"] or []) for row in rows_of(tmp_path / "first.rrd", "/laser/segments") if "frame" in row]
+    assert found == [1, 1, 0]
+    assert rows_of(tmp_path / "second.rrd", "/__properties/lineseg")

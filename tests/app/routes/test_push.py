@@ -1,0 +1,131 @@
+"""Scans that any program pushes: by POST, over a WebSocket; bounded, and guarded as everything else."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from lineseg_app.live.hub import MOST_PUSHED
+from lineseg_app.routes.push import LARGEST, MOST_A_SECOND, Pace, TooFastError
+from lineseg_app.server import Settings
+from live import Address, page_of, serving
+from robots import nearest, wall
+from rosbridge_peer import scan_message
+from rrd import rows_of
+from websockets.exceptions import ConnectionClosed, InvalidStatus
+from websockets.sync.client import connect
+
+
+@pytest.fixture
+def server(tmp_path: Path) -> Iterator[Address]:
+    with serving(Settings(data_folder=tmp_path, keep=3)) as address:
+        yield address
+
+
+def test_what_is_posted_is_a_live_recording(server: Address):
+    with page_of(server) as page:
+        page.hello()
+        answer = server.post("/api/scans/simulator", json=scan_message(wall(3.0)))
+        assert answer.json() == {"recording": "live:simulator", "kept": 1, "dropped": 0}
+        entries = page.hear_a("recordings")["recordings"]
+        assert {"id": "live:simulator", "label": "simulator", "group": "Live", "missing": False} in entries
+        assert nearest(page.change(recording="live:simulator")) == pytest.approx(3.0, abs=1e-3)
+        for distance in (2.5, 2.0, 1.5):
+            answer = server.post("/api/scans/simulator", json=scan_message(wall(distance)))
+        assert answer.json() == {"recording": "live:simulator", "kept": 3, "dropped": 1}
+        last = page.heard("drawn", lambda m: m["state"]["first"] == 1)["state"]
+        assert (last["live"], last["frame"], nearest(last)) == (True, 2, pytest.approx(1.5, abs=1e-3))
+
+
+def test_a_socket_takes_scan_after_scan_and_says_what_is_none(server: Address):
+    with connect(f"{server.ws}/api/scans/simulator", proxy=None) as socket:
+        socket.send(json.dumps(scan_message(wall(3.0))))
+        socket.send("hello")
+        assert "this is no JSON" in json.loads(socket.recv(timeout=20))["error"]
+        socket.send(json.dumps(scan_message(wall(2.0))).encode())
+        with page_of(server) as page:
+            state = page.hello(recording="live:simulator")
+            while state["frames"] < 2:
+                state = page.hear_a("drawn")["state"]
+            assert nearest(state) == pytest.approx(2.0, abs=1e-3)
+            assert page.heard("live", lambda m: m["refused"] == 1)["publishable"] is False
+
+
+def test_a_live_recording_is_recorded_for_rerun_as_it_stands(server: Address, tmp_path: Path):
+    for distance in (3.0, 2.5):
+        server.post("/api/scans/simulator", json=scan_message(wall(distance)))
+    with page_of(server) as page:
+        page.hello(recording="live:simulator")
+        told = server.post("/api/rerun", params={"session": page.welcome["session"]}).text.splitlines()
+        id = json.loads(told[-1])["recording"]
+    (tmp_path / "run.rrd").write_bytes(server.get(f"/api/rerun/{id}.rrd").content)
+    rows = [row for row in rows_of(tmp_path / "run.rrd", "/laser/points") if row.get("frame") is not None]
+    assert [min(x for x, _, _ in row["positions"]) for row in rows] == pytest.approx([3.0, 2.5], abs=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "status", "sentence"),
+    [
+        ("a", b"[1, 2]", 400, "a LaserScan is an object"),
+        ("a", b"{", 400, "this is no JSON"),
+        ("a", b'{"angle_min": 0, "angle_increment": 0.1, "ranges": []}', 400, "a scan without ranges"),
+        ("a", b'{"ranges": ' + b"[" * 100_000, 400, "this is no JSON"),
+        ("a", b" " * (LARGEST + 1), 413, "no more than"),
+        ("a" * 65, b"{}", 400, "is no name"),
+        ("..", b"{}", 404, ""),
+        ("a%2Fb", b"{}", 404, ""),
+        ("%00", b"{}", 400, "is no name"),
+    ],
+)
+def test_what_cannot_be_taken_is_refused(server: Address, name: str, content: bytes, status: int, sentence: str):
+    answer = server.post(f"/api/scans/{name}", content=content)
+    assert answer.status_code == status
+    assert sentence in answer.text
+
+
+def test_too_many_beams_or_names_are_refused(server: Address):
+    many = {"angle_min": 0, "angle_increment": 0.1, "ranges": [1] * 100_001}
+    assert "100001 beams; 100000 are the most" in server.post("/api/scans/a", json=many).json()["message"]
+    answers = [server.post(f"/api/scans/name{k}", json=scan_message([1.0])) for k in range(MOST_PUSHED)]
+    assert [answer.status_code for answer in answers] == [200] * (MOST_PUSHED - 1) + [429]
+    with connect(f"{server.ws}/api/scans/another", proxy=None) as socket:
+        assert "the most this server takes" in json.loads(socket.recv(timeout=20))["error"]
+        with pytest.raises(ConnectionClosed):
+            socket.recv(timeout=20)
+
+
+def test_scans_come_at_a_bounded_rate():
+    pace = Pace()
+    with pytest.raises(TooFastError, match="this one was dropped"):
+        for _ in range(10 * int(MOST_A_SECOND)):
+            pace.step("a")
+    pace.step("b")
+
+
+def test_a_foreign_page_may_not_push(server: Address):
+    foreign = {"Origin": "https://elsewhere.example"}
+    assert server.post("/api/scans/a", json=scan_message([1.0]), headers=foreign).status_code == 403
+    with pytest.raises(InvalidStatus), connect(f"{server.ws}/api/scans/a", origin=foreign["Origin"], proxy=None):
+        pass
+
+
+def test_where_there_is_a_token_a_program_brings_it_as_bearer(tmp_path: Path):
+    with serving(Settings(data_folder=tmp_path, token="correct horse")) as server:
+        answers = [
+            server.post("/api/scans/a", json=scan_message([1.0]), headers=headers)
+            for headers in ({}, {"Authorization": "Bearer wrong"}, {"Authorization": "Bearer correct horse"})
+        ]
+        assert [answer.status_code for answer in answers] == [403, 403, 200]
+        assert "Authorization: Bearer" in answers[0].json()["message"]
+        bearer = {"Authorization": "Bearer correct horse"}
+        with connect(f"{server.ws}/api/scans/a", additional_headers=bearer, proxy=None) as socket:
+            socket.send("{")
+            assert "no JSON" in json.loads(socket.recv(timeout=20))["error"]
+
+
+def test_a_live_source_that_is_not_there_is_said(server: Address):
+    with page_of(server) as page:
+        page.hello()
+        assert "nothing was pushed under this name" in page.refused(recording="live:nobody")["message"]

@@ -1,0 +1,228 @@
+"""A browser tab from hello to close."""
+
+from __future__ import annotations
+
+import pytest
+from lineseg_app.server import Settings
+from lineseg_app.session.sessions import SessionLimits
+from live import Address, Page, page_of, serving
+from websockets.exceptions import ConnectionClosed
+
+
+def id_of(page: Page, label: str) -> str:
+    return next(entry["id"] for entry in page.welcome["recordings"] if entry["label"] == label)
+
+
+def test_a_new_tab_shows_the_first_file_of_the_command_line(page: Page):
+    state = page.hello()
+    assert (state["label"], state["frame"], state["frames"]) == ("walls.npz", 0, 5)
+    assert state["beams"] == 180
+    assert [segment["first"] for segment in state["segments"]] == [0]
+
+
+def test_the_welcome_describes_every_threshold(page: Page):
+    page.hello()
+    method = page.welcome["methods"][0]
+    knobs = {knob["name"]: knob for knob in method["knobs"]}
+    assert list(knobs)[:5] == ["epsilon", "delta", "seed_points", "min_points", "min_length"]
+    assert (knobs["epsilon"]["symbol"], knobs["epsilon"]["kind"], knobs["epsilon"]["default"]) == ("ε", "float", 0.03)
+    assert [name for name, knob in knobs.items() if knob["extension"]] == [
+        "max_dropout",
+        "max_gap",
+        "merge_angle",
+        "merge_rms",
+        "max_occluder",
+    ]
+
+
+def test_a_threshold_changes_the_segments(page: Page):
+    assert len(page.hello()["segments"]) == 1
+    assert page.change(params={"min_length": 30.0})["segments"] == []
+    assert len(page.change(params={"min_length": 0.6})["segments"]) == 1
+
+
+def test_thresholds_that_were_not_named_stay(page: Page):
+    page.hello()
+    page.change(params={"epsilon": 0.05})
+    assert page.change(params={"delta": 0.2})["params"]["epsilon"] == 0.05
+
+
+def test_a_frame_beyond_the_end_is_the_last(page: Page):
+    page.hello()
+    assert page.change(frame=99)["frame"] == 4
+
+
+def test_another_recording_begins_at_its_first_frame(page: Page):
+    page.hello(frame=3)
+    page.change(step=4, selected=7)
+    state = page.change(recording=id_of(page, "corner.npz"))
+    assert (state["label"], state["frame"], state["step"], state["selected"]) == ("corner.npz", 0, None, None)
+
+
+def test_the_newest_of_many_changes_wins(page: Page):
+    page.hello()
+    revs = [page.ask(params={"epsilon": 0.01 + 0.001 * k}, frame=k % 5) for k in range(40)]
+    told = [page.hear_a("drawn")]
+    while told[-1]["rev"] < revs[-1]:
+        told.append(page.hear_a("drawn"))
+    assert told[-1]["state"]["params"]["epsilon"] == pytest.approx(0.049)
+    assert told[-1]["state"]["frame"] == 4
+    assert [message["rev"] for message in told] == sorted(message["rev"] for message in told)
+
+
+def test_a_bad_threshold_is_refused_and_the_old_one_stays(page: Page):
+    page.hello()
+    error = page.refused(params={"seed_points": 2})
+    assert (error["where"], error["rev"]) == ("params", 1)
+    assert "any 2 points fit a line exactly" in error["message"]
+    assert page.change(frame=1)["params"]["seed_points"] == 6
+
+
+@pytest.mark.parametrize(
+    ("patch", "where", "named"),
+    [
+        ({"params": {"epsilon": float("nan")}}, "params", "epsilon"),
+        ({"params": {"epsilon": "0.1"}}, "params", "epsilon"),
+        ({"params": {"gamma": 1.0}}, "params", "gamma"),
+        ({"layers": {"clouds": True}}, "view", "clouds"),
+        ({"frame": -1}, "view", "frame"),
+        ({"frame": 1.5}, "view", "frame"),
+        ({"zoom": 3}, "view", "zoom"),
+        ({"method": "guessing"}, "view", "guessing"),
+        ({"recording": "x" * 9000}, "view", "recording"),
+    ],
+)
+def test_what_is_no_view_is_named_in_one_sentence(page: Page, patch, where, named):
+    page.hello()
+    error = page.refused(**patch)
+    assert (error["where"], error["rev"]) == (where, 1)
+    assert named in error["message"]
+    assert "\n" not in error["message"]
+    assert page.change(frame=2)["frame"] == 2
+
+
+def test_what_is_no_json_does_not_end_the_tab(page: Page):
+    page.hello()
+    page._socket.send("{")
+    assert page.hear_a("error")["where"] == "view"
+    assert page.change(frame=2)["frame"] == 2
+
+
+def test_an_unknown_recording_is_an_error_and_the_old_picture_stays(page: Page):
+    page.hello()
+    page.change(frame=3)
+    for id in ("file:nothing", "../../etc/passwd", "/etc/passwd", "sample:../../etc/passwd", "upload:../x"):
+        assert page.refused(recording=id)["where"] == "recording"
+    state = page.change(params={"epsilon": 0.04})
+    assert (state["label"], state["frame"]) == ("walls.npz", 3)
+
+
+def test_a_tab_that_begins_with_a_bad_link_shows_the_first_recording(page: Page):
+    page.say(type="hello", session=None, view={"recording": "file:gone", "frame": 7})
+    assert page.hear_a("error")["where"] == "recording"
+    assert page.hear_a("drawn")["state"]["label"] == "walls.npz"
+
+
+def test_marks_come_with_a_new_trace_only(page: Page):
+    page.hello()
+    first = page.drawn(page.ask(frame=1))["state"]
+    assert first["marks"]["seed"]
+    assert "marks" not in page.change(step=3)
+    assert "marks" in page.change(params={"epsilon": 0.05})
+
+
+def test_replay_says_the_decision_and_stays_within_the_trace(page: Page):
+    steps = page.hello()["steps"]
+    state = page.change(step=10**6)
+    assert state["step"] == steps - 1
+    assert state["decision"]["index"] == steps - 1
+    assert state["decision"]["phase"] == "endpoints"
+    assert page.change(step=None)["decision"] is None
+
+
+def test_a_selected_beam_is_explained(page: Page):
+    page.hello()
+    explanation = page.change(selected=20)["explanation"]
+    assert (explanation["beam"], explanation["segment"]) == (20, 0)
+    assert explanation["at"][0] == pytest.approx(4.0, abs=0.05)
+    assert "ε" in explanation["text"]
+    assert page.change(selected=5000)["explanation"] is None
+
+
+def test_two_tabs_do_not_disturb_each_other(server: Address, page: Page):
+    page.hello()
+    with page_of(server) as other:
+        other.hello(frame=2)
+        other.change(params={"min_length": 30.0})
+        state = page.change(frame=1)
+        assert (state["frame"], state["params"]["min_length"], len(state["segments"])) == (1, 0.6, 1)
+        assert other.welcome["session"] != page.welcome["session"]
+        assert other.change(selected=3)["segments"] == []
+
+
+def test_a_tab_that_comes_back_finds_its_session(server: Address, page: Page):
+    page.hello()
+    page.change(frame=3, params={"epsilon": 0.07})
+    page.close()
+    with page_of(server) as again:
+        state = again.hello(session=page.welcome["session"])
+        assert again.welcome["resumed"]
+        assert again.welcome["viser"] == page.welcome["viser"]
+        assert (state["frame"], state["params"]["epsilon"]) == (3, 0.07)
+        assert "marks" in state
+
+
+def test_a_session_with_a_page_is_not_shared_with_another(server: Address, page: Page):
+    page.hello()
+    with page_of(server) as copy:
+        copy.hello(session=page.welcome["session"], frame=4)
+        assert not copy.welcome["resumed"]
+        assert copy.welcome["session"] != page.welcome["session"]
+
+
+def test_after_a_restart_the_page_brings_its_view_along(server: Address, page: Page):
+    state = page.hello(session="of-another-server", frame=2, params={"delta": 0.3}, dark=True)
+    assert not page.welcome["resumed"]
+    assert (state["frame"], state["params"]["delta"]) == (2, 0.3)
+
+
+def test_a_closed_tab_ends_its_session(server: Address, page: Page):
+    page.hello()
+    page.say(type="close")
+    with pytest.raises(ConnectionClosed):
+        page.hear_a("nothing more")
+    assert server.get(page.welcome["viser"]).status_code == 404
+
+
+def test_a_first_message_other_than_hello_closes_the_socket(page: Page):
+    page.say(type="view", rev=1, patch={})
+    with pytest.raises(ConnectionClosed) as closed:
+        page.hear()
+    assert closed.value.rcvd is not None
+    assert closed.value.rcvd.code == 4000
+
+
+def test_too_many_tabs_are_told_so_and_room_is_made_by_those_that_left(tmp_path):
+    settings = Settings(data_folder=tmp_path, sessions=SessionLimits(most=1))
+    with serving(settings) as server:
+        with page_of(server) as first:
+            first.hello()
+            with page_of(server) as second:
+                second.say(type="hello")
+                error = second.hear()
+                assert (error["where"], error["type"]) == ("server", "error")
+                assert "close one" in error["message"]
+        with page_of(server) as third:
+            third.hello()
+            assert server.get(first.welcome["viser"]).status_code == 404
+
+
+def test_a_session_whose_page_stays_away_is_closed(tmp_path):
+    settings = Settings(data_folder=tmp_path, sessions=SessionLimits(grace=0.05))
+    with serving(settings) as server:
+        with page_of(server) as page:
+            page.hello()
+        for _ in range(200):
+            if server.get(page.welcome["viser"]).status_code == 404:
+                return
+        raise AssertionError("the session is still there")

@@ -1,0 +1,70 @@
+"""Lessons as data: every file is one, and what it speaks of is there."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from lineseg_app.places import data_folder
+from lineseg_app.shelf.lessons import Find, NamedLesson, lesson_files, read_lessons
+from live import Address
+
+from lineseg import Params, Scan, Trace, open_recording, trace
+
+LESSONS = read_lessons(lesson_files())
+
+
+def scan_of(lesson: NamedLesson) -> Scan:
+    kind, _, name = lesson.recording.partition(":")
+    folder = data_folder("sample_scans") / ("lessons" if kind == "lesson" else "")
+    return open_recording(folder / f"{name}.npz")[lesson.frame]
+
+
+def matches(traced: Trace, find: Find) -> list[int]:
+    return [
+        decision.index
+        for decision in traced
+        if decision.kind == find.kind
+        and find.check in (None, decision.check)
+        and find.direction in (None, decision.direction)
+        and find.beam in (None, decision.beam)
+    ]
+
+
+def test_every_file_is_a_lesson():
+    assert LESSONS.broken == []
+    assert len(LESSONS.lessons) >= 8
+    assert len({lesson.title for lesson in LESSONS.lessons}) == len(LESSONS.lessons)
+
+
+@pytest.mark.parametrize("lesson", LESSONS.lessons, ids=lambda lesson: lesson.id)
+def test_every_decision_a_lesson_shows_is_there(lesson: NamedLesson):
+    scan, base = scan_of(lesson), Params().but(**lesson.params)
+    for step in lesson.steps:
+        params = base.but(**step.params)
+        if step.find is not None:
+            found = matches(trace(scan, params), step.find)
+            assert -len(found) <= step.find.nth < len(found), step.text
+        assert step.selected is None or step.selected < len(scan)
+
+
+@pytest.mark.parametrize("lesson", LESSONS.lessons, ids=lambda lesson: lesson.id)
+def test_a_task_offers_the_thresholds_it_wants_changed(lesson: NamedLesson):
+    known = {name for name, _, _ in Params.knobs()}
+    assert set(lesson.knobs) <= known
+    assert set(lesson.task.goal.changed) <= set(lesson.knobs)
+
+
+def test_a_file_that_is_no_lesson_is_named_with_what_is_wrong(tmp_path: Path):
+    good = lesson_files()[0]
+    (tmp_path / "bad.json").write_text(good.read_text("utf-8").replace('"about"', '"abuot"'), "utf-8")
+    (tmp_path / "worse.json").write_text("{", "utf-8")
+    told = read_lessons([good, tmp_path / "bad.json", tmp_path / "worse.json"])
+    assert [lesson.id for lesson in told.lessons] == [good.stem]
+    assert [why.split(":")[0] for why in told.broken] == ["bad.json", "worse.json"]
+    assert "abuot" in told.broken[0] or "about" in told.broken[0]
+
+
+def test_the_server_offers_them_in_order(server: Address):
+    told = server.get("/api/lessons").json()
+    assert [lesson["id"] for lesson in told["lessons"]] == [file.stem for file in lesson_files()]

@@ -1,0 +1,106 @@
+"""Recordings that take their time, or cannot be had."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from lineseg_app.server import Settings
+from lineseg_app.session.sessions import SessionLimits
+from lineseg_app.shelf.library import Library
+from lineseg_app.shelf.recent import Recent
+from lineseg_app.shelf.uploads import Uploads
+from live import Address, Page, page_of, serving
+from websockets.exceptions import ConnectionClosed
+
+from lineseg.readers import Cancelled
+
+
+@pytest.fixture(scope="module")
+def long(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A log of 20 000 sweeps, which takes about a second to read."""
+    file = tmp_path_factory.mktemp("long") / "long.log"
+    file.write_text(f"FLASER 181 {' '.join(['2.50'] * 181)} 0 0 0 0 0 0 1.0 robot 1.0\n" * 20_000)
+    return file
+
+
+@pytest.fixture
+def shelf(recordings: Path, long: Path, tmp_path: Path) -> Iterator[Address]:
+    with serving(Settings(files=(recordings / "walls.npz", long), data_folder=tmp_path)) as address:
+        yield address
+
+
+def ids(page: Page) -> dict[str, str]:
+    return {entry["label"]: entry["id"] for entry in page.welcome["recordings"]}
+
+
+def test_a_long_load_tells_its_progress(shelf: Address):
+    with page_of(shelf) as page:
+        page.hello()
+        page.ask(recording=ids(page)["long.log"])
+        told = []
+        while (message := page.hear_a("loading", "drawn"))["type"] == "loading":
+            told.append(message)
+        assert told
+        assert {message["label"] for message in told} == {"long.log"}
+        assert [message["done"] for message in told] == sorted(message["done"] for message in told)
+        assert all(message["done"] <= message["total"] for message in told)
+        assert message["state"]["frames"] == 20_000
+
+
+def test_a_load_can_be_cancelled_and_begun_again(shelf: Address):
+    with page_of(shelf) as page:
+        page.hello(frame=3)
+        rev = page.ask(recording=ids(page)["long.log"])
+        page.hear_a("loading")
+        page.say(type="cancel")
+        error = page.hear_a("error")
+        assert (error["where"], error["rev"], error["message"]) == ("recording", rev, "loading long.log was cancelled")
+        state = page.change(params={"epsilon": 0.04})
+        assert (state["label"], state["frame"]) == ("walls.npz", 3)
+        assert page.change(recording=ids(page)["long.log"])["label"] == "long.log"
+
+
+def test_another_choice_ends_a_load(shelf: Address):
+    with page_of(shelf) as page:
+        page.hello()
+        page.ask(recording=ids(page)["long.log"])
+        page.hear_a("loading")
+        assert page.change(recording=ids(page)["walls.npz"])["label"] == "walls.npz"
+
+
+def test_a_load_that_one_tab_gives_up_goes_on_for_another(long: Path, tmp_path: Path):
+    library = Library([long], Recent(tmp_path), Uploads(1, 1, 1))
+    with pytest.raises(Cancelled):
+        library.recording(library.first(), wanted=lambda: False)
+    assert len(library.recording(library.first())) == 20_000
+    assert library.recording(library.first()) is library.recording(library.first())
+
+
+def test_a_broken_file_of_the_command_line_is_told_and_a_sample_is_shown(tmp_path: Path):
+    broken = [tmp_path / "broken.bag", tmp_path / "empty.npz"]
+    broken[0].write_bytes(b"#ROSBAG V2.0\nnothing")
+    broken[1].write_bytes(b"")
+    with serving(Settings(files=tuple(broken), data_folder=tmp_path / "data")) as server, page_of(server) as page:
+        page.say(type="hello")
+        assert "broken.bag" in page.hear_a("error")["message"]
+        assert "empty.npz" in page.hear_a("error")["message"]
+        assert page.hear_a("drawn")["state"]["format"] == "NPZ"
+
+
+def test_a_topic_that_is_not_in_the_file_is_told(recordings: Path, tmp_path: Path):
+    settings = Settings(files=(recordings / "walls.npz",), topic="/rear", data_folder=tmp_path)
+    with serving(settings) as server, page_of(server) as page:
+        page.say(type="hello", view={"frame": 2})
+        assert "/rear" in page.hear_a("error", "drawn").get("message", "")
+
+
+def test_a_tab_without_input_for_long_is_closed(tmp_path: Path):
+    with serving(Settings(data_folder=tmp_path, sessions=SessionLimits(idle=0.2))) as server, page_of(server) as page:
+        page.say(type="hello")
+        with pytest.raises(ConnectionClosed) as closed:
+            while True:
+                page.hear()
+        assert closed.value.rcvd is not None
+        assert closed.value.rcvd.code == 4001
