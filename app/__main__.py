@@ -8,6 +8,8 @@ from collections.abc import Sequence
 
 import tyro
 
+from lineseg import __version__
+
 from .commands import COMMANDS
 from .commands.progress import interruptible
 
@@ -21,9 +23,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     if not arguments or arguments[0] not in (*COMMANDS, "-h", "--help", "--version"):
         arguments.insert(0, "view")
     if arguments == ["--version"]:
-        from importlib.metadata import version
-
-        print(f"lineseg {version('lineseg')}")
+        print(f"lineseg {__version__}")
         return 0
     try:
         with interruptible():

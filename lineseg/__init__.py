@@ -23,6 +23,8 @@ from .what_if import WhatIf, what_if
 from .why import Remark, why
 from .writers import figure_svg, params_text, read_params, write_segments
 
+__version__ = "0.1.0"
+
 __all__ = [
     "EXTRACTORS",
     "SCORES",
@@ -55,6 +57,7 @@ __all__ = [
     "TracedLine",
     "TrueLine",
     "WhatIf",
+    "__version__",
     "agreement",
     "agreements",
     "covariance",

@@ -10,7 +10,7 @@
         lineseg.rerun.log("laser", lineseg.extract(scan), scan)
 
 Everything lies in the plane z = 0 of the entity that is logged to; a Transform3D there puts it where the laser is.
-Importing this module needs rerun: `pip install 'lineseg[rerun]'`.
+Importing this module needs rerun, the extra `laser-lineseg[rerun]`.
 """
 
 from __future__ import annotations
@@ -21,13 +21,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .colours import SEGMENTS, segment_hues
+from .installation import install_command
 from .scan import Scan
 from .segment import Dropped, Extraction, Segment
 
 try:
     import rerun as rr
 except ModuleNotFoundError:
-    raise ModuleNotFoundError("rerun is not installed; `pip install 'lineseg[rerun]'` installs it") from None
+    raise ModuleNotFoundError(f"rerun is not installed; `{install_command('rerun')}` installs it") from None
 
 NO_LINE = (140, 145, 152)
 # Negative radii are in pixels of the screen, not in metres.

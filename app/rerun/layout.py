@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from importlib.metadata import version
 
 import rerun as rr
 import rerun.blueprint as rrb
 from rerun.blueprint.encodings import TextLogColumn
 
-from lineseg import SCORES, Recording, Thresholds
+from lineseg import SCORES, Recording, Thresholds, __version__
 from lineseg.colours import SEGMENTS
 from lineseg.rerun import LINE, NO_LINE, POINT, THIN
 
@@ -66,7 +65,7 @@ def properties(
 ) -> dict[str, str | int | float]:
     """What made this recording, so that it can be made again."""
     about = {
-        "version": version("lineseg"),
+        "version": __version__,
         "recording": label or recording.name,
         "topic": recording.topic,
         "method": method,
@@ -78,7 +77,7 @@ def properties(
 def parameters(label: str, method: str, params: Thresholds) -> rr.TextDocument:
     """The thresholds as a table."""
     rows = [f"| {knob.symbol} | {getattr(params, name):g} {knob.unit} | `{name}` |" for name, _, knob in params.knobs()]
-    head = f"**{label}**, {method}, lineseg {version('lineseg')}\n\n| | | |\n|---|---|---|\n"
+    head = f"**{label}**, {method}, lineseg {__version__}\n\n| | | |\n|---|---|---|\n"
     return rr.TextDocument(head + "\n".join(rows), media_type=rr.MediaType.MARKDOWN)
 
 

@@ -15,6 +15,8 @@ from pathlib import Path
 
 import rerun_cli
 
+from lineseg.installation import install_command
+
 FILES = ("re_viewer.js", "re_viewer_bg.wasm")
 START_SECONDS = 30.0
 
@@ -29,7 +31,7 @@ def executable() -> Path:
     for place in places:
         if place.is_file():
             return place
-    raise FileNotFoundError(f"{places[0]}: rerun's program is missing; `pip install 'lineseg[rerun]'` installs it")
+    raise FileNotFoundError(f"{places[0]}: rerun's program is missing; `{install_command('rerun')}` installs it")
 
 
 def quiet_environment(folder: Path) -> dict[str, str]:

@@ -7,7 +7,6 @@ import contextlib
 import logging
 from concurrent.futures import CancelledError
 from dataclasses import asdict, replace
-from importlib.metadata import version
 
 from fastapi import FastAPI
 from pydantic import BaseModel
@@ -16,7 +15,7 @@ from starlette.requests import Request
 from starlette.responses import RedirectResponse, Response
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
-from lineseg import EXTRACTORS
+from lineseg import EXTRACTORS, __version__
 
 from ..session.session import Session
 from ..session.sessions import Sessions, TooManySessionsError
@@ -72,7 +71,7 @@ def add_sockets(app: FastAPI, library: Library, sessions: Sessions, topic: str |
                 session=session.id,
                 resumed=resumed,
                 viser=f"/s/{session.id}/viser/",
-                version=version("lineseg"),
+                version=__version__,
                 methods=methods,
                 scores=scores,
                 recordings=library.entries(),

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..installation import install_command
 from . import MEASURES, Sweep
 from .axes import knob_of
 
@@ -102,5 +103,5 @@ def figure_type() -> Any:
     try:
         from matplotlib.figure import Figure
     except ImportError:
-        raise ValueError("a plot needs matplotlib; `pip install 'lineseg[tune]'` installs it") from None
+        raise ValueError(f"a plot needs matplotlib; `{install_command('plot')}` installs it") from None
     return Figure

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..finite import finite_or_none
+from ..installation import install_command
 from ..params import Params
 from . import MEASURES, Sweep
 
@@ -151,7 +152,7 @@ def _pyarrow() -> tuple[Any, Any]:
         import pyarrow
         import pyarrow.parquet
     except ImportError:
-        raise ValueError("a .parquet file needs pyarrow; `pip install 'lineseg[tune]'` installs it") from None
+        raise ValueError(f"a .parquet file needs pyarrow; `{install_command('parquet')}` installs it") from None
     return pyarrow, pyarrow.parquet
 
 

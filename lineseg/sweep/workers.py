@@ -8,6 +8,7 @@ from contextlib import contextmanager
 from itertools import islice
 from typing import Any, Protocol, TypeVar
 
+from ..installation import install_command
 from ..survey import cores
 
 T = TypeVar("T")
@@ -95,7 +96,7 @@ def _connected(scheduler: str) -> Iterator[Any]:
     try:
         from distributed import Client
     except ImportError:
-        raise ValueError("a scheduler needs Dask; `pip install 'lineseg[cluster]'` installs it") from None
+        raise ValueError(f"a scheduler needs Dask; `{install_command('cluster')}` installs it") from None
     try:
         client = Client(scheduler, timeout=CONNECT_SECONDS, set_as_default=False)
     except (OSError, TimeoutError, ValueError) as error:

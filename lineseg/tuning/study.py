@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from ..installation import install_command
 from ..params import Params
 from ..sweep.axes import knob_of
 from ..sweep.totals import Totals
@@ -221,7 +222,7 @@ def optuna_module() -> Any:
     try:
         import optuna
     except ImportError:
-        raise ValueError("auto-tuning needs Optuna; `pip install 'lineseg[tune]'` installs it") from None
+        raise ValueError(f"auto-tuning needs Optuna; `{install_command('tune')}` installs it") from None
     optuna.logging.set_verbosity(optuna.logging.WARNING)
     return optuna
 

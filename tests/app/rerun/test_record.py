@@ -20,6 +20,7 @@ from rrd import rows_of
 import lineseg
 import lineseg.rerun
 from lineseg import EXTRACTORS, Params, Recording, extract, open_recording, survey, trace
+from lineseg.installation import install_command
 
 SAMPLE = Path(__file__).parents[3] / "sample_scans" / "hallway.npz"
 
@@ -205,7 +206,7 @@ def test_without_rerun_all_else_works_and_one_sentence_says_what_to_install(tmp_
     command = [sys.executable, "-c", WITHOUT_RERUN, str(SAMPLE)]
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=120)
     assert done.stdout.split() == ["True", "0", "2"], done.stderr
-    assert done.stderr.strip() == "lineseg: rerun is not installed; `pip install 'lineseg[rerun]'` installs it"
+    assert done.stderr.strip() == f"lineseg: rerun is not installed; `{install_command('rerun')}` installs it"
     assert [file.name for file in tmp_path.iterdir()] == ["segments.jsonl"]
 
 

@@ -1,0 +1,78 @@
+"""The command that adds optional packages, as it must be typed for the way in which this program was installed."""
+
+from __future__ import annotations
+
+import json
+import os
+import shlex
+import shutil
+import subprocess
+import sys
+import sysconfig
+import tomllib
+from importlib.metadata import Distribution, PackageNotFoundError
+from importlib.util import find_spec
+from pathlib import Path
+from urllib.parse import urlsplit
+from urllib.request import url2pathname
+
+# On PyPI `lineseg` is another project; only the import name and the command are called that.
+DISTRIBUTION = "laser-lineseg"
+
+
+def install_command(extra: str) -> str:
+    """The shell command that installs what an extra brings (`rerun`, `tune`, …) where this program runs.
+
+    pipx and uv keep a tool in an environment of its own, and only they can add to it. A checkout that `make` set up has
+    its own versions pinned. A Python that belongs to the system takes no packages.
+    """
+    wanted = f"{DISTRIBUTION}[{extra}]"
+    prefix = Path(sys.prefix)
+    if (prefix / "pipx_metadata.json").is_file():
+        return _line("pipx", "inject", DISTRIBUTION, wanted)
+    if (prefix / "uv-receipt.toml").is_file():
+        # uv removes what it is not told again.
+        extras = sorted({extra, *_extras_of_uv(prefix / "uv-receipt.toml")})
+        return _line("uv", "tool", "install", f"{DISTRIBUTION}[{','.join(extras)}]")
+    folder = _checkout()
+    if folder and (folder / ".venv").resolve() == prefix.resolve():
+        return _line("make", "-C", str(folder), "install", f"EXTRAS={extra}")
+    if sys.prefix == sys.base_prefix and _belongs_to_the_system():
+        return _line("pipx", "install", wanted)
+    what = ["-e", f"{folder}[{extra}]"] if folder else [wanted]
+    if find_spec("pip") is None:
+        return _line("uv", "pip", "install", "--python", sys.executable, *what)
+    return _line(*_pip(), "install", *what)
+
+
+def _extras_of_uv(receipt: Path) -> list[str]:
+    tool = tomllib.loads(receipt.read_text())["tool"]
+    return [extra for each in tool["requirements"] if each["name"] == DISTRIBUTION for extra in each.get("extras", [])]
+
+
+def _checkout() -> Path | None:
+    """The working copy that an editable installation runs from."""
+    try:
+        about = Distribution.from_name(DISTRIBUTION).read_text("direct_url.json")
+    except PackageNotFoundError:
+        return None
+    origin = json.loads(about or "{}")
+    if not origin.get("dir_info", {}).get("editable"):
+        return None
+    return Path(url2pathname(urlsplit(origin["url"]).path))
+
+
+def _belongs_to_the_system() -> bool:
+    """Whether pip refuses to install here (PEP 668)."""
+    return (Path(sysconfig.get_path("stdlib")) / "EXTERNALLY-MANAGED").is_file()
+
+
+def _pip() -> list[str]:
+    """How pip of this environment is called; in short, if the shell finds that one."""
+    found = shutil.which("pip")
+    active = found is not None and Path(found).parent == Path(sys.executable).parent
+    return ["pip"] if active else [sys.executable, "-m", "pip"]
+
+
+def _line(*words: str) -> str:
+    return subprocess.list2cmdline(words) if os.name == "nt" else shlex.join(words)
