@@ -13,7 +13,9 @@ def data_folder(name: str) -> Path:
     for place in (here / name, here.parent / name):
         if place.is_dir():
             return place
-    raise FileNotFoundError(f"{name} is neither in {here} nor in {here.parent}; this installation is damaged: repeat it")
+    raise FileNotFoundError(
+        f"{name} is neither in {here} nor in {here.parent}; this installation is damaged: repeat it"
+    )
 
 
 def user_folder(chosen: Path | None = None) -> Path:

@@ -114,8 +114,8 @@ def test_it_finds_its_page_and_its_samples(environment: Path, elsewhere: Path):
 
 def test_its_command_shows_the_page(environment: Path, elsewhere: Path):
     command = [environment / "bin" / "lineseg", "view", "--no-browser", "--port", "0"]
-    home = {**os.environ, "HOME": str(elsewhere)}
-    with subprocess.Popen(command, cwd=elsewhere, env=home, stdout=subprocess.PIPE, text=True) as server:
+    surroundings = {**os.environ, "XDG_DATA_HOME": str(elsewhere)}
+    with subprocess.Popen(command, cwd=elsewhere, env=surroundings, stdout=subprocess.PIPE, text=True) as server:
         try:
             assert server.stdout is not None
             (address,) = re.findall(r"http://\S+/", server.stdout.readline())
