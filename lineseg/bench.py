@@ -13,6 +13,7 @@ from numba import njit
 from numpy.typing import NDArray
 
 from .extractors import extract, trace
+from .kernel import keep
 from .params import Params
 from .region_growing import Memory, extract_lines, limits_of
 from .scan import Recording, Scan
@@ -46,7 +47,8 @@ class Timing:
 
 
 # A yardstick of its own: what makes the kernels faster does not move it.
-@njit(nogil=True, error_model="numpy", fastmath={"contract"}, cache=True)
+@keep
+@njit(nogil=True, error_model="numpy", fastmath={"contract"})
 def floor_pass(x, y):
     """Add each point to the sums and fit the direction anew, as the method must at every point that it accepts."""
     total = n = sx = sy = sxx = sxy = syy = 0.0

@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 
 import numpy as np
-from numba import njit
 
+from ..kernel import entry_kernel, kernel
 from ..scan import Floats
 
 SEPARATORS = re.compile(rb"[\s,;]+")
@@ -54,12 +54,12 @@ def is_number(word: bytes) -> bool:
     return True
 
 
-@njit(cache=True)
+@kernel
 def _is_separator(byte):
     return byte == 32 or 9 <= byte <= 13 or byte == 44 or byte == 59
 
 
-@njit(cache=True)
+@entry_kernel
 def _plain_decimals(text, values, powers):
     """Fill `values` from the front of `text` while its words are like -12.34; their number, and where the last ends.
 

@@ -11,6 +11,7 @@ import time
 import urllib.request
 
 import numpy as np
+import platformdirs
 import pytest
 from lineseg_app.__main__ import main
 from lineseg_app.commands.progress import counted, interruptible
@@ -224,7 +225,8 @@ def test_ctrl_c_in_a_finaliser_ends_the_work_at_its_next_step(capsys):
 
 @pytest.mark.parametrize("arguments", [["view"], []], ids=["view FILE", "FILE"])
 def test_a_file_alone_is_viewed_until_ctrl_c(hall, tmp_path, arguments):
-    environment = os.environ | {"HOME": str(tmp_path), "XDG_DATA_HOME": str(tmp_path), "XDG_STATE_HOME": str(tmp_path)}
+    places = {"HOME": str(tmp_path), "XDG_DATA_HOME": str(tmp_path), "XDG_STATE_HOME": str(tmp_path)}
+    environment = os.environ | places | {"XDG_CACHE_HOME": platformdirs.user_cache_dir()}
     process = lineseg(*arguments, hall, "--port", 0, "--no-browser", env=environment)
     assert process.stdout
     try:

@@ -2,43 +2,33 @@
 
 from __future__ import annotations
 
-import contextlib
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 from numba import njit, types
 from numba.extending import intrinsic
+
+from .kept import KeptKernel
 
 # A kernel works on memory that its caller gives it: it allocates nothing, so it counts no references, which in loops as
 # short as these would cost more than the arithmetic. It needs no interpreter lock and divides as numpy does. Products
 # and sums are rounded one by one: a trace then decides as the extraction does, to the last bit. Were fastmath not
 # forbidden, a kernel would take it from the first that calls it.
 _OPTIONS: dict[str, Any] = {"nogil": True, "error_model": "numpy", "_nrt": False, "fastmath": False}
-# Only what Python calls needs a place in the cache: the rest is compiled into it.
+# Only what Python calls is kept on disk: the rest is compiled into it.
 _INNER: dict[str, Any] = {**_OPTIONS, "no_cfunc_wrapper": True}
-
-
-def drop_stale_kernels(package: Path) -> None:
-    """Delete from a package what was compiled before any of its files changed.
-
-    By itself numba only sees a change of the file that holds an entry kernel, not of those that hold what it calls.
-    """
-    # Not stat: an editor may have left a link to nowhere.
-    changed = max((file.lstat().st_mtime for file in package.rglob("*.py")), default=0.0)
-    for compiled in package.rglob("*.nb[ic]"):
-        # Another process may have been faster, or we may not write here.
-        with contextlib.suppress(OSError):
-            if compiled.lstat().st_mtime < changed:
-                compiled.unlink()
-
-
-drop_stale_kernels(Path(__file__).parent)
 
 
 def entry_kernel(function: Callable) -> Any:
     """Compile a function of arrays and numbers that Python calls."""
-    return njit(**_OPTIONS, cache=True)(function)
+    return keep(njit(**_OPTIONS)(function))
+
+
+def keep(compiled: Any) -> Any:
+    """Keep what numba compiles of a function that Python calls for the next program."""
+    if hasattr(compiled, "_cache"):  # with NUMBA_DISABLE_JIT it is the function itself
+        compiled._cache = KeptKernel(compiled)
+    return compiled
 
 
 def kernel(function: Callable) -> Any:

@@ -1,0 +1,105 @@
+"""Compiled kernels are found again by what they were compiled from."""
+
+import os
+import re
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from lineseg.kernel.kept import folder, forget_the_unused
+
+CALLED = """
+from lineseg.kernel import kernel
+
+@kernel
+def called(x):
+    return x + 1
+"""
+ENTRY = """
+from lineseg.kernel import entry_kernel
+from called import called
+
+@entry_kernel
+def entry(x):
+    return called(x)
+
+if __name__ == "entry":
+    results = entry(1), entry(0.5)
+    print(*results, sum(entry.stats.cache_hits.values()), "loaded", sum(entry.stats.cache_misses.values()), "compiled")
+"""
+
+
+@pytest.fixture
+def programs(tmp_path: Path) -> Path:
+    """A folder with a kernel in one file, which calls a kernel in another."""
+    (tmp_path / "called.py").write_text(CALLED)
+    (tmp_path / "entry.py").write_text(ENTRY)
+    return tmp_path
+
+
+def start(programs: Path, kept: str = "kept") -> subprocess.Popen:
+    """Call the kernel with an integer and with a number."""
+    environment = os.environ | {"NUMBA_CACHE_DIR": str(programs / kept), "PYTHONDONTWRITEBYTECODE": "1"}
+    command = [sys.executable, "-c", "import entry"]
+    return subprocess.Popen(command, cwd=programs, env=environment, stdout=subprocess.PIPE, text=True)
+
+
+def run(programs: Path, kept: str = "kept") -> str:
+    with start(programs, kept) as process:
+        assert process.stdout
+        said = process.stdout.read().strip()
+    assert process.returncode == 0
+    return said
+
+
+def test_only_a_change_of_a_kernel_is_compiled_and_what_was_before_is_kept(programs):
+    assert run(programs) == "2 1.5 0 loaded 2 compiled"
+    for file in programs.glob("*.py"):
+        file.write_text("# Nothing that counts.\n" + file.read_text() + "\ndef other():\n    return 1\n")
+    assert run(programs) == "2 1.5 2 loaded 0 compiled"
+    (programs / "called.py").write_text(CALLED.replace("x + 1", "x + 2"))
+    assert run(programs) == "3 2.5 0 loaded 2 compiled"
+    (programs / "called.py").write_text(CALLED)
+    assert run(programs) == "2 1.5 2 loaded 0 compiled"
+
+
+def test_programs_that_start_together_do_not_disturb_each_other(programs):
+    together = [start(programs) for _ in range(3)]
+    for process in together:
+        said, _ = process.communicate(timeout=100)
+        assert re.fullmatch(r"2 1\.5 \d loaded \d compiled", said.strip())
+    assert run(programs) == "2 1.5 2 loaded 0 compiled"
+    assert len(list((programs / "kept" / "lineseg").iterdir())) == 2
+
+
+def test_a_file_cut_short_is_compiled_again(programs):
+    run(programs)
+    for file in (programs / "kept" / "lineseg").iterdir():
+        file.write_bytes(file.read_bytes()[:100])
+    assert run(programs) == "2 1.5 0 loaded 2 compiled"
+    assert run(programs) == "2 1.5 2 loaded 0 compiled"
+
+
+def test_without_a_place_to_write_each_program_compiles_for_itself(programs):
+    (programs / "file").write_text("")
+    assert run(programs, "file") == run(programs, "file") == "2 1.5 0 loaded 2 compiled"
+
+
+def test_they_are_among_the_caches_of_the_user_unless_numba_is_told_another_place(monkeypatch):
+    monkeypatch.setattr("numba.config.CACHE_DIR", "")
+    assert folder().parts[-2:] == ("lineseg", "kernels")
+    monkeypatch.setattr("numba.config.CACHE_DIR", "/elsewhere")
+    assert folder() == Path("/elsewhere/lineseg")
+
+
+def test_what_was_not_loaded_for_months_is_forgotten(tmp_path):
+    used, unused = tmp_path / "used.pickle", tmp_path / "unused.pickle"
+    for file, days in ((used, 59), (unused, 61)):
+        file.write_bytes(b"")
+        os.utime(file, (time.time() - days * 86400,) * 2)
+    forget_the_unused(tmp_path)
+    assert used.exists()
+    assert not unused.exists()
