@@ -3,8 +3,8 @@
 import { createDraw } from "./draw/draw.js";
 import { createPackCard } from "./export/pack.js";
 import { createTake } from "./export/take.js";
-import { catchDrops, chooseFile, pick, upload } from "./files.js";
-import { createFollow, presenterIn } from "./follow.js";
+import { catchDrops, chooseFile, pick, upload } from "./open/files.js";
+import { createFollow, presenterIn } from "./view/follow.js";
 import { keyboard, showHelp } from "./keys.js";
 import { createAb } from "./inspect/ab.js";
 import { createFilter } from "./inspect/filter.js";
@@ -14,20 +14,20 @@ import { createWeights } from "./inspect/weights.js";
 import { createWhatIf } from "./inspect/what_if.js";
 import { createWords } from "./inspect/words.js";
 import { createLabels } from "./label/labels.js";
-import { createLayers } from "./layers.js";
+import { createLayers } from "./stage/layers.js";
 import { mountLearn } from "./learn/learn.js";
-import { Link } from "./link.js";
-import { createLinked } from "./linked.js";
+import { Link } from "./view/link.js";
+import { createLinked } from "./view/linked.js";
 import { createLive } from "./live/pill.js";
 import { showPublish, showSend, stopPublishing } from "./live/robot.js";
-import { createModes } from "./modes.js";
-import { mountNotices } from "./notices.js";
+import { createModes } from "./bars/modes.js";
+import { mountNotices } from "./stage/notices.js";
 import { addressOf, record } from "./rerun/run.js";
 import { mountRerun } from "./rerun/tab.js";
-import { keepSessionOnLeave, takeSession } from "./session.js";
-import { mountStage } from "./stage.js";
-import { mountStatus } from "./status.js";
-import { Store } from "./store.js";
+import { keepSessionOnLeave, takeSession } from "./view/session.js";
+import { mountStage } from "./stage/stage.js";
+import { mountStatus } from "./bars/status.js";
+import { Store } from "./view/store.js";
 import { text } from "./text/en.js";
 import { drawText } from "./text/draw.js";
 import { exportText } from "./text/export.js";
@@ -37,13 +37,13 @@ import { learnText } from "./text/learn.js";
 import { liveText } from "./text/live.js";
 import { rerunText } from "./text/rerun.js";
 import { tuningText } from "./text/tuning.js";
-import { mountTimeline } from "./timeline.js";
-import { mountTopbar } from "./topbar.js";
+import { mountTimeline } from "./bars/timeline.js";
+import { mountTopbar } from "./bars/topbar.js";
 import { createExchange, fetchText } from "./tune/exchange.js";
 import { createExplanation } from "./tune/explanation.js";
 import { mountPanel } from "./tune/panel.js";
 import { mountReplay } from "./tune/replay.js";
-import { isSweepTable } from "./tune/sweep-table.js";
+import { isSweepTable } from "./tune/sweep_table.js";
 import { createTuner } from "./tune/tuner.js";
 import { copy } from "./widgets/clipboard.js";
 import { h } from "./widgets/dom.js";
@@ -70,7 +70,7 @@ let drawn = null;
 let methods = [];
 let uploadLimit = Infinity;
 let fitted = "";
-/** What a link says of the plan, until the plan is there. @type {import("./store.js").Look | null} */
+/** What a link says of the plan, until the plan is there. @type {import("./view/store.js").Look | null} */
 let lookedFor = null;
 /** The world that drawing begins with. */
 let firstDrawing = "";
@@ -491,7 +491,7 @@ function robotCommands() {
   return [{ title: text.group, items: now?.publishable ? [send, publish] : [send] }];
 }
 
-/** @param {import("./modes.js").Mode} mode */
+/** @param {import("./bars/modes.js").Mode} mode */
 function setMode(mode) {
   // Learning begins at the first decision; tuning looks at the whole result.
   if (mode === store.view.mode) return;
@@ -803,7 +803,7 @@ function takePack({ method, params }) {
 }
 
 let lostTimer = 0;
-/** @param {import("./link.js").Connection} connection @param {string} reason */
+/** @param {import("./view/link.js").Connection} connection @param {string} reason */
 function showConnection(connection, reason) {
   status.setConnection(connection);
   if (connection === "open") {

@@ -1,6 +1,6 @@
 // @ts-check
 // A, a result that was pinned, beside B, the present one.
-import { keyOf } from "../key.js";
+import { keyOf } from "../view/key.js";
 import { h, setText } from "../widgets/dom.js";
 import { iconButton } from "../widgets/icon.js";
 import { format, withUnit } from "../widgets/scale.js";

@@ -1,6 +1,6 @@
 // @ts-check
 // What would change the answer for the selected beam: asked for once things rest.
-import { keyOf } from "../key.js";
+import { keyOf } from "../view/key.js";
 import { fetchText } from "../tune/exchange.js";
 
 /** @typedef {import("../wire.js").State} State */

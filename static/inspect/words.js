@@ -1,6 +1,6 @@
 // @ts-check
 // What looks wrong in the frames that are in view, in words of the server.
-import { keyOf } from "../key.js";
+import { keyOf } from "../view/key.js";
 import { fetchText } from "../tune/exchange.js";
 
 /** @typedef {import("../wire.js").State} State */

@@ -18,7 +18,7 @@ import { compared, variables } from "./values.js";
 /** @typedef {import("../wire.js").State} State */
 /** @typedef {import("../wire.js").View} View */
 /** @typedef {import("../wire.js").Knob} Knob */
-/** @typedef {import("../store.js").Patch} Patch */
+/** @typedef {import("../view/store.js").Patch} Patch */
 /** @typedef {import("./listing.js").Algorithm} Algorithm */
 
 /** @typedef {import("./trace.js").Event} Event */

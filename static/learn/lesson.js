@@ -12,7 +12,7 @@ import { symbols } from "./symbols.js";
 /** @typedef {import("../wire.js").View} View */
 /** @typedef {import("../wire.js").Knob} Knob */
 /** @typedef {import("../wire.js").Params} Params */
-/** @typedef {import("../store.js").Patch} Patch */
+/** @typedef {import("../view/store.js").Patch} Patch */
 /** @typedef {import("./trace.js").Trace} Trace */
 /** @typedef {import("./goals.js").Find} Find */
 /** @typedef {{text: string, find: Find | null, method: string | null, params: Params, selected: number | null}} LessonStep */

@@ -1,6 +1,6 @@
 // @ts-check
 // The dock of mode Learn: the sentence of the present decision, and every way to another one.
-import { Player } from "../player.js";
+import { Player } from "../widgets/player.js";
 import { h, sentenceCase, setText } from "../widgets/dom.js";
 import { icon, iconButton } from "../widgets/icon.js";
 import { createNumberField } from "../widgets/number.js";

@@ -1,6 +1,6 @@
 // @ts-check
 // The tab Rerun: over the scene, rerun's viewer with a recording of the present view.
-import { keyOf } from "../key.js";
+import { keyOf } from "../view/key.js";
 import { h, setText } from "../widgets/dom.js";
 import { iconButton } from "../widgets/icon.js";
 import { addressOf, record } from "./run.js";

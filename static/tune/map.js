@@ -2,9 +2,9 @@
 // A measure over two thresholds, with contours; a click sets both. Of the recording on the screen, or of a sweep that was opened.
 import { h, setText } from "../widgets/dom.js";
 import { placeOf, valueAt, withUnit } from "../widgets/scale.js";
-import { chooseFile } from "../files.js";
+import { chooseFile } from "../open/files.js";
 import { contour } from "./contours.js";
-import { readSweepTable } from "./sweep-table.js";
+import { readSweepTable } from "./sweep_table.js";
 
 /** @typedef {import("../wire.js").Knob} Knob */
 /** @typedef {import("../wire.js").Params} Params */
@@ -32,9 +32,9 @@ export function createMap(text, { ask, stop, onSet }) {
   let knobs = [];
   /** @type {Measure[]} */
   let measures = [];
-  /** @type {import("./sweep-table.js").SweepTable | null} */
+  /** @type {import("./sweep_table.js").SweepTable | null} */
   let table = null;
-  /** @type {ReturnType<import("./sweep-table.js").SweepTable["relief"]> | null} */
+  /** @type {ReturnType<import("./sweep_table.js").SweepTable["relief"]> | null} */
   let relief = null;
   /** @type {Params} */
   let params = {};
@@ -139,7 +139,7 @@ export function createMap(text, { ask, stop, onSet }) {
     if (read) setTable(read);
   }
 
-  /** @param {import("./sweep-table.js").SweepTable | null} next null: back to the recording */
+  /** @param {import("./sweep_table.js").SweepTable | null} next null: back to the recording */
   function setTable(next) {
     if (running) stop();
     table = next;

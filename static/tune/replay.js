@@ -1,6 +1,6 @@
 // @ts-check
 // The replay of one frame, decision by decision.
-import { Player } from "../player.js";
+import { Player } from "../widgets/player.js";
 import { h, sentenceCase, setText } from "../widgets/dom.js";
 import { icon, iconButton } from "../widgets/icon.js";
 import { createNumberField } from "../widgets/number.js";

@@ -1,6 +1,6 @@
 // @ts-check
 // Mirroring another tab: the bar that says so, and the gate that keeps this tab from changing what it mirrors.
-import { h, setText } from "./widgets/dom.js";
+import { h, setText } from "../widgets/dom.js";
 
 /** @typedef {import("./store.js").Patch} Patch */
 /** @typedef {"here" | "away" | "gone"} Presence */
@@ -14,7 +14,7 @@ export function presenterIn(hash) {
 }
 
 /**
- * @param {typeof import("./text/en.js").text.follow} text
+ * @param {typeof import("../text/en.js").text.follow} text
  * @param {{presenter: string | null, onFollow: (presenter: string | null) => void}} handlers onFollow: null to stop
  */
 export function createFollow(text, { presenter, onFollow }) {

@@ -2,7 +2,7 @@
 // The link that this page was opened with, as long as its recording cannot be had: the address stays as it was, and what
 // the link says goes with the file once that is opened.
 
-/** @typedef {import("./wire.js").View} View */
+/** @typedef {import("../wire.js").View} View */
 /** @typedef {import("./store.js").Patch} Patch */
 
 export function createLinked() {

@@ -1,14 +1,14 @@
 // @ts-check
 // What lies over the scene: empty and loading states, errors, the lost connection, the drop target.
-import { h, setText } from "./widgets/dom.js";
-import { icon, iconButton } from "./widgets/icon.js";
+import { h, setText } from "../widgets/dom.js";
+import { icon, iconButton } from "../widgets/icon.js";
 
 // A load that is over at once should not flash.
 const LOADING_DELAY_MS = 150;
 
 /**
  * @param {HTMLElement} stage
- * @param {typeof import("./text/en.js").text.stage} text
+ * @param {typeof import("../text/en.js").text.stage} text
  * @param {{onCancel: () => void, onRetry: () => void}} handlers
  */
 export function mountNotices(stage, text, { onCancel, onRetry }) {

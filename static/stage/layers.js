@@ -1,12 +1,12 @@
 // @ts-check
 // Switches of what is drawn, which are the legend as well.
-import { h } from "./widgets/dom.js";
-import { iconButton } from "./widgets/icon.js";
-import { popUnder } from "./widgets/menu.js";
-import { tooltip } from "./widgets/tooltip.js";
+import { h } from "../widgets/dom.js";
+import { iconButton } from "../widgets/icon.js";
+import { popUnder } from "../widgets/menu.js";
+import { tooltip } from "../widgets/tooltip.js";
 
 /**
- * @param {typeof import("./text/en.js").text} words
+ * @param {typeof import("../text/en.js").text} words
  * @param {(layers: Record<string, boolean>) => void} onLayers
  */
 export function createLayers(words, onLayers) {

@@ -1,9 +1,9 @@
 // @ts-check
 // The scene: viser's page in a frame of the same origin. Its camera is set here; picking is the server's.
-import { h, setText } from "./widgets/dom.js";
-import { closePopovers } from "./widgets/menu.js";
+import { h, setText } from "../widgets/dom.js";
+import { closePopovers } from "../widgets/menu.js";
 
-/** @typedef {import("./wire.js").Box} Box */
+/** @typedef {import("../wire.js").Box} Box */
 
 const PLAN_FOV_DEG = 10;
 const FREE_FOV_DEG = 45;
@@ -23,7 +23,7 @@ const OVERRULED = `
 
 /**
  * @param {HTMLElement} stage
- * @param {typeof import("./text/en.js").text.stage} text
+ * @param {typeof import("../text/en.js").text.stage} text
  * @param {{onKey: (event: KeyboardEvent) => boolean, onFrame: (frame: Window) => void}} handlers
  *   onKey: a key pressed in the scene, true if the page took it; onFrame: a scene was loaded
  */
@@ -252,7 +252,7 @@ export function mountStage(stage, text, { onKey, onFrame }) {
     },
     /** Shows the whole box. @param {Box} box */
     fit: showBox,
-    /** What the plan shows, where a person has moved it. @returns {import("./store.js").Look | null} */
+    /** What the plan shows, where a person has moved it. @returns {import("../view/store.js").Look | null} */
     get look() {
       if (!plan || !whole || pendingFit) return null;
       const moved = Math.max(
@@ -264,7 +264,7 @@ export function mountStage(stage, text, { onKey, onFrame }) {
         ? { x: plan.x, y: plan.y, span: 2 * plan.height * Math.tan(rad(PLAN_FOV_DEG / 2)) }
         : null;
     },
-    /** @param {import("./store.js").Look} look */
+    /** @param {import("../view/store.js").Look} look */
     lookAt({ x, y, span }) {
       plan = { x, y, height: Math.max(NEAREST, span / 2 / Math.tan(rad(PLAN_FOV_DEG / 2))) };
       pendingFit = null;

@@ -1,14 +1,14 @@
 // @ts-check
-import { h, setText } from "./widgets/dom.js";
-import { tooltip } from "./widgets/tooltip.js";
+import { h, setText } from "../widgets/dom.js";
+import { tooltip } from "../widgets/tooltip.js";
 
-/** @typedef {import("./wire.js").State} State */
+/** @typedef {import("../wire.js").State} State */
 
 const ANNOUNCE_MS = 800;
 
 /**
  * @param {HTMLElement} bar
- * @param {typeof import("./text/en.js").text.status} text
+ * @param {typeof import("../text/en.js").text.status} text
  */
 export function mountStatus(bar, text) {
   const figures = {

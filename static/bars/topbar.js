@@ -1,19 +1,19 @@
 // @ts-check
-import { h } from "./widgets/dom.js";
-import { icon, iconButton } from "./widgets/icon.js";
-import { createMenu } from "./widgets/menu.js";
-import { tooltip } from "./widgets/tooltip.js";
+import { h } from "../widgets/dom.js";
+import { icon, iconButton } from "../widgets/icon.js";
+import { createMenu } from "../widgets/menu.js";
+import { tooltip } from "../widgets/tooltip.js";
 
-/** @typedef {import("./wire.js").RecordingEntry} RecordingEntry */
-/** @typedef {import("./wire.js").Method} Method */
-/** @typedef {import("./wire.js").State} State */
+/** @typedef {import("../wire.js").RecordingEntry} RecordingEntry */
+/** @typedef {import("../wire.js").Method} Method */
+/** @typedef {import("../wire.js").State} State */
 
 const THEMES = /** @type {const} */ (["auto", "light", "dark"]);
 /** @typedef {(typeof THEMES)[number]} Theme */
 
 /**
  * @param {HTMLElement} bar
- * @param {typeof import("./text/en.js").text} words
+ * @param {typeof import("../text/en.js").text} words
  * @param {{exchange: HTMLElement, ab: HTMLElement, modes: HTMLElement, theme: Theme, onRecording: (id: string) => void, onOpen: () => void,
  *          onTopic: (topic: string) => void, onMethod: (method: string) => void, onLink: () => void,
  *          onTheme: (theme: Theme) => void, onHelp: () => void}} handlers
@@ -88,7 +88,7 @@ export function mountTopbar(bar, words, handlers) {
     const shown = { auto: ["auto", text.themeAuto], light: ["sun", text.themeLight], dark: ["moon", text.themeDark] }[
       theme
     ];
-    themeButton.show(/** @type {import("./widgets/icon.js").IconName} */ (shown[0]), shown[1]);
+    themeButton.show(/** @type {import("../widgets/icon.js").IconName} */ (shown[0]), shown[1]);
   }
 
   return {

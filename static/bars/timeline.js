@@ -1,14 +1,14 @@
 // @ts-check
-import { Player } from "./player.js";
+import { Player } from "../widgets/player.js";
 import { createStrip } from "./strip.js";
-import { h, setText } from "./widgets/dom.js";
-import { iconButton } from "./widgets/icon.js";
-import { createNumberField } from "./widgets/number.js";
-import { clamp } from "./widgets/scale.js";
-import { createSlider } from "./widgets/slider.js";
-import { tooltip } from "./widgets/tooltip.js";
+import { h, setText } from "../widgets/dom.js";
+import { iconButton } from "../widgets/icon.js";
+import { createNumberField } from "../widgets/number.js";
+import { clamp } from "../widgets/scale.js";
+import { createSlider } from "../widgets/slider.js";
+import { tooltip } from "../widgets/tooltip.js";
 
-/** @typedef {import("./wire.js").State} State */
+/** @typedef {import("../wire.js").State} State */
 
 const SPEEDS = [1, 2, 5, 10, 20, 40];
 const USUAL_SPEED = 10;
@@ -16,7 +16,7 @@ const USUAL_SPEED = 10;
 /**
  * Frames of the recording: play, speed, number, scrubber over the strip of scores, stamp.
  * @param {HTMLElement} bar
- * @param {typeof import("./text/en.js").text.timeline} text
+ * @param {typeof import("../text/en.js").text.timeline} text
  * @param {{onFrame: (frame: number) => void, onScore: (score: string) => void, onScores: () => void, onFollow: (live: boolean) => void,
  *          settled: () => boolean, pill: HTMLElement}} handlers
  *   onScores: the strip shows other values; onFollow: of a live recording; pill: shows whether it is followed
@@ -126,7 +126,7 @@ export function mountTimeline(bar, text, { onFrame, onScore, onScores, onFollow,
     },
     setScores: strip.setScores,
     showStrip: strip.show,
-    /** @param {import("./wire.js").Survey} survey */
+    /** @param {import("../wire.js").Survey} survey */
     setSurvey(survey) {
       strip.setSurvey(survey);
       show();

@@ -1,9 +1,9 @@
 // @ts-check
 // The View of this tab: the one place where it changes, its undo, and its mirror in the URL hash.
 
-/** @typedef {import("./wire.js").View} View */
-/** @typedef {import("./wire.js").Params} Params */
-/** @typedef {import("./wire.js").Method} Method */
+/** @typedef {import("../wire.js").View} View */
+/** @typedef {import("../wire.js").Params} Params */
+/** @typedef {import("../wire.js").Method} Method */
 /** @typedef {Pick<View, "method" | "params">} Chosen */
 /** @typedef {Partial<View>} Patch */
 /** The middle of the plan and how high it is [m]. @typedef {{x: number, y: number, span: number}} Look */
@@ -277,7 +277,7 @@ function parseHash(hash) {
   return patch;
 }
 
-/** @param {import("./wire.js").Against} pinned "region-growing,epsilon:0.03,…" */
+/** @param {import("../wire.js").Against} pinned "region-growing,epsilon:0.03,…" */
 function pinnedWords({ method, params }) {
   return [method, ...Object.entries(params).map(([name, value]) => `${name}:${value}`)].join(",");
 }

@@ -1,6 +1,6 @@
 // @ts-check
 // The switch between the modes of the page.
-import { h } from "./widgets/dom.js";
+import { h } from "../widgets/dom.js";
 
 export const MODES = /** @type {const} */ (["tune", "learn", "inspect"]);
 /** @typedef {(typeof MODES)[number]} Mode */

@@ -1,12 +1,12 @@
 // @ts-check
 // A score of every frame as colours behind the timeline's scrubber.
-import { h, setText } from "./widgets/dom.js";
-import { clamp } from "./widgets/scale.js";
-import { tooltip } from "./widgets/tooltip.js";
+import { h, setText } from "../widgets/dom.js";
+import { clamp } from "../widgets/scale.js";
+import { tooltip } from "../widgets/tooltip.js";
 
-/** @typedef {import("./wire.js").State} State */
-/** @typedef {import("./wire.js").Score} Score */
-/** @typedef {import("./wire.js").Survey} Survey */
+/** @typedef {import("../wire.js").State} State */
+/** @typedef {import("../wire.js").Score} Score */
+/** @typedef {import("../wire.js").Survey} Survey */
 /** @typedef {{low: number, high: number}} Scale */
 
 // From what is well to what is doubtful; lightness alone tells them apart, so no kind of colour vision is needed.
@@ -15,7 +15,7 @@ const DARK = [0x2c3239, 0x5f3c1d, 0xad5d18, 0xf0a043, 0xfff1c9];
 const SHADES = 64;
 
 /**
- * @param {typeof import("./text/en.js").text.timeline.strip} text
+ * @param {typeof import("../text/en.js").text.timeline.strip} text
  * @param {{onScore: (score: string) => void, onChange: () => void}} handlers onChange: other values, or another score
  */
 export function createStrip(text, { onScore, onChange }) {
@@ -342,7 +342,7 @@ function samePlace(survey, state) {
   return survey.recording === state.recording && survey.topic === (state.topic ?? "");
 }
 
-/** @param {import("./wire.js").Params} one @param {import("./wire.js").Params} other */
+/** @param {import("../wire.js").Params} one @param {import("../wire.js").Params} other */
 function sameParams(one, other) {
   return Object.entries(one).every(([name, value]) => other[name] === value);
 }
