@@ -7,8 +7,8 @@ from dataclasses import asdict, dataclass, field, fields, replace
 from typing import Any
 
 from lineseg import EXTRACTORS, Params, Thresholds
-from lineseg.score import SCORES, Score
-from lineseg.suspicion import WEIGHTS
+from lineseg.doubt import SCORES, Score
+from lineseg.doubt.suspicion import WEIGHTS
 
 DIFFERENCE = Score(
     "difference",

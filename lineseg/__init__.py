@@ -1,27 +1,27 @@
 """Line segments from 2D laser scans by seeded region growing (Gao, Zhang, Fang, Yuan 2018)."""
 
 from .covariance import Noise, covariance, covariances
-from .decisions import Decision, Explanation, Trace, TracedLine
-from .difference import Difference, difference, differences
+from .doubt import SCORES
+from .doubt.misses import Miss, misses
+from .doubt.suspicion import WEIGHTS, doubts, suspicion, worst_first
 from .extractors import EXTRACTORS, Extractor, extract, trace
 from .knobs import Knob, Thresholds
-from .label_file import ConflictError, label_file, read_labels, save_labels
-from .labels import FrameLabels, TrueLine
-from .misses import Miss, misses
-from .pack import write_pack
 from .params import Params
 from .readers import Cancelled, TextOptions, open_recording, save_npz
 from .readers.pack import read_pack
 from .scan import PackAbout, Recording, Scan, Topic
-from .score import SCORES
 from .segment import Dropped, Extraction, Segment
-from .stability import with_stability
 from .survey import Survey, survey
-from .suspicion import WEIGHTS, doubts, suspicion, worst_first
+from .survey.difference import Difference, difference, differences
+from .survey.stability import with_stability
+from .survey.why import Remark, why
+from .tracing.decisions import Decision, Explanation, Trace, TracedLine
 from .truth import Agreement, Matching, agreement, agreements, match, true_ends, true_lines
+from .truth.label_file import ConflictError, label_file, read_labels, save_labels
+from .truth.labels import FrameLabels, TrueLine
 from .what_if import WhatIf, what_if
-from .why import Remark, why
 from .writers import figure_svg, params_text, read_params, write_segments
+from .writers.pack import write_pack
 
 __version__ = "0.1.0"
 

@@ -17,14 +17,14 @@ from .baselines.logged import LoggedMethod
 from .baselines.ransac import RANSAC, RansacParams
 from .baselines.split_and_merge import SPLIT_AND_MERGE, SplitAndMergeParams
 from .baselines.split_and_merge_textbook import SPLIT_AND_MERGE_TEXTBOOK, TextbookParams
-from .decisions import Trace, Vocabulary
-from .extraction import extraction_of
 from .knobs import Thresholds
 from .params import Params
 from .region_growing import Run, run
+from .region_growing.extraction import extraction_of
+from .region_growing.trace import VOCABULARY, GrowthTrace
 from .scan import Scan
 from .segment import Extraction
-from .tracing import VOCABULARY, GrowthTrace
+from .tracing.decisions import Trace, Vocabulary
 
 
 @dataclass(frozen=True)

@@ -178,7 +178,7 @@
  * @property {string} presenter the id under which others may follow this tab
  */
 
-/** @typedef {{name: string, label: string, unit: string, help: string, worse: "higher" | "lower", least: number, weight: number}} Score (lineseg/score.py) */
+/** @typedef {{name: string, label: string, unit: string, help: string, worse: "higher" | "lower", least: number, weight: number}} Score (lineseg/doubt) */
 
 /**
  * Scores of every stride-th frame under some thresholds, or a message why there are none.

@@ -15,7 +15,7 @@ import numpy as np
 from lineseg_app.server import Settings, create_app, listen, server_of
 from websockets.sync.client import ClientConnection, connect
 
-from lineseg.score import SCORES
+from lineseg.doubt import SCORES
 
 # The first test on a machine waits for the kernels to be compiled.
 SECONDS = 240

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from lineseg import EXTRACTORS, Decision, Extraction, Recording, Scan, Thresholds, Trace
 from lineseg.knobs import Knob
-from lineseg.region_growing.log import CHECKS
-from lineseg.tracing import GrowthTrace
+from lineseg.region_growing.checks import CHECKS
+from lineseg.region_growing.trace import GrowthTrace
 
 BINS = 24
 

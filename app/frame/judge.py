@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lineseg import Agreement, FrameLabels, Recording, Thresholds, agreements
-from lineseg.finite import finite_or_none
-from lineseg.labels import Labels
 from lineseg.truth import Matching, demands_of, match, true_ends, true_lines
+from lineseg.truth.labels import Labels
+from lineseg.writers.finite import finite_or_none
 
 from ..shelf.label_files import Known
 from .findings import Findings

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from lineseg import Decision, Recording, difference
-from lineseg.finite import finite_or_none
+from lineseg.writers.finite import finite_or_none
 
 from ..live.ring import LiveRecording, first_of
 from ..scene.picture import extent_of

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from lineseg.tracing import GrowthTrace
+from lineseg.region_growing.trace import GrowthTrace
 
 from .findings import Findings
 

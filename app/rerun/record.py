@@ -12,9 +12,9 @@ import rerun as rr
 from numpy.typing import NDArray
 
 from lineseg import EXTRACTORS, SCORES, Recording, Thresholds, Trace
-from lineseg.decisions import Kind
 from lineseg.rerun import dropped_strips, hue_of_beams, hues_of, raised, segment_strips
 from lineseg.survey import survey
+from lineseg.tracing.decisions import Kind
 
 from ..scene.palette import LIGHT
 from ..scene.picture import truth

@@ -9,9 +9,9 @@ from fastapi import FastAPI, Request
 from starlette.concurrency import run_in_threadpool
 from starlette.exceptions import HTTPException
 
-from lineseg.finite import finite_or_none
 from lineseg.sweep import MEASURES
 from lineseg.sweep.table import Table, read_table
+from lineseg.writers.finite import finite_or_none
 
 from .body import body_of
 

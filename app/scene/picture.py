@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lineseg import Decision, Recording, Scan, Segment, difference
-from lineseg.difference import KEPT
+from lineseg.survey.difference import KEPT
 
 from ..frame.findings import Findings
 from ..frame.judge import Judged

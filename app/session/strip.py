@@ -18,12 +18,12 @@ from numpy.typing import NDArray
 from pydantic import BaseModel
 
 from lineseg import Params, Recording, Thresholds, differences
-from lineseg.difference import FATES, KEPT
+from lineseg.doubt import SCORES
+from lineseg.doubt.suspicion import suspicion
 from lineseg.readers import Cancelled
-from lineseg.score import SCORES
-from lineseg.stability import with_stability
 from lineseg.survey import BESIDE, Survey, survey
-from lineseg.suspicion import suspicion
+from lineseg.survey.difference import FATES, KEPT
+from lineseg.survey.stability import with_stability
 
 from ..live.ring import first_of
 from ..view import Against, View, all_weights

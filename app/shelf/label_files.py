@@ -12,8 +12,8 @@ from pathlib import Path
 from weakref import WeakKeyDictionary
 
 from lineseg import FrameLabels, Recording, label_file, read_labels, save_labels
-from lineseg.label_file import users_label_file
-from lineseg.labels import Labels
+from lineseg.truth.label_file import users_label_file
+from lineseg.truth.labels import Labels
 
 from ..live.ring import LiveRecording
 from .library import Library

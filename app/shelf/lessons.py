@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError, model_validator
 
 from lineseg.extractors import EXTRACTORS
-from lineseg.tracing import VOCABULARY
+from lineseg.region_growing.trace import VOCABULARY
 
 from ..places import data_folder
 from ..wire import Name, Number, sentence

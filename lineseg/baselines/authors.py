@@ -14,15 +14,15 @@ from typing import Annotated, NamedTuple
 
 import numpy as np
 
-from ..decisions import Kind, Vocabulary
 from ..kernel import entry_kernel, kernel
 from ..knobs import Thresholds, switch
-from ..log import ROW, note, note_pair, written
 from ..params import Delta, Epsilon, MinLength, MinPoints, SeedPoints
+from ..region_growing.checks import CHECKS, DELTA, END, EPSILON, MERGE_ANGLE, MIN_LENGTH, MIN_POINTS, NEARER, NONE
 from ..region_growing.lines import DROPPED, LINE, Dropping, append, drop, line_at, remove
-from ..region_growing.log import CHECKS, DELTA, END, EPSILON, MERGE_ANGLE, MIN_LENGTH, MIN_POINTS, NEARER, NONE
 from ..scan import Scan
 from ..total_least_squares import Moments, add, empty, line_of, project, signed_distance
+from ..tracing.decisions import Kind, Vocabulary
+from ..tracing.log import ROW, note, note_pair, written
 from .endpoints import place_endpoints
 from .logged import LoggedMethod, Run
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 
 from ..kernel import kernel
-from ..log import note_pair
+from ..region_growing.checks import NONE
 from ..region_growing.lines import line_at
-from ..region_growing.log import NONE
 from ..total_least_squares import project, squares_of
+from ..tracing.log import note_pair
 
 
 @kernel

@@ -17,10 +17,10 @@ from typing import Annotated
 import numpy as np
 from numpy.typing import NDArray
 
-from ..decisions import Kind
 from ..kernel import entry_kernel
 from ..knobs import Knob, Thresholds
 from ..total_least_squares import Moments, line_of
+from ..tracing.decisions import Kind
 from .found import Found, Method, vocabulary
 from .knobs import BRIDGE, MAX_GAP, MIN_LENGTH, MIN_POINTS
 from .sequence import Sequence, fit, runs

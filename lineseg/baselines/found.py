@@ -8,10 +8,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..decisions import Kind, Trace, Vocabulary
-from ..log import ROW
 from ..scan import Scan
 from ..segment import Dropped, Extraction, Segment
+from ..tracing.decisions import Kind, Trace, Vocabulary
+from ..tracing.log import ROW
 from .sequence import Line, Positions, Sequence, fit, sequence_of
 
 NOWHERE: Line = (0.0, 0.0, 0.0)

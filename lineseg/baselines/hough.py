@@ -15,9 +15,9 @@ from typing import Annotated
 
 import numpy as np
 
-from ..decisions import Kind
 from ..kernel import entry_kernel
 from ..knobs import Knob, Thresholds
+from ..tracing.decisions import Kind
 from .consensus import consensus
 from .found import Found, Method, vocabulary
 from .knobs import BRIDGE, EPSILON, MAX_GAP, MIN_LENGTH, MIN_POINTS

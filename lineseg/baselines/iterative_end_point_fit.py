@@ -10,14 +10,14 @@ from functools import partial
 
 import numpy as np
 
-from ..decisions import Kind, Vocabulary
 from ..kernel import entry_kernel
 from ..knobs import Thresholds
-from ..log import ROW, note, written
 from ..params import MinLength, MinPoints
+from ..region_growing.checks import NONE
 from ..region_growing.lines import DROPPED, LINE, Dropping, line_at
-from ..region_growing.log import NONE
 from ..scan import Scan
+from ..tracing.decisions import Kind, Vocabulary
+from ..tracing.log import ROW, note, written
 from .endpoints import measure
 from .logged import LoggedMethod, Run
 from .splitting import KINDS, SPLIT_CHECKS, LineGap, SplitDistance, Splitting, loop_of, select, split

@@ -13,10 +13,10 @@ from typing import Annotated
 
 import numpy as np
 
-from ..decisions import Kind
 from ..kernel import entry_kernel
 from ..knobs import Knob, Thresholds
 from ..total_least_squares import is_nearer, moments_of, scatter_of, with_point
+from ..tracing.decisions import Kind
 from .found import Found, Method, vocabulary
 from .knobs import EPSILON, MAX_GAP, MIN_LENGTH, MIN_POINTS
 from .sequence import Sequence, fit, opened_between_lines

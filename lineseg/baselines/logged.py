@@ -7,10 +7,10 @@ from typing import Any, NamedTuple
 
 from numpy.typing import NDArray
 
-from ..decisions import Trace, Vocabulary
-from ..extraction import extraction_of
+from ..region_growing.extraction import extraction_of
 from ..scan import Scan
 from ..segment import Extraction
+from ..tracing.decisions import Trace, Vocabulary
 
 
 class Run(NamedTuple):

@@ -14,15 +14,15 @@ from typing import Annotated
 
 import numpy as np
 
-from ..decisions import Kind, Vocabulary
 from ..kernel import entry_kernel, kernel
 from ..knobs import Knob, Thresholds, switch
-from ..log import ROW, Notes, note, note_pair, written
 from ..params import MinLength, MinPoints
+from ..region_growing.checks import NONE
 from ..region_growing.lines import DROPPED, LINE, Dropping, line_at
-from ..region_growing.log import NONE
 from ..scan import Scan
 from ..total_least_squares import project, signed_distance
+from ..tracing.decisions import Kind, Vocabulary
+from ..tracing.log import ROW, Notes, note, note_pair, written
 from .chord import chord
 from .endpoints import measure
 from .logged import LoggedMethod, Run

@@ -12,14 +12,14 @@ from functools import partial
 
 import numpy as np
 
-from ..decisions import Kind, Vocabulary
 from ..kernel import entry_kernel, kernel
 from ..knobs import Thresholds
-from ..log import ROW, note, note_pair, written
 from ..params import MinLength, MinPoints
+from ..region_growing.checks import NONE
 from ..region_growing.lines import DROPPED, LINE, Dropping, line_at, remove
-from ..region_growing.log import NONE
 from ..scan import Scan
+from ..tracing.decisions import Kind, Vocabulary
+from ..tracing.log import ROW, note, note_pair, written
 from .chord import farthest, step_to
 from .endpoints import place_endpoints
 from .logged import LoggedMethod, Run

@@ -8,15 +8,15 @@ from typing import Annotated, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..decisions import Kind
 from ..kernel import kernel
 from ..knobs import Knob
-from ..log import note, note_pair
+from ..region_growing.checks import CHECKS, MIN_LENGTH, MIN_POINTS, NONE
 from ..region_growing.growth import length_of
 from ..region_growing.lines import append, drop, line_at
-from ..region_growing.log import CHECKS, MIN_LENGTH, MIN_POINTS, NONE
 from ..scan import Scan
 from ..total_least_squares import line_of, moments_of
+from ..tracing.decisions import Kind
+from ..tracing.log import note, note_pair
 from .chord import chord, farthest, widest_step
 
 SplitDistance = Annotated[

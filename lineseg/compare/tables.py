@@ -9,8 +9,8 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
-from ..finite import finite_or_none
 from ..truth import Agreement
+from ..writers.finite import finite_or_none
 from .comparison import OBJECTIVE, Row, score_of
 
 NOTE = (

@@ -22,7 +22,7 @@ NAME_AT = 30
 
 
 class FailurePack(Reader):
-    """lineseg.json first, which says what it is, and frame.npz; see `lineseg.pack`."""
+    """lineseg.json first, which says what it is, and frame.npz; see `lineseg.writers.pack`."""
 
     format = "failure pack"
     suffixes = (".zip",)

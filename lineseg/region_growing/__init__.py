@@ -13,14 +13,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..kernel import entry_kernel, kernel
-from ..log import note, written
 from ..params import Params
 from ..scan import Scan
 from ..total_least_squares import line_through
+from ..tracing.log import note, written
+from .checks import LINE_DROPPED, LINE_KEPT, NONE
 from .endpoints import place_endpoints
 from .growth import grow
 from .lines import DROPPED, LINE, Dropping, append, drop
-from .log import LINE_DROPPED, LINE_KEPT, NONE
 from .overlap import resolve_overlaps, shortfall
 from .points import Limits, points_of, unpacked
 from .seed import NOWHERE, find_seed

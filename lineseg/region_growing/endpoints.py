@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 
 from ..kernel import kernel
-from ..log import note_pair
 from ..total_least_squares import distance, project, squares_of
+from ..tracing.log import note_pair
+from .checks import ENDPOINTS, NONE
 from .lines import line_at
-from .log import ENDPOINTS, NONE
 
 
 @kernel

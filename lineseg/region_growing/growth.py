@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from ..kernel import inlined_kernel, kernel
-from ..log import note
 from ..total_least_squares import at, distance, is_nearer, line_through, project, signed_distance, with_point
-from .log import END, EPSILON, GROWTH_STOPPED, NONE, POINT_ADDED
+from ..tracing.log import note
+from .checks import END, EPSILON, GROWTH_STOPPED, NONE, POINT_ADDED
 from .points import breach
 
 

@@ -5,11 +5,9 @@ from __future__ import annotations
 import math
 
 from ..kernel import inlined_kernel, kernel
-from ..log import note, note_pair
 from ..total_least_squares import least_squares_of, line_of, moments_of, signed_distance, squares_of
-from .growth import length_of
-from .lines import drop, line_at, remove
-from .log import (
+from ..tracing.log import note, note_pair
+from .checks import (
     LINE_DROPPED,
     LINES_KEPT_APART,
     LINES_MERGED,
@@ -21,6 +19,8 @@ from .log import (
     NONE,
     OVERLAP_CUT,
 )
+from .growth import length_of
+from .lines import drop, line_at, remove
 
 
 @kernel

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ..kernel import kernel
 from ..total_least_squares import at
-from .log import MAX_DROPOUT, MAX_GAP, NONE
+from .checks import MAX_DROPOUT, MAX_GAP, NONE
 from .occluder import look_past, square
 
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 
 from ..kernel import inlined_kernel, kernel
-from ..log import note
 from ..total_least_squares import NO_SCATTER, at, halved, line_through, scatter_of_few, signed_distance
-from .log import DELTA, EPSILON, NONE, SEED_FOUND, SEED_REJECTED
+from ..tracing.log import note
+from .checks import DELTA, EPSILON, NONE, SEED_FOUND, SEED_REJECTED
 from .points import breach
 
 NOWHERE = (0.0, 0.0, 0.0)

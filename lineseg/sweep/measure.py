@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..doubt import SCORES
 from ..kernel import entry_kernel
 from ..params import Params
 from ..readers.source import Cancelled
 from ..scan import Recording
-from ..score import SCORES
 from ..survey import Stretch, Workspace, flattened
 from ..truth import true_lines
 from .totals import COLUMNS, COUNTS, MEAN_COLUMNS, Totals

@@ -13,9 +13,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..finite import finite_or_none
 from ..installation import install_command
 from ..params import Params
+from ..writers.finite import finite_or_none
 from . import MEASURES, Sweep
 
 ROWS_AT_ONCE = 50_000

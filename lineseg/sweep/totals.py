@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from ..score import SCORES
+from ..doubt import SCORES
 
 # Of these scores the mean over frames is kept; the other scores are in COUNTS.
 MEANS = ("rms", "splits", "gap", "misses", "change")

@@ -13,9 +13,9 @@ from pathlib import Path
 from typing import TextIO
 
 from ..covariance import Noise, covariances
-from ..finite import finite_or_none
 from ..scan import Scan
 from ..segment import Extraction, Segment
+from .finite import finite_or_none
 
 Rows = Iterable[tuple[int, Scan, Extraction]]
 COLUMNS = (

@@ -36,7 +36,7 @@
  */
 
 /**
- * One decision; fields as in lineseg/tracing.py. Infinite numbers arrive as null and become Infinity.
+ * One decision; fields as in lineseg/tracing/decisions.py. Infinite numbers arrive as null and become Infinity.
  * @typedef {object} Event
  * @property {number} index
  * @property {string} kind

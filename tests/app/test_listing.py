@@ -11,7 +11,7 @@ import pytest
 from lineseg_app.places import data_folder
 
 from lineseg import Params, Scan, Trace, open_recording, trace
-from lineseg.tracing import VOCABULARY
+from lineseg.region_growing.trace import VOCABULARY
 
 LISTING = json.loads((data_folder("static") / "learn" / "listing.json").read_text("utf-8"))
 EVENTS = [

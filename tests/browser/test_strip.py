@@ -12,10 +12,10 @@ from live import Address, serving
 from long import long_hallway
 
 from lineseg import Params, Recording, open_recording
+from lineseg.doubt import SCORES
 from lineseg.readers import save_npz
-from lineseg.score import SCORES
-from lineseg.stability import with_stability
 from lineseg.survey import survey
+from lineseg.survey.stability import with_stability
 
 FRAMES = 10_000
 SECONDS = 30

@@ -27,8 +27,8 @@ from lineseg import (
     read_labels,
     save_labels,
 )
-from lineseg.labels import TrueLine
 from lineseg.scan import Topic
+from lineseg.truth.labels import TrueLine
 
 
 @pytest.fixture

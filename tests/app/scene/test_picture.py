@@ -19,7 +19,7 @@ from lineseg_app.view import Layers, View
 from scenes import corner, scan_of, wall_ahead
 
 from lineseg import EXTRACTORS, Params, Recording, difference, open_recording
-from lineseg.difference import KEPT, LOST
+from lineseg.survey.difference import KEPT, LOST
 
 SAMPLE = Path(__file__).parents[3] / "sample_scans" / "hallway.npz"
 

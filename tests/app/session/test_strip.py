@@ -20,10 +20,10 @@ from live import SECONDS, Address, Page, page_of, serving, surveyed
 from long import long_hallway
 
 from lineseg import Params, Recording, open_recording
+from lineseg.doubt import SCORES
 from lineseg.readers import save_npz
-from lineseg.score import SCORES
-from lineseg.stability import with_stability
 from lineseg.survey import survey
+from lineseg.survey.stability import with_stability
 
 
 @pytest.fixture(scope="module")

@@ -1,0 +1,363 @@
+"""Scores of a frame that need no truth: where extraction is doubtful, judged by the frame and the one before it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Literal, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..kernel import entry_kernel, kernel
+from ..region_growing import grow_lines
+from ..region_growing.lines import line_at
+from ..region_growing.overlap import resolve_overlaps
+from ..region_growing.points import Limits, Points
+from ..total_least_squares import signed_distance
+
+# A score must not follow the threshold that it judges: these stay what they are when merge_angle and max_gap change.
+SPLIT_ANGLE = 0.1
+SPLIT_GAP = 0.3
+LOOSER = 2.0
+NEAR_EPSILON = 0.5
+LEAST_GAP = 0.3
+CHANGE_OF_THRESHOLD = 0.05
+
+
+@dataclass(frozen=True)
+class Score:
+    """How a score is called and read; worse: in which direction extraction becomes doubtful.
+
+    least: a difference between frames that is worth a look, and weight: how much it says, for the rank of suspicion.py.
+    """
+
+    name: str
+    label: str
+    unit: str
+    help: str
+    worse: Literal["higher", "lower"]
+    least: float
+    weight: float
+
+
+SCORES = {
+    score.name: score
+    for score in [
+        Score("segments", "segments", "", "Number of segments.", "lower", least=2.0, weight=0.0),
+        Score(
+            "coverage", "coverage", "",
+            "Share of the valid beams that belong to a segment.",
+            "lower", least=0.05, weight=1.0,
+        ),
+        Score(
+            "invalid", "invalid beams", "", "Share of the beams without a return.", "higher", least=0.03, weight=1.0
+        ),
+        Score(
+            "rms", "largest rms", "m",
+            "Largest root mean square distance of the points to their line.",
+            "higher", least=0.003, weight=0.5,
+        ),
+        Score(
+            "splits", "over-split neighbours", "",
+            f"Pairs of neighbouring segments on one line: less than {SPLIT_ANGLE} rad and {SPLIT_GAP} m apart, "
+            f"the facing endpoints within {LOOSER:g}·ε of the other's line.",
+            "higher", least=0.5, weight=1.0,
+        ),
+        Score(
+            "gap", "widest gap bridged", "m",
+            f"By how much two neighbouring points of one segment are farther apart than the points beside them; "
+            f"points within {LEAST_GAP:g} m of each other do not count.",
+            "higher", least=0.2, weight=1.0,
+        ),
+        Score(
+            "misses", "probable misses", "",
+            f"Lines that the method finds in the points that no segment took if ε and δ are {LOOSER:g} times as large.",
+            "higher", least=0.5, weight=0.5,
+        ),
+        Score(
+            "change", "change", "",
+            "Share of the bearings covered now or in the frame before that do not belong to the same segment in both.",
+            "higher", least=0.05, weight=0.5,
+        ),
+        Score(
+            "near", "fits near ε", "",
+            f"Segments whose root mean square distance is more than {NEAR_EPSILON:g}·ε: they could hardly be worse.",
+            "higher", least=0.5, weight=0.5,
+        ),
+        Score(
+            "brief", "short-lived lines", "m",
+            "Length of the segments that neither the frame before nor the one behind has, moved as the sensor has.",
+            "higher", least=0.3, weight=0.5,
+        ),
+        Score(
+            "gone", "interrupted lines", "m",
+            "Length of the segments that the frame before and the one behind have, moved as the sensor has, and this "
+            "one has not.",
+            "higher", least=0.3, weight=3.0,
+        ),
+        Score(
+            "jump", "jump of the count", "",
+            "By how many segments the frame has more, or fewer, than both the frame before and the one behind.",
+            "higher", least=1.0, weight=1.0,
+        ),
+        Score(
+            "jolt", "jolt", "rad",
+            "How much the sensor's turn to the frame behind differs from its turn to this one, both as the segments "
+            "tell.",
+            "higher", least=0.05, weight=2.0,
+        ),
+        Score(
+            "unstable", "unstable segments", "",
+            f"Most segments that come or go if one threshold changes by {CHANGE_OF_THRESHOLD:.0%}, "
+            "a whole number by 1 at least.",
+            "higher", least=0.5, weight=0.5,
+        ),
+    ]
+}  # fmt: skip
+
+
+class Spans(NamedTuple):
+    """low, high: (capacity,) [rad] the bearings between which the segments of a frame lie, rising; used: (1,) their
+    number, −1 for no frame at all."""
+
+    low: NDArray[np.float64]
+    high: NDArray[np.float64]
+    used: NDArray[np.int64]
+
+
+@kernel
+def coverage_of(lines, count, points):
+    """Valid beams in segments / valid beams; 0 where no beam is valid."""
+    covered = 0
+    for i in range(count):
+        covered += lines[i].last - lines[i].first + 1
+    return covered / points.returns if points.returns > 0 else 0.0
+
+
+@kernel
+def invalid_share(points, beams):
+    """Invalid beams / beams; 1 where there is no beam."""
+    return 1.0 - points.returns / beams if beams > 0 else 1.0
+
+
+@kernel
+def largest_rms(lines, count):
+    """max over segments of √(Σd² / points) [m]; 0 without segments."""
+    largest = 0.0
+    for i in range(count):
+        largest = max(largest, lines[i].rms)
+    return largest
+
+
+@kernel
+def fits_near_epsilon(lines, count, limits):
+    """Number of segments with √(Σd² / points) > NEAR_EPSILON·ε."""
+    found = 0
+    for i in range(count):
+        found += lines[i].rms > NEAR_EPSILON * limits.epsilon
+    return found
+
+
+@kernel
+def over_split(lines, count, circle, epsilon, pairs):
+    """Number of pairs of neighbouring segments that are one line, cut in two; on a full circle the last and the first
+    are neighbours. The first of each pair is written to `pairs`, as far as it reaches."""
+    neighbours = count if circle and count > 1 else count - 1
+    found = 0
+    for i in range(neighbours):
+        if are_one_line(lines, i, i + 1 if i + 1 < count else 0, epsilon):
+            if found < len(pairs):
+                pairs[found] = i
+            found += 1
+    return found
+
+
+@kernel
+def are_one_line(lines, i, j, epsilon):
+    """Whether segment j goes on where segment i ends.
+
+    With (x₂, y₂) the end of one and (x₁, y₁) the start of the next: |sin of the angle between the lines| <
+    sin SPLIT_ANGLE, |(x₁, y₁) − (x₂, y₂)| ≤ SPLIT_GAP, and each of the two points lies within LOOSER·ε of the other's
+    line.
+    """
+    line, other = line_at(lines, i), line_at(lines, j)
+    x, y, x_next, y_next = lines[i].x2, lines[i].y2, lines[j].x1, lines[j].y1
+    return (
+        (abs(line[0] * other[1] - line[1] * other[0]) < math.sin(SPLIT_ANGLE))
+        & ((x_next - x) ** 2 + (y_next - y) ** 2 <= SPLIT_GAP**2)
+        & (abs(signed_distance(line, x_next, y_next)) <= LOOSER * epsilon)
+        & (abs(signed_distance(other, x, y)) <= LOOSER * epsilon)
+    )
+
+
+@entry_kernel
+def find_splits(segments, circle, epsilon, pairs):
+    """`over_split` of the segments of a survey."""
+    return over_split(segments, len(segments), circle, epsilon, pairs)
+
+
+@kernel
+def widest_gap(lines, count, points):
+    """max over the neighbouring points p of each segment of |pₖ₊₁ − pₖ| − max(|pₖ − pₖ₋₁|, |pₖ₊₂ − pₖ₊₁|) [m], or 0.
+
+    Where a wall is seen at a grazing angle all points are far apart, and nothing is bridged; nor is anything by a step
+    of LEAST_GAP or less.
+    """
+    widest = 0.0
+    for i in range(count):
+        first, last = lines[i].first, lines[i].last
+        # Few segments have such a step, and only these are gone through step by step.
+        if wide_steps(points.x[first : last + 1], points.y[first : last + 1]) == 0:
+            continue
+        before, here = 0.0, squared_step(points, first)
+        for k in range(first, last):
+            behind = squared_step(points, k + 1) if k + 1 < last else 0.0
+            if here > LEAST_GAP**2:
+                widest = max(widest, math.sqrt(here) - math.sqrt(max(before, behind)))
+            before, here = here, behind
+    return widest
+
+
+@kernel
+def wide_steps(x, y):
+    """Number of steps of more than LEAST_GAP."""
+    found = 0
+    x_next, y_next = x[1:], y[1:]
+    for k in range(len(x_next)):
+        dx, dy = x_next[k] - x[k], y_next[k] - y[k]
+        found += dx * dx + dy * dy > LEAST_GAP**2
+    return found
+
+
+@kernel
+def squared_step(points, k):
+    """|pₖ₊₁ − pₖ|² [m²]."""
+    dx, dy = points.x[k + 1] - points.x[k], points.y[k + 1] - points.y[k]
+    return dx * dx + dy * dy
+
+
+@kernel
+def probable_misses(lines, count, points, limits, dropped):
+    """Number of lines that the method finds with LOOSER·ε and LOOSER·δ in the runs of points that no segment took.
+
+    A run is what lies between two neighbouring segments, before the first or behind the last; each is searched by
+    itself, with P_min, L_min and the other limits as they are. The rows of `lines` behind `count` and of `dropped` are
+    overwritten.
+    """
+    looser = Limits(
+        LOOSER * limits.epsilon,
+        LOOSER * limits.delta,
+        limits.seed_points,
+        limits.min_points,
+        limits.min_length,
+        limits.max_dropout,
+        limits.max_gap,
+        limits.merge_angle,
+        limits.merge_rms,
+        limits.max_occluder,
+    )
+    found = 0
+    start, stop = points.start, points.start + points.period
+    if points.circle and count > 0:
+        # The run that holds the opening lies behind the last segment.
+        start, stop = lines[0].first, lines[0].first + points.period
+    for i in range(count + 1):
+        end = lines[i].first if i < count else stop
+        if end - start >= max(limits.min_points, limits.seed_points):
+            found += lines_in(points, start, end, looser, lines[count:], dropped)
+        if i < count:
+            start = lines[i].last + 1
+    return found
+
+
+@kernel
+def lines_in(points, start, end, limits, lines, dropped):
+    """Number of lines in the positions start..end − 1, as if there were no others."""
+    run = Points(
+        points.x[start:end],
+        points.y[start:end],
+        points.beam[start:end],
+        points.breaks[start:end],
+        0,
+        end - start,
+        False,
+        end - start,
+    )
+    dropped.used[0] = 0
+    return resolve_overlaps(run, lines, grow_lines(run, limits, lines, dropped, None), dropped, limits, None)
+
+
+@kernel
+def spans_of(lines, count, points, bearings, spans):
+    """Put down between which bearings (n,) [rad] the segments lie; past the seam of a full circle they go on."""
+    n = len(bearings)
+    falling = n > 1 and bearings[n - 1] < bearings[0]
+    turn = -2.0 * math.pi if falling else 2.0 * math.pi
+    spans.used[0] = count
+    for i in range(count):
+        first, last = points.beam[lines[i].first], points.beam[lines[i].last]
+        one = bearings[first % n] + first // n * turn
+        other = bearings[last % n] + last // n * turn
+        k = count - 1 - i if falling else i
+        spans.low[k], spans.high[k] = min(one, other), max(one, other)
+
+
+@kernel
+def change_of(now, before, circle):
+    """1 − Σ|Bᵢ ∩ B′ⱼ| / |∪B ∪ ∪B′|, in [0, 1]; 0 where neither frame has a segment, and for the first frame.
+
+    B, B′: the intervals of bearings of the segments now and in the frame before. The sum runs over the pairs that are
+    the same segment: those that share more than half of what they cover together.
+    """
+    if before.used[0] < 0:
+        return 0.0
+    covered = covered_by(now) + covered_by(before)
+    common = same = 0.0
+    for turn in range(-1 if circle else 0, 2 if circle else 1):
+        shared, kept = shared_by(now, before, 2.0 * math.pi * turn)
+        common += shared
+        same += kept
+    union = covered - common
+    return max(0.0, 1.0 - same / union) if union > 0.0 else 0.0
+
+
+@kernel
+def covered_by(spans):
+    total = 0.0
+    for i in range(spans.used[0]):
+        total += spans.high[i] - spans.low[i]
+    return total
+
+
+@kernel
+def shared_by(now, before, turn):
+    """What intervals of both frames share [rad], and what those pairs share that are the same segment."""
+    common = same = 0.0
+    j = 0
+    for i in range(now.used[0]):
+        low, high = now.low[i] - turn, now.high[i] - turn
+        while j < before.used[0] and before.high[j] <= low:
+            j += 1
+        k = j
+        while k < before.used[0] and before.low[k] < high:
+            shared = min(high, before.high[k]) - max(low, before.low[k])
+            together = max(high, before.high[k]) - min(low, before.low[k])
+            common += shared
+            same += shared if 2.0 * shared > together else 0.0
+            k += 1
+    return common, same
+
+
+@kernel
+def score_frame(lines, count, points, beams, limits, dropped, now, before, scores):
+    """Write those SCORES of a frame that need no frame behind it, in their order, to `scores` (9,)."""
+    scores[0] = count
+    scores[1] = coverage_of(lines, count, points)
+    scores[2] = invalid_share(points, beams)
+    scores[3] = largest_rms(lines, count)
+    scores[4] = over_split(lines, count, points.circle, limits.epsilon, points.beam[:0])
+    scores[5] = widest_gap(lines, count, points)
+    scores[6] = probable_misses(lines, count, points, limits, dropped)
+    scores[7] = change_of(now, before, points.circle)
+    scores[8] = fits_near_epsilon(lines, count, limits)

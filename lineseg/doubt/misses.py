@@ -1,0 +1,139 @@
+"""Probable misses of a frame: where a looser method finds a line that this one did not, and what refused it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..extractors import extract, trace_growth
+from ..params import Params
+from ..region_growing.checks import CHECKS, GROWTH_STOPPED, LINE_DROPPED, SEED_REJECTED
+from ..region_growing.trace import GrowthTrace, Trace, lack, longest, nearest, refusal
+from ..scan import Scan
+from ..tracing.log import Row
+from . import LOOSER
+
+
+@dataclass(frozen=True)
+class Miss:
+    """A run of beams that no segment took, though they are a line if ε and δ are LOOSER times as large.
+
+    first, last: beams; points: the valid ones among them; length [m]. check: which threshold refused it, "" where no
+    seed was sought; beam: at which beam, −1 for a line that was grown and dropped; value, limit: what was compared.
+    """
+
+    first: int
+    last: int
+    points: int
+    length: float
+    check: str
+    beam: int
+    value: float
+    limit: float
+    text: str
+
+
+def misses(scan: Scan, params: Params | None = None) -> tuple[Miss, ...]:
+    """The probable misses of a scan, in its order: as many as its score "misses" says."""
+    params = params or Params()
+    traced = trace_growth(scan, params)
+    looser = params.but(
+        epsilon=min(LOOSER * params.epsilon, 100.0), delta=min(LOOSER * params.delta, 1000.0), max_occluder=0.0
+    )
+    found: list[Miss] = []
+    for run in _runs(scan, traced):
+        # What lines pass behind has been taken away before.
+        beams = run[~traced.looked_past[run]]
+        part = Scan(scan.ranges[beams], np.unwrap(scan.bearings[beams]), scan.range_min, scan.range_max)
+        # Of a whole turn too, the run ends where it ends.
+        vars(part)["full_circle"] = False
+        lines = extract(part, looser).segments
+        found += [_miss(traced, beams[line.first : line.last + 1], line.points, line.length) for line in lines]
+    return tuple(found)
+
+
+def why_none(traced: Trace, beams: NDArray[np.intp]) -> str:
+    """What kept a run of beams from being a line, in words; "" where the method does not tell."""
+    valid, labels = traced.scan.valid[beams], traced.extraction.labels[beams]
+    if 2 * np.count_nonzero(valid) < len(beams):
+        return "most of its beams have no return"
+    taken = np.bincount(labels[labels >= 0]) if (labels >= 0).any() else np.zeros(1, int)
+    if 2 * taken.max() > np.count_nonzero(valid):
+        return f"segment {np.argmax(taken)} has its beams"
+    return _reason(traced, _widened(traced.scan, beams))[-1] if isinstance(traced, GrowthTrace) else ""
+
+
+def _widened(scan: Scan, beams: NDArray[np.intp]) -> NDArray[np.intp]:
+    """The beams and a quarter more to either side: a line that was tried need not have begun where another ended."""
+    more = max(len(beams) // 4, 3)
+    wide = np.arange(beams[0] - more, beams[0] + len(beams) + more)
+    return wide % len(scan) if scan.full_circle else wide[(wide >= 0) & (wide < len(scan))]
+
+
+def _runs(scan: Scan, traced: Trace) -> Iterator[NDArray[np.intp]]:
+    """The beams before the first segment, between two neighbours, and behind the last."""
+    n, segments = len(scan), traced.extraction.segments
+    ends = [(segment.first, segment.last) for segment in segments]
+    if not scan.full_circle:
+        starts, stops = [0, *(last + 1 for _, last in ends)], [*(first for first, _ in ends), n]
+        yield from (np.arange(start, stop) for start, stop in zip(starts, stops, strict=True))
+    elif not ends:
+        yield (_opening(scan) + np.arange(n)) % n
+    else:
+        for (_, last), (first, _) in zip(ends, [*ends[1:], ends[0]], strict=True):
+            yield (last + 1 + np.arange((first - last - 1) % n)) % n
+
+
+def _opening(scan: Scan) -> int:
+    """The beam behind the widest gap of a full circle."""
+    beams = np.flatnonzero(scan.valid)
+    if not len(beams):
+        return 0
+    gaps = np.hypot(*(scan.xy[np.roll(beams, -1)] - scan.xy[beams]).T)
+    return int(np.roll(beams, -1)[np.argmax(gaps)])
+
+
+def _miss(traced: Trace, beams: NDArray[np.intp], points: int, length: float) -> Miss:
+    check, beam, value, limit, reason = _reason(traced, beams)
+    first, last = int(beams[0]), int(beams[-1])
+    text = f"a probable miss: beams {first}–{last}, {points} points, {length:.1f} m, no line – {reason}"
+    return Miss(first, last, points, length, check, beam, value, limit, text)
+
+
+def _reason(traced: Trace, beams: NDArray[np.intp]) -> tuple[str, int, float, float, str]:
+    """(check, beam, value, limit, words): the longest line dropped here; else the nearest to a seed."""
+    inside = np.zeros(len(traced.scan), np.bool_)
+    inside[beams] = True
+    log = traced.log
+    rows = log[inside[traced.as_beams(log["first"])] & inside[traced.as_beams(log["last"])]] if len(log) else log
+    dropped = rows[rows["kind"] == LINE_DROPPED]
+    if len(dropped):
+        row = longest(dropped)
+        check, value, limit = CHECKS[row.check], row.value, row.limit
+        span = f"beams {_beam(traced, row.first)}–{_beam(traced, row.last)}"
+        words = f"its line of {span} was dropped, {lack(check, value, limit)}{_stop(traced, row)}"
+        return check, -1, value, limit, words
+    rejected = rows[rows["kind"] == SEED_REJECTED]
+    if not len(rejected):
+        return "", -1, np.nan, np.nan, "no seed was sought here"
+    row = nearest(rejected)
+    beam, value, limit, check = _beam(traced, row.beam), row.value, row.limit, CHECKS[row.check]
+    symbol = next(knob.symbol for name, _, knob in traced.params.knobs() if name == check)
+    return check, beam, value, limit, f"seed refused by {symbol}: {refusal(beam, row.check, value, limit)}"
+
+
+def _stop(traced: Trace, dropped: Row) -> str:
+    """Where a line that was dropped had stopped to grow, by the threshold that it missed least."""
+    log = traced.log
+    stops = log[(log["kind"] == GROWTH_STOPPED) & (log["candidate"] == dropped.candidate) & (log["beam"] >= 0)]
+    if not len(stops):
+        return ""
+    row = nearest(stops)
+    return f"; it stopped where {refusal(_beam(traced, row.beam), row.check, row.value, row.limit)}"
+
+
+def _beam(traced: Trace, position: int) -> int:
+    return int(traced.as_beams(np.array([position]))[0])

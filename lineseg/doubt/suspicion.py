@@ -1,0 +1,71 @@
+"""One rank out of all scores: how far each frame stands out from the others of its recording, to the bad side."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
+from numpy.typing import NDArray
+
+from . import SCORES
+
+# Of normally distributed numbers a tenth lie so many standard deviations above the median.
+TENTH = 1.2816
+# From here on worse is no longer worse: one score alone shall not decide.
+MOST_DOUBT = 6.0
+# Frames around a frame, itself among them, that it is compared with.
+AROUND = 11
+
+WEIGHTS = {name: score.weight for name, score in SCORES.items()}
+
+
+def doubts(scores: NDArray[np.floating]) -> NDArray[np.float64]:
+    """(frames, len(SCORES)) how doubtful each score makes each frame, from 0 to MOST_DOUBT; unknown scores are 0.
+
+    The mean of two: how far the score stands out of the whole recording, and how far out of the AROUND frames around.
+    Each is min(max(d / spread, 0), MOST_DOUBT), where d is how much worse the score is than the median of the recording
+    or of the frames around, and spread = max(that d which a tenth of all frames exceed / 1.2816, least), with `least`
+    the score's own smallest difference that is worth a look.
+    """
+    scores = np.asarray(scores, np.float64)
+    if not len(scores):
+        return np.zeros(scores.shape)
+    signs = np.array([1.0 if score.worse == "higher" else -1.0 for score in SCORES.values()])
+    worse = signs * np.nan_to_num(scores)
+    return 0.5 * (_standing_out(worse - np.median(worse, axis=0)) + _standing_out(worse - _around(worse)))
+
+
+def _standing_out(by: NDArray[np.float64]) -> NDArray[np.float64]:
+    least = np.array([score.least for score in SCORES.values()])
+    spread = np.maximum(np.quantile(by, 0.9, axis=0) / TENTH, least)
+    return np.clip(by / spread, 0.0, MOST_DOUBT)
+
+
+def _around(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The median of the AROUND frames around each frame; at the ends, of the first or last AROUND."""
+    width = min(AROUND, len(values))
+    medians = np.median(sliding_window_view(values, width, axis=0), axis=-1)
+    return medians[np.clip(np.arange(len(values)) - width // 2, 0, len(medians) - 1)]
+
+
+def suspicion(scores: NDArray[np.floating], weights: Mapping[str, float] = WEIGHTS) -> NDArray[np.float64]:
+    """(frames,) Σ weight·doubt / Σ weight over the scores (frames, len(SCORES)), from 0 to MOST_DOUBT.
+
+    weights: by the names of SCORES; a score without one does not count, nor does one that is not known.
+    """
+    for name in weights:
+        if name not in SCORES:
+            raise ValueError(f"there is no score {name!r}; there are {', '.join(SCORES)}")
+    by_score = np.array([float(weights.get(name, 0.0)) for name in SCORES])
+    if (by_score < 0).any() or not np.isfinite(by_score).all():
+        raise ValueError("a weight is a number ≥ 0")
+    if len(scores):
+        by_score = by_score * ~np.isnan(scores).all(axis=0)
+    total = by_score.sum()
+    return doubts(scores) @ by_score / total if total > 0 else np.zeros(len(scores))
+
+
+def worst_first(scores: NDArray[np.floating], weights: Mapping[str, float] = WEIGHTS) -> NDArray[np.intp]:
+    """(frames,) the frames from the most suspicious to the least; of equals the earlier first."""
+    return np.argsort(-suspicion(scores, weights), kind="stable")

@@ -1,0 +1,111 @@
+"""The rays of many scans at once: scans of one geometry share them, as most of a recording do."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..kernel import entry_kernel, kernel
+from ..scan import Recording, regular_geometry
+
+
+class Geometry(NamedTuple):
+    """The geometry of consecutive frames; the numbers are those that `Scan` computes.
+
+    bearings: (total,) [rad], one geometry after the other; rays: (2·total,) cosines and then sines of each of them.
+    place: (frames,) where in `bearings` the geometry of a frame begins; circle: (frames,) whether it is a full circle.
+    """
+
+    bearings: NDArray[np.float64]
+    rays: NDArray[np.float64]
+    place: NDArray[np.int64]
+    circle: NDArray[np.bool_]
+
+
+def geometry_of(recording: Recording, start: int, stop: int) -> Geometry:
+    """The geometry of the frames start..stop − 1 of a recording, stop > start."""
+    lengths = np.diff(recording.offsets[start : stop + 1])
+    new = _differs_from_the_one_before(recording, start, stop, lengths)
+    which = np.cumsum(new) - 1
+    frames = start + np.flatnonzero(new)
+    places = np.concatenate(([0], np.cumsum(lengths[new])))
+    if recording.bearings is None and len(frames) == 1:
+        numbers = float(recording.angle_min[start]), float(recording.angle_increment[start]), int(lengths[0])
+        bearings, rays, circle = regular_geometry(*numbers)
+        circles = np.full(stop - start, circle)
+        return Geometry(bearings.astype(np.float64), rays.flatten().astype(np.float64), places[which], circles)
+    bearings = _bearings(recording, frames, places)
+    along = np.arange(places[-1]) + np.repeat(places[:-1], np.diff(places))
+    rays = np.empty(2 * places[-1])
+    rays[along] = np.cos(bearings)
+    rays[along + np.repeat(np.diff(places), np.diff(places))] = np.sin(bearings)
+    bearings = bearings.astype(np.float64)
+    circle = np.empty(len(frames), np.bool_)
+    find_full_circles(bearings, places, circle)
+    return Geometry(bearings, rays, places[which], circle[which])
+
+
+def _differs_from_the_one_before(recording: Recording, start: int, stop: int, lengths: NDArray) -> NDArray[np.bool_]:
+    new = np.ones(stop - start, np.bool_)
+    new[1:] = np.diff(lengths) != 0
+    if recording.bearings is not None:
+        find_new(recording.bearings, recording.offsets[start : stop + 1], new)
+        return new
+    for column in (recording.angle_min[start:stop], recording.angle_increment[start:stop]):
+        new[1:] |= column[1:] != column[:-1]
+    return new
+
+
+def _bearings(recording: Recording, frames: NDArray[np.int64], places: NDArray[np.int64]) -> NDArray[np.floating]:
+    """The bearings of the given frames, one after the other."""
+    if recording.bearings is not None:
+        offsets = recording.offsets
+        return np.concatenate([recording.bearings[offsets[frame] : offsets[frame + 1]] for frame in frames.tolist()])
+    beams = np.diff(places)
+    number = np.arange(places[-1]) - np.repeat(places[:-1], beams)
+    angle_min = recording.angle_min[frames].astype(np.float64)
+    increment = recording.angle_increment[frames].astype(np.float64)
+    return np.repeat(angle_min, beams) + np.repeat(increment, beams) * number
+
+
+@entry_kernel
+def find_new(bearings, offsets, new):
+    """Mark the frames whose bearings differ from the frame before; `new` knows already where their number does."""
+    for frame in range(1, len(new)):
+        before, here = offsets[frame - 1], offsets[frame]
+        k, beams = 0, offsets[frame + 1] - here
+        while not new[frame] and k < beams:
+            new[frame] = bearings[before + k] != bearings[here + k]
+            k += 1
+
+
+@entry_kernel
+def find_full_circles(bearings, places, circle):
+    """`Scan.full_circle` of each geometry: 2π − Σ|steps| < 1.5·median(|steps|), the median without sorting."""
+    for i in range(len(circle)):
+        first, last = places[i], places[i + 1] - 1
+        total = 0.0
+        for k in range(first, last):
+            total += abs(bearings[k + 1] - bearings[k])
+        limit = (2.0 * math.pi - total) / 1.5
+        circle[i] = last - first >= 2 and median_exceeds(bearings, first, last, limit)
+
+
+@kernel
+def median_exceeds(bearings, first, last, limit):
+    """Whether the median of |bearings[k + 1] − bearings[k]|, k = first..last − 1, is more than `limit`."""
+    above, below, least_above, most_below = 0, 0, math.inf, -math.inf
+    for k in range(first, last):
+        step = abs(bearings[k + 1] - bearings[k])
+        if step > limit:
+            above += 1
+            least_above = min(least_above, step)
+        else:
+            below += 1
+            most_below = max(most_below, step)
+    if above == below:
+        return 0.5 * (least_above + most_below) > limit
+    return above > below

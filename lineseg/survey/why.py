@@ -1,0 +1,206 @@
+"""What looks wrong in a frame, in words."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..doubt import LOOSER, NEAR_EPSILON, SCORES, find_splits
+from ..doubt.misses import misses, why_none
+from ..doubt.neighbours import VOTES, mark_frame, moved, views_of
+from ..doubt.suspicion import AROUND, WEIGHTS, doubts
+from ..extractors import extract, trace
+from ..knobs import Thresholds
+from ..params import Params
+from ..scan import Recording, Scan
+from . import Survey, survey
+from .frame_by_frame import judge_of
+from .stability import changes
+
+# From here on a score that every frame has is told.
+STANDS_OUT = 1.0
+
+
+@dataclass(frozen=True)
+class Remark:
+    """One thing that looks wrong. score: which of SCORES it belongs to; first, last: the beams it is about, or −1.
+
+    doubt: how far that score stands out, times its weight; see suspicion.py.
+    """
+
+    score: str
+    text: str
+    first: int = -1
+    last: int = -1
+    doubt: float = 0.0
+
+
+def why(
+    recording: Recording, frame: int, params: Thresholds | None = None, scores: NDArray[np.floating] | None = None
+) -> tuple[Remark, ...]:
+    """What looks wrong in a frame, the most doubtful first; nothing where nothing does.
+
+    params: of the method; the others tell less than region growing does of what kept a line away.
+
+    scores: (frames, len(SCORES)) of the whole recording; without, only the frames around are surveyed, and the frame is
+    measured against them.
+    """
+    if not 0 <= frame < len(recording):
+        raise IndexError(f"frame {frame}: the recording has the frames 0 to {len(recording) - 1}")
+    first = max(frame - AROUND, 0)
+    part = recording.only(np.arange(first, min(frame + AROUND + 1, len(recording))))
+    found = survey(part, params)
+    assert found.scores is not None
+    scene = _Scene(part, found, frame - first, params or Params())
+    known = (found.scores, frame - first) if scores is None else (scores, frame)
+    doubt = dict(zip(SCORES, doubts(known[0])[known[1]].tolist(), strict=True))
+    remarks = [*_lines(scene), *_beside(scene), *_whole(scene, doubt), *_stability(scene)]
+    weighted = [
+        Remark(each.score, each.text, each.first, each.last, WEIGHTS[each.score] * doubt[each.score])
+        for each in remarks
+    ]
+    return tuple(sorted(weighted, key=lambda each: -each.doubt))
+
+
+class _Scene:
+    """A frame among those around it, as surveyed."""
+
+    def __init__(self, recording: Recording, found: Survey, frame: int, params: Thresholds) -> None:
+        self.recording, self.found, self.frame, self.params = recording, found, frame, params
+        self.epsilon = judge_of(params).epsilon
+        self.scan: Scan = recording[frame]
+        self.rows = found[frame]
+
+    def score(self, name: str) -> float:
+        return float(self.found.score(name)[self.frame])
+
+    def around(self, name: str) -> float:
+        """The median of the frames around."""
+        return float(np.median(self.found.score(name)))
+
+    def points_of(self, row: np.void) -> NDArray[np.intp]:
+        """The valid beams of a segment."""
+        beams = (row["first"] + np.arange((row["last"] - row["first"]) % len(self.scan) + 1)) % len(self.scan)
+        return beams[self._in_lines[beams]]
+
+    @cached_property
+    def _in_lines(self) -> NDArray[np.bool_]:
+        """(n,) the valid beams, of region growing without those of things that lines pass behind."""
+        return extract(self.scan, self.params).labels >= 0 if type(self.params) is Params else self.scan.valid
+
+
+def _lines(scene: _Scene) -> Iterator[Remark]:
+    """What is wrong with single lines."""
+    rows, epsilon = scene.rows, scene.epsilon
+    yield from _misses(scene)
+    pairs = np.empty(len(rows), np.int64)
+    for i in pairs[: find_splits(rows, scene.scan.full_circle, epsilon, pairs)].tolist():
+        one, other = rows[i], rows[(i + 1) % len(rows)]
+        cut = f"cut in two between beams {one['last']} and {other['first']}"
+        text = f"segments {i} and {(i + 1) % len(rows)} are one line, {cut}"
+        yield Remark("splits", text, int(one["first"]), int(other["last"]))
+    for i, row in enumerate(rows):
+        if row["rms"] > NEAR_EPSILON * epsilon:
+            text = f"segment {i} hardly fits: its points lie {row['rms']:.3f} m from it, ε = {epsilon:.3f} m"
+            yield Remark("near", text, int(row["first"]), int(row["last"]))
+        yield from _gap(scene, i, row)
+
+
+def _misses(scene: _Scene) -> Iterator[Remark]:
+    if isinstance(scene.params, Params):
+        for miss in misses(scene.scan, scene.params):
+            yield Remark("misses", miss.text, miss.first, miss.last)
+    elif count := int(scene.score("misses")):
+        lines = f"{count} line{'s' if count > 1 else ''}"
+        yield Remark("misses", f"region growing, made {LOOSER:g} times looser, finds {lines} in what is left over")
+
+
+def _gap(scene: _Scene, i: int, row: np.void) -> Iterator[Remark]:
+    beams = scene.points_of(row)
+    steps = np.concatenate(([0.0], np.hypot(*np.diff(scene.scan.xy[beams], axis=0).T), [0.0]))
+    excess = steps[1:-1] - np.maximum(steps[:-2], steps[2:])
+    if len(excess) and excess.max() >= SCORES["gap"].least:
+        k = int(np.argmax(excess))
+        where = f"between beams {beams[k]} and {beams[k + 1]}"
+        yield Remark("gap", f"segment {i} bridges {steps[k + 1]:.2f} m {where}", int(beams[k]), int(beams[k + 1]))
+
+
+def _beside(scene: _Scene) -> Iterator[Remark]:
+    """What the frame before and the one behind say otherwise."""
+    if not 0 < scene.frame < len(scene.found) - 1:
+        return
+    before, behind = scene.found[scene.frame - 1], scene.found[scene.frame + 1]
+    brief, gone = np.zeros(len(scene.rows), np.bool_), np.zeros(len(before), np.bool_)
+    view = views_of(scene.recording)[scene.frame]
+    to_here, to_behind = mark_frame(before, scene.rows, behind, view, np.empty(VOTES), brief, gone)
+    for i in np.flatnonzero(brief):
+        row = scene.rows[i]
+        text = f"segment {i}, {row['length']:.1f} m, is in this frame only"
+        yield Remark("brief", text, int(row["first"]), int(row["last"]))
+    traced = trace(scene.scan, scene.params) if gone.any() else None
+    for row in before[gone]:
+        beams = _beams_to(scene.scan, moved(row, to_here))
+        place = f"beams {beams[0]}–{beams[-1]}" if len(beams) else "between two beams"
+        reason = why_none(traced, beams) if traced is not None and len(beams) else ""
+        text = f"a line of {row['length']:.1f} m of the frames beside is missing, {place}{reason and f' – {reason}'}"
+        yield Remark("gone", text, *((int(beams[0]), int(beams[-1])) if len(beams) else ()))
+    if scene.score("jump") > SCORES["jump"].least:
+        counts = f"{len(before)} before, {len(behind)} behind"
+        yield Remark("jump", f"{len(scene.rows)} segments; the frames beside it have {counts}")
+    if scene.score("jolt") > SCORES["jolt"].least:
+        come, go = (-np.degrees(np.arctan2(sin, cos)) for cos, sin, _, _ in (to_here, to_behind))
+        turns = f"{come:+.0f}° to this frame and {go:+.0f}° to the next".replace("-", "−")
+        yield Remark("jolt", f"a jolt, or an uneven turn: {turns}")
+
+
+def _beams_to(scan: Scan, ends: tuple[float, float, float, float]) -> NDArray[np.intp]:
+    """The beams that look at a line between two points, in the order of the scan."""
+    one, other = np.arctan2(ends[1], ends[0]), np.arctan2(ends[3], ends[2])
+    across = (other - one + np.pi) % (2 * np.pi) - np.pi
+    start = one if across > 0 else other
+    inside = np.flatnonzero((scan.bearings - start) % (2 * np.pi) <= abs(across))
+    # Across the seam of a full circle the later beams come first.
+    breaks = np.flatnonzero(np.diff(inside) > 1)
+    return np.roll(inside, -int(breaks[0]) - 1) if len(breaks) else inside
+
+
+def _whole(scene: _Scene, doubt: dict[str, float]) -> Iterator[Remark]:
+    """Scores that every frame has, where this frame's stand out."""
+    if doubt["coverage"] >= STANDS_OUT:
+        cover = f"{scene.score('coverage'):.0%} of the valid beams"
+        yield Remark("coverage", f"segments cover {cover}, {scene.around('coverage'):.0%} in the frames around")
+    if doubt["invalid"] >= STANDS_OUT:
+        first, last = _longest_run(~scene.scan.valid)
+        share, around = f"{scene.score('invalid'):.0%}", f"{scene.around('invalid'):.0%} in the frames around"
+        text = f"{share} of the beams have no return, {around}; the longest run is beams {first}–{last}"
+        yield Remark("invalid", text, first, last)
+    if doubt["change"] >= STANDS_OUT:
+        share = f"{scene.score('change'):.0%} of what is covered here or in the frame before"
+        yield Remark("change", f"{share} is not in the same segment")
+    if doubt["rms"] >= STANDS_OUT and len(scene.rows):
+        row = scene.rows[np.argmax(scene.rows["rms"])]
+        text = f"the poorest fit has an rms of {row['rms']:.3f} m, {scene.around('rms'):.3f} m in the frames around"
+        yield Remark("rms", text, int(row["first"]), int(row["last"]))
+
+
+def _stability(scene: _Scene) -> Iterator[Remark]:
+    """The threshold whose small change changes most."""
+    alone = scene.recording.only(np.array([scene.frame]))
+    base = survey(alone, scene.found.params, scores=False)
+    name, params, count = max(changes(alone, base), key=lambda each: each[2][0])
+    if count[0]:
+        symbol = next(knob.symbol for each, _, knob in params.knobs() if each == name)
+        value = f"{symbol} = {getattr(params, name):g} instead of {getattr(base.params, name):g}"
+        yield Remark("unstable", f"with {value}, {count[0]} segment{'s' if count[0] > 1 else ''} would come or go")
+
+
+def _longest_run(flags: NDArray[np.bool_]) -> tuple[int, int]:
+    """First and last index of the longest run of true flags; there is one."""
+    edges = np.flatnonzero(np.diff(np.concatenate(([0], flags, [0]))))
+    runs = edges.reshape(-1, 2)
+    first, stop = runs[np.argmax(runs[:, 1] - runs[:, 0])]
+    return int(first), int(stop) - 1

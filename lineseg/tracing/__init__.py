@@ -1,0 +1,1 @@
+"""What a method decided, and how its kernels write that down."""

@@ -1,0 +1,343 @@
+"""Every decision of one run of a method, in order: what the page replays."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, Literal, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..scan import Scan
+from ..segment import Extraction
+from .log import Line, Row
+
+Effect = Literal["none", "shown", "stands", "gone", "joined", "parted", "placed"]
+
+
+class Kind(NamedTuple):
+    """A kind of decision of a method.
+
+    effect: what it does to the lines there are. "shown": its candidate is one at this moment only; "stands": from now
+    on; "gone": no longer; "joined": it stands and its partner is gone; "parted": it ends before `beam`, where its
+    partner begins; "placed": it has its endpoints. jump: by which button of the page it is found: seed (how a line of
+    this method begins), line, drop, merge, cut, refusal. text: its sentence, with the fields of `Sentence`.
+    """
+
+    name: str
+    phase: str
+    effect: Effect = "none"
+    jump: str = ""
+    text: str = ""
+
+
+@dataclass(frozen=True)
+class Vocabulary:
+    """What a method decides, by which checks; a row of its log has numbers of these."""
+
+    kinds: tuple[Kind, ...]
+    checks: tuple[str, ...]
+
+    @cached_property
+    def names(self) -> tuple[str, ...]:
+        return tuple(kind.name for kind in self.kinds)
+
+    @cached_property
+    def phases(self) -> tuple[str, ...]:
+        return tuple(dict.fromkeys(kind.phase for kind in self.kinds))
+
+    def jump_of(self, kind: str) -> str:
+        return self.kinds[self.names.index(kind)].jump
+
+    @cached_property
+    def jumps(self) -> dict[str, tuple[str, ...]]:
+        """The kinds of decision that each jump leads to."""
+        found: dict[str, tuple[str, ...]] = {}
+        for kind in self.kinds:
+            if kind.jump:
+                found[kind.jump] = (*found.get(kind.jump, ()), kind.name)
+        return found
+
+
+@dataclass(frozen=True)
+class Decision:
+    """One decision, with the line, the measured value and the limit of that moment.
+
+    kind, phase: of the method's vocabulary. candidate: which line it is about, counted from 0 (of region growing: which
+    growth); partner: the other line of a merge or a cut, else −1. direction: +1 forward, −1 backward, 0 neither.
+    first, last: beams of the window under test, or of the line as it is after the decision; beam: the one decided on,
+    or −1. line: (a, b, c), the line the beam was compared with; other: the partner's, for merges and cuts.
+    check: which threshold; "" where nothing was compared, "end" at the end of the scan. value, limit: what was
+    compared.
+    ends: both endpoints (x1, y1, x2, y2), only where they are placed.
+    """
+
+    index: int
+    kind: str
+    phase: str
+    candidate: int
+    partner: int
+    direction: int
+    first: int
+    last: int
+    beam: int
+    points: int
+    line: Line
+    other: Line | None
+    check: str
+    value: float
+    limit: float
+    ends: tuple[float, float, float, float] | None
+    text: str
+
+
+@dataclass(frozen=True)
+class TracedLine:
+    """A line as it stands after some decision; `growing` while it is not yet accepted."""
+
+    candidate: int
+    first: int
+    last: int
+    line: Line
+    growing: bool
+
+
+@dataclass(frozen=True)
+class Explanation:
+    """Why a beam belongs to its segment, or to none; margin: by how much it is inside the limit (< 0: outside)."""
+
+    beam: int
+    text: str
+    segment: int
+    check: str = ""
+    value: float = np.nan
+    limit: float = np.nan
+    margin: float = np.nan
+
+
+class Trace:
+    """The decisions of one run; a sequence of `Decision`.
+
+    log: (decisions,) structured array, one row each (see log.py), with first, last and beam as positions; positions
+    (m,) int turns them into beams, and may go on counting past the seam of a full circle.
+    """
+
+    def __init__(
+        self,
+        scan: Scan,
+        params: Any,
+        extraction: Extraction,
+        vocabulary: Vocabulary,
+        log: NDArray[np.void],
+        positions: NDArray[np.integer],
+    ) -> None:
+        self.scan = scan
+        self.params = params
+        self.extraction = extraction
+        self.vocabulary = vocabulary
+        self.log = log
+        self._beams = positions % max(len(scan), 1)
+
+    def __len__(self) -> int:
+        return len(self.log)
+
+    def __iter__(self) -> Iterator[Decision]:
+        return (self[i] for i in range(len(self)))
+
+    def __getitem__(self, index: int) -> Decision:
+        if not -len(self) <= index < len(self):
+            raise IndexError(f"decision {index}: the trace has the decisions 0 to {len(self) - 1}")
+        index %= len(self)
+        row = Row(*self.log[index].item())
+        first, last = self._beam(row.first), self._beam(row.last)
+        beam = self._beam(row.beam) if row.beam >= 0 else -1
+        placed = self._effect(row) == "placed"
+        return Decision(
+            index=index,
+            kind=self.vocabulary.names[row.kind],
+            phase=self.vocabulary.phases[self.phases[index]],
+            candidate=row.candidate,
+            partner=-1 if placed else row.partner,
+            direction=row.direction,
+            first=first,
+            last=last,
+            beam=beam,
+            points=row.points,
+            line=row.line,
+            other=row.other if row.partner >= 0 and not placed else None,
+            check=self.vocabulary.checks[row.check],
+            value=row.limit if placed else row.value,
+            limit=row.limit,
+            ends=(*row.other, row.value) if placed else None,
+            text=self._sentence(row, first, last, beam),
+        )
+
+    def texts(self, indices: NDArray[np.integer]) -> list[str]:
+        """The sentences of some decisions, for a fraction of what the whole decisions cost."""
+        rows = self.log[indices]
+        beams = self.as_beams(np.array([rows["first"], rows["last"], rows["beam"]])).T.tolist()
+        return [self._sentence(Row(*row), *where) for row, where in zip(rows.tolist(), beams, strict=True)]
+
+    def beams(self, first: int, last: int) -> NDArray[np.intp]:
+        """The valid beams from beam `first` to beam `last`, both inclusive, across the seam where last < first."""
+        n = len(self.scan)
+        span = (last - first) % n + 1 if self.scan.full_circle else last - first + 1
+        beams = (first + np.arange(max(0, span))) % max(n, 1)
+        return beams[self.scan.valid[beams]]
+
+    def as_beams(self, positions: NDArray[np.integer]) -> NDArray[np.int64]:
+        """Beams at the positions of `log`; what is negative, none, becomes −1."""
+        if not len(self._beams):
+            return np.full(positions.shape, -1, dtype=np.int64)
+        return np.where(positions < 0, -1, self._beams.take(positions, mode="clip"))
+
+    @cached_property
+    def phases(self) -> NDArray[np.int64]:
+        """Of each decision, which of the vocabulary's phases it belongs to."""
+        of_kind = [self.vocabulary.phases.index(kind.phase) for kind in self.vocabulary.kinds]
+        return np.array(of_kind, dtype=np.int64)[self.log["kind"]]
+
+    def indices(self, kind: str) -> NDArray[np.intp]:
+        """Indices of the decisions of a kind."""
+        names = self.vocabulary.names
+        if kind not in names:
+            raise ValueError(f"there is no decision {kind!r}; there are {', '.join(names)}")
+        return np.flatnonzero(self.log["kind"] == names.index(kind))
+
+    def jump(self, name: str) -> NDArray[np.intp]:
+        """Indices of the decisions that a jump leads to, see `Kind`; none where the method has no such decision."""
+        wanted = [number for number, kind in enumerate(self.vocabulary.kinds) if kind.jump == name]
+        return np.flatnonzero(np.isin(self.log["kind"], wanted))
+
+    def starts(self, level: str) -> NDArray[np.intp]:
+        """Indices at which a "decision", a "phase" or a "line" (what is about another candidate) begins."""
+        if level not in ("decision", "phase", "line"):
+            raise ValueError(f"there is no level {level!r}; there are decision, phase, line")
+        if level == "decision" or not len(self):
+            return np.arange(len(self))
+        keys = self._stretches(level)
+        return np.flatnonzero(np.any(np.diff(keys, axis=0, prepend=keys[:1] - 1), axis=1))
+
+    def _stretches(self, level: str) -> NDArray[np.int64]:
+        """(decisions, any): equal in neighbouring decisions of one stretch."""
+        candidates = self.log["candidate"] if level == "line" else np.zeros(len(self), np.int64)
+        return np.column_stack((self.phases, candidates))
+
+    def lines_at(self, step: int) -> tuple[TracedLine, ...]:
+        """The lines there are after decision `step`; −1: before the first, none."""
+        rows = self.log[: step + 1]
+        lines: dict[int, TracedLine] = {}
+        for row in rows[self._lasting[: step + 1]].tolist():
+            self._apply(Row(*row), lines)
+        if len(rows) and self._effect(now := Row(*rows[-1].item())) == "shown":
+            lines[now.candidate] = self._traced(now, growing=True)
+        return tuple(lines.values())
+
+    @cached_property
+    def _lasting(self) -> NDArray[np.bool_]:
+        lasting = [kind.effect not in ("none", "shown") for kind in self.vocabulary.kinds]
+        return np.array(lasting)[self.log["kind"]]
+
+    def _effect(self, row: Row) -> Effect:
+        return self.vocabulary.kinds[row.kind].effect
+
+    def _apply(self, row: Row, lines: dict[int, TracedLine]) -> None:
+        candidate, partner, effect = row.candidate, row.partner, self._effect(row)
+        if effect == "gone":
+            lines.pop(candidate, None)
+            return
+        was = lines.get(partner, lines.get(candidate))
+        lines[candidate] = self._traced(row)
+        if effect == "joined":
+            lines.pop(partner, None)
+        elif effect == "parted" and was is not None:
+            lines[partner] = TracedLine(partner, self._beam(row.beam), was.last, row.other, False)
+
+    def _traced(self, row: Row, growing: bool = False) -> TracedLine:
+        return TracedLine(row.candidate, self._beam(row.first), self._beam(row.last), row.line, growing)
+
+    def _beam(self, position: int) -> int:
+        return int(self._beams[min(max(position, 0), len(self._beams) - 1)])
+
+    def _sentence(self, row: Row, first: int, last: int, beam: int) -> str:
+        """first, last, beam: the beams at the row's positions; −1 for a beam: none."""
+        sentence = Sentence(first, last, beam, row.points, self.vocabulary.checks[row.check], row.value, row.limit)
+        return sentence.fill(self.vocabulary.kinds[row.kind].text)
+
+    def explain(self, beam: int) -> Explanation:
+        """Why beam `beam` belongs to its segment, or to none: in one sentence, with threshold, value and margin."""
+        if not 0 <= beam < len(self.scan):
+            raise ValueError(f"beam {beam}: the scan has the beams 0 to {len(self.scan) - 1}")
+        segment = int(self.extraction.labels[beam])
+        if not self.scan.valid[beam]:
+            return Explanation(beam, f"beam {beam} has no return: {self._why_invalid(beam)}", segment)
+        if segment >= 0:
+            return self._why_in(beam, segment)
+        return self._why_out(beam)
+
+    def _why_invalid(self, beam: int) -> str:
+        measured, scan = float(self.scan.ranges[beam]), self.scan
+        if not np.isfinite(measured) or measured <= 0:
+            return f"its range is {measured:g}"
+        if measured < scan.range_min:
+            return f"its range of {measured:.3f} m is below the laser's minimum of {scan.range_min:g} m"
+        return f"its range of {measured:.2f} m is not below the laser's maximum of {scan.range_max:g} m"
+
+    def _why_in(self, beam: int, segment: int) -> Explanation:
+        line = self.extraction.segments[segment]
+        value = float(line.distance(self.scan.xy[beam]))
+        text = f"beam {beam} is in segment {segment} of beams {line.first}–{line.last}, {metres(value)} from its line"
+        return Explanation(beam, text, segment, value=value)
+
+    def _why_out(self, beam: int) -> Explanation:
+        """The last word on a beam: what was decided about it, or about the last line that held it."""
+        about = np.flatnonzero(self._decided_on(beam) | self._decisions_over(beam))
+        if not len(about):
+            return Explanation(beam, f"beam {beam} is in no segment: no line ever held it", -1)
+        decision = self[int(about[-1])]
+        text = f"beam {beam} is in no segment: {decision.text}"
+        margin = decision.value - decision.limit if decision.kind == "line dropped" else np.nan
+        return Explanation(beam, text, -1, decision.check, decision.value, decision.limit, margin)
+
+    def _decided_on(self, beam: int) -> NDArray[np.bool_]:
+        """(decisions,) which of them are on the beam itself."""
+        return self.as_beams(self.log["beam"]) == beam
+
+    def _decisions_over(self, beam: int) -> NDArray[np.bool_]:
+        """(decisions,) whose window or line contains the beam."""
+        within = np.zeros(len(self.log), dtype=bool)
+        for position in np.flatnonzero(self._beams == beam):
+            within |= (self.log["first"] <= position) & (position <= self.log["last"])
+        return within
+
+
+class Sentence(NamedTuple):
+    """The fields of a decision's text; `{span}` is its beams, `{lack}` what a dropped line lacks."""
+
+    first: int
+    last: int
+    beam: int
+    points: int
+    check: str
+    value: float
+    limit: float
+
+    def fill(self, text: str) -> str:
+        span, angle = f"beams {self.first}–{self.last}", f"{math.degrees(self.value):.1f}°"
+        return text.format(**self._asdict(), span=span, angle=angle, lack=lack(self.check, self.value, self.limit))
+
+
+def lack(check: str, value: float, limit: float) -> str:
+    """What a dropped line lacks."""
+    if check == "min_points":
+        return f"{value:g} points < P_min = {limit:g} (short by {limit - value:g})"
+    if check == "nearer":
+        return f"it lies {metres(value)} from its first shared point, the line that overlaps it {metres(limit)}"
+    return f"{metres(value)} < L_min = {metres(limit)} (short by {metres(limit - value)})"
+
+
+def metres(value: float) -> str:
+    return f"{value:.3f} m" if math.isfinite(value) else "infinitely far"

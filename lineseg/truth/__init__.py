@@ -1,0 +1,249 @@
+"""Scores against the truth: one-to-one matches by beam sets, TR and FR (Eqs. 9, 10), splits, merges, endpoint error."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import chain
+from typing import Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..extractors import EXTRACTORS
+from ..knobs import Thresholds
+from ..params import Params
+from ..scan import Recording, Scan
+from ..segment import Extraction
+
+OCCLUSION = 0.3
+
+
+def true_lines(scan: Scan, params: Params | None = None, occlusion: float = OCCLUSION) -> NDArray[np.int32]:
+    """For each beam its true line, or −1, of a scan whose walls are known; lines are numbered from 0.
+
+    A true line is a visible run of one wall with at least P_min valid beams and at least L_min between its outermost
+    points. A run is cut between two of its beams if other beams, of another wall or without a return, lie between them
+    and their points are more than `occlusion` apart [m]; a thinner chair leg, or a few lost beams, leave it whole.
+    On a full circle a run may cross the seam.
+    """
+    if scan.wall is None:
+        raise ValueError("this scan has no true walls; `wall` gives the wall of each beam")
+    params = params or Params()
+    labels = np.full(len(scan), -1, np.int32)
+    found = 0
+    for wall in np.unique(scan.wall[scan.valid & (scan.wall >= 0)]):
+        for run in _visible_runs(scan, np.flatnonzero(scan.valid & (scan.wall == wall)), occlusion):
+            length = float(np.hypot(*(scan.xy[run[-1]] - scan.xy[run[0]])))
+            if len(run) >= params.min_points and length >= params.min_length:
+                labels[run] = found
+                found += 1
+    return labels
+
+
+def demands_of(params: Thresholds) -> Params:
+    """P_min and L_min of true lines: those of the method, the usual ones where it has none."""
+    asked = {name: value for name, value in params.numbers().items() if name in ("min_points", "min_length")}
+    return Params().but(**asked)
+
+
+def _visible_runs(scan: Scan, beams: NDArray[np.intp], occlusion: float) -> list[NDArray[np.intp]]:
+    ahead = np.roll(beams, -1)
+    steps = (ahead - beams) % len(scan)
+    cut = (steps > 1) & (np.hypot(*(scan.xy[ahead] - scan.xy[beams]).T) > occlusion)
+    if not scan.full_circle:
+        cut[-1] = True
+    if not cut.any():
+        return [beams]
+    first = int(np.flatnonzero(cut)[-1]) + 1
+    return np.split(np.roll(beams, -first), np.flatnonzero(np.roll(cut, -first))[:-1] + 1)
+
+
+def true_ends(scan: Scan, truth: NDArray[np.integer]) -> NDArray[np.float64]:
+    """(lines, 2, 2) [m]: of each true line the outermost points, projected on the line fitted to all its points.
+
+    Where many beams see a wall this is nearer to it than any one measured point; NaN for a line without a return.
+    """
+    ends = np.full((int(truth.max(initial=-1)) + 1, 2, 2), np.nan)
+    for line in range(len(ends)):
+        beams = np.flatnonzero((truth == line) & scan.valid)
+        if len(beams):
+            ends[line] = _projected_ends(scan.xy[_along(scan, beams)])
+    return ends
+
+
+def _along(scan: Scan, beams: NDArray[np.intp]) -> NDArray[np.intp]:
+    """The beams of one line in order; on a full circle, where they may cross the seam, from behind the widest step."""
+    if not scan.full_circle:
+        return beams
+    return np.roll(beams, -int(np.argmax((beams - np.roll(beams, 1)) % len(scan))))
+
+
+def _projected_ends(xy: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Endpoints as in Eqs. 7 and 8."""
+    mean = xy.mean(axis=0)
+    (xx, cross), (_, yy) = (xy - mean).T @ (xy - mean)
+    angle = 0.5 * math.atan2(2 * cross, xx - yy)
+    along = np.array((math.cos(angle), math.sin(angle)))
+    return mean + ((xy[[0, -1]] - mean) @ along)[:, None] * along
+
+
+@dataclass(frozen=True)
+class Agreement:
+    """How far segments agree with true lines, of one frame, or by `+` or `of_all` of many.
+
+    true_lines, segments, matches, splits, merges: their numbers; shared: Σ of the intersections over union of the
+    matches. endpoint_errors: two for each match [m].
+    """
+
+    true_lines: int = 0
+    segments: int = 0
+    matches: int = 0
+    shared: float = 0.0
+    splits: int = 0
+    merges: int = 0
+    endpoint_errors: tuple[float, ...] = ()
+
+    def __add__(self, other: Self) -> Agreement:
+        return Agreement.of_all((self, other))
+
+    @classmethod
+    def of_all(cls, parts: Iterable[Agreement]) -> Agreement:
+        """All of them together."""
+        parts = list(parts)
+        numbers = ("true_lines", "segments", "matches", "shared", "splits", "merges")
+        errors = tuple(chain.from_iterable(part.endpoint_errors for part in parts))
+        return cls(**{name: sum(getattr(part, name) for part in parts) for name in numbers}, endpoint_errors=errors)
+
+    @property
+    def true_rate(self) -> float:
+        """TR = matches / true lines (Eq. 9); NaN where there is no true line."""
+        return self.matches / self.true_lines if self.true_lines else math.nan
+
+    @property
+    def false_rate(self) -> float:
+        """FR = (segments − matches) / segments (Eq. 10); NaN where there is no segment."""
+        return (self.segments - self.matches) / self.segments if self.segments else math.nan
+
+    @property
+    def completeness(self) -> float:
+        """Mean intersection over union of the matches; NaN where there is none."""
+        return self.shared / self.matches if self.matches else math.nan
+
+    def endpoint_error(self, percent: float = 50.0) -> float:
+        """The error [m] that this share of the endpoints of the matches does not exceed; NaN where there is none."""
+        return float(np.percentile(self.endpoint_errors, percent)) if self.endpoint_errors else math.nan
+
+
+@dataclass(frozen=True, eq=False)
+class Matching:
+    """Which segment of a frame is which true line.
+
+    shared: (lines, segments) number of beams in common; line_beams, segment_beams: number of beams of each.
+    endpoint_errors: (lines, 2) [m] from the ends of a true line to those of its match; NaN where it has none.
+    """
+
+    shared: NDArray[np.int64]
+    line_beams: NDArray[np.int64]
+    segment_beams: NDArray[np.int64]
+    endpoint_errors: NDArray[np.float64]
+
+    @cached_property
+    def overlap(self) -> NDArray[np.float64]:
+        """(lines, segments) intersection over union of their beams."""
+        return self.shared / np.maximum(self.line_beams[:, None] + self.segment_beams - self.shared, 1)
+
+    @cached_property
+    def segment_of(self) -> NDArray[np.intp]:
+        """(lines,) the segment that matches each true line, −1 for a missed one."""
+        return _index_where(self.overlap > 0.5, axis=1)
+
+    @cached_property
+    def line_of(self) -> NDArray[np.intp]:
+        """(segments,) the true line that each segment matches, −1 for a false one."""
+        return _index_where(self.overlap > 0.5, axis=0)
+
+    @cached_property
+    def split(self) -> NDArray[np.bool_]:
+        """(lines,) whether two or more segments lie on this line with more than half of their beams."""
+        return (2 * self.shared > self.segment_beams).sum(axis=1) > 1
+
+    @cached_property
+    def merged(self) -> NDArray[np.bool_]:
+        """(segments,) whether this segment holds more than half of the beams of two or more lines."""
+        return (2 * self.shared > self.line_beams[:, None]).sum(axis=0) > 1
+
+    @cached_property
+    def agreement(self) -> Agreement:
+        matched = self.overlap > 0.5
+        errors = self.endpoint_errors[np.isfinite(self.endpoint_errors)]
+        return Agreement(
+            *self.shared.shape,
+            matches=int(matched.sum()),
+            shared=float(self.overlap[matched].sum()),
+            splits=int(self.split.sum()),
+            merges=int(self.merged.sum()),
+            endpoint_errors=tuple(errors.tolist()),
+        )
+
+
+def match(extraction: Extraction, truth: NDArray[np.integer], ends: NDArray[np.float64] | None = None) -> Matching:
+    """Segments and true lines (n,), as `true_lines` gives them, matched one to one.
+
+    A segment matches a true line if the intersection over union of their beams is more than one half. Two segments
+    share no beam, nor do two true lines, so no other can match either of them.
+    ends: (lines, 2, 2) [m] the endpoints of the true lines, see `true_ends`; without, there are no endpoint errors.
+    """
+    lines, segments = int(truth.max(initial=-1)) + 1, len(extraction.segments)
+    both = (truth >= 0) & (extraction.labels >= 0)
+    pairs = truth[both].astype(np.int64) * segments + extraction.labels[both]
+    shared = np.bincount(pairs, minlength=lines * segments).reshape(lines, segments)
+    line_beams = np.bincount(truth[truth >= 0], minlength=lines)
+    segment_beams = np.bincount(extraction.labels[extraction.labels >= 0], minlength=segments)
+    matching = Matching(shared, line_beams, segment_beams, np.full((lines, 2), np.nan))
+    if ends is not None:
+        for line in np.flatnonzero(matching.segment_of >= 0):
+            segment = extraction.segments[matching.segment_of[line]]
+            matching.endpoint_errors[line] = _end_errors(np.array((segment.start, segment.end)), ends[line])
+    return matching
+
+
+def agreement(extraction: Extraction, truth: NDArray[np.integer], ends: NDArray[np.float64] | None = None) -> Agreement:
+    """The numbers of `match`."""
+    return match(extraction, truth, ends).agreement
+
+
+def agreements(
+    recording: Recording,
+    params: Thresholds | None = None,
+    method: str = "region-growing",
+    truth: Callable[[int], NDArray[np.integer] | None] | None = None,
+    ends: Callable[[int], NDArray[np.float64]] | None = None,
+) -> Iterator[Agreement | None]:
+    """How far a method agrees with the truth, frame by frame.
+
+    truth: the true line of each beam of a frame, or None where nobody has said; without, `true_lines` of P_min and
+    L_min as the method has them. ends: the endpoints of a frame's true lines; without, `true_ends`.
+    """
+    extractor = EXTRACTORS[method]
+    params = params or extractor.params_type()
+    known = truth or (lambda frame: true_lines(recording[frame], demands_of(params)))
+    for frame, scan in enumerate(recording):
+        lines = known(frame)
+        if lines is None:
+            yield None
+        else:
+            known_ends = true_ends(scan, lines) if ends is None else ends(frame)
+            yield agreement(extractor.extract(scan, params), lines, known_ends)
+
+
+def _index_where(table: NDArray[np.bool_], axis: int) -> NDArray[np.intp]:
+    return np.where(table.any(axis), table.argmax(axis) if table.shape[axis] else 0, -1)
+
+
+def _end_errors(found: NDArray[np.float64], true: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(2,) distances of the two ends, paired so that they are least: labels may be drawn from either end."""
+    pairings = [np.hypot(*(ends - true).T) for ends in (found, found[::-1])]
+    return min(pairings, key=np.sum)

@@ -1,0 +1,200 @@
+"""Labels in a file beside their recording, NAME.lineseg.json, which several writers may change at once."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import tempfile
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from ..scan import Recording
+from .labels import FrameLabels, Labels, TrueLine, check_labels
+
+FORMAT, VERSION = "lineseg labels", 1
+SUFFIX = ".lineseg.json"
+MOST_BYTES = 256 << 20
+
+# Between the threads of this process; between processes the folder is locked.
+_writing = threading.Lock()
+
+
+class ConflictError(ValueError):
+    """Somebody else has saved this frame since it was read. theirs: what they saved."""
+
+    def __init__(self, sentence: str, theirs: FrameLabels) -> None:
+        super().__init__(sentence)
+        self.theirs = theirs
+
+
+def label_file(recording: str | Path, user_folder: Path | None = None) -> Path:
+    """Where the labels of a recording's file are kept: beside it, or in the user's folder if that cannot be written.
+
+    Labels that are beside it already are found there in any case.
+    """
+    path = Path(recording).absolute()
+    beside = path.with_name(path.name + SUFFIX)
+    if beside.exists() or os.access(path.parent, os.W_OK):
+        return beside
+    return users_label_file(path.name, str(path), user_folder)
+
+
+def users_label_file(name: str, identity: str, user_folder: Path | None = None) -> Path:
+    """Where the labels of a recording that is no file of the user's are kept. identity: what tells it from others."""
+    if user_folder is None:
+        import platformdirs
+
+        user_folder = Path(platformdirs.user_data_dir("lineseg", appauthor=False))
+    digest = hashlib.sha256(identity.encode()).hexdigest()[:12]
+    return user_folder / "labels" / f"{name}.{digest}{SUFFIX}"
+
+
+def read_labels(path: str | Path, recording: Recording) -> Labels:
+    """The labels of each frame of which something was said; none where there is no file.
+
+    A file that is broken, of a newer version, or of a recording with other frames or beams is a ValueError.
+    """
+    path = Path(path)
+    try:
+        if path.stat().st_size > MOST_BYTES:
+            raise ValueError(f"{path.name} has {path.stat().st_size} bytes; labels have at most {MOST_BYTES}.")
+        text = path.read_text(encoding="utf-8")
+    except FileNotFoundError:
+        return {}
+    except UnicodeDecodeError:
+        raise ValueError(f"{path.name} holds no text; labels are JSON. Move it away to begin anew.") from None
+    try:
+        tree = json.loads(text)
+    except (json.JSONDecodeError, RecursionError) as error:
+        where = f":{error.lineno}" if isinstance(error, json.JSONDecodeError) else ""
+        raise ValueError(f"{path.name}{where}: this is no JSON ({error}). Repair it, or move it away.") from None
+    try:
+        return _labels_in(tree, recording)
+    except (KeyError, TypeError, AttributeError) as error:
+        missing = f"{error} is missing" if isinstance(error, KeyError) else str(error)
+        raise ValueError(f"{path.name} does not hold labels as it should: {missing}.") from None
+    except ValueError as error:
+        raise ValueError(f"{path.name}: {error}.") from None
+
+
+def save_labels(path: str | Path, recording: Recording, frame: int, labels: FrameLabels) -> FrameLabels:
+    """Save what is said of one frame, on top of what others have saved of other frames; returns it as saved.
+
+    `labels.revision` is the one that was read or last saved. Where the file has a newer one of this frame, nothing is
+    written and it is a ConflictError. Nothing is written either where the file cannot be read, see `read_labels`, or
+    the labels are not of this frame. The file is whole at every moment: it is replaced once it is on the disk.
+    """
+    path = Path(path)
+    check_labels(labels, recording, frame)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with _alone_in(path.parent):
+        known = read_labels(path, recording)
+        theirs = known.get(frame, FrameLabels())
+        if theirs.revision != labels.revision:
+            raise ConflictError(
+                f"frame {frame} was changed elsewhere: it has the revision {theirs.revision}, you saw "
+                f"{labels.revision}. Nothing was saved; take theirs, or save again on top of it.",
+                theirs,
+            )
+        saved = replace(labels, revision=labels.revision + 1)
+        _replace(path, _text_of(known | {frame: saved}, recording))
+    return saved
+
+
+@contextmanager
+def _alone_in(folder: Path) -> Iterator[None]:
+    """Keep other writers out. A process that is killed leaves no lock behind."""
+    with _writing:
+        try:
+            import fcntl
+        except ImportError:
+            # Windows locks no folder.
+            yield
+            return
+        handle = os.open(folder, os.O_RDONLY)
+        try:
+            fcntl.flock(handle, fcntl.LOCK_EX)
+            yield
+        finally:
+            os.close(handle)
+
+
+def _replace(path: Path, text: str) -> None:
+    handle, unfinished = tempfile.mkstemp(prefix=f".{path.name}.", suffix=".part", dir=path.parent)
+    try:
+        with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as file:
+            file.write(text)
+            file.flush()
+            os.fsync(file.fileno())
+        # mkstemp lets nobody else read.
+        Path(unfinished).chmod(path.stat().st_mode if path.exists() else 0o644)
+        os.replace(unfinished, path)  # noqa: PTH105
+    except BaseException:
+        Path(unfinished).unlink(missing_ok=True)
+        raise
+    with suppress(OSError):
+        folder = os.open(path.parent, os.O_RDONLY)
+        try:
+            os.fsync(folder)
+        finally:
+            os.close(folder)
+
+
+def _labels_in(tree: Any, recording: Recording) -> Labels:
+    if not isinstance(tree, dict) or tree.get("format") != FORMAT:
+        raise ValueError(f'this is another kind of file; labels begin with "format": "{FORMAT}"')
+    if tree["version"] != VERSION:
+        raise ValueError(f"the labels are of version {tree['version']}, this lineseg reads {VERSION}; update lineseg")
+    about = tree["recording"]
+    if about["frames"] != len(recording):
+        raise ValueError(
+            f"the labels are of {about['name']} with {about['frames']} frames; {recording.name} has {len(recording)}"
+        )
+    found = {}
+    for key, entry in tree["frames"].items():
+        frame = int(key)
+        lines = entry.get("lines")
+        labels = FrameLabels(
+            None if lines is None else tuple(_line(line) for line in lines),
+            tuple(str(tag) for tag in entry.get("tags", ())),
+            str(entry.get("note", "")),
+            int(entry["revision"]),
+        )
+        beams = len(recording[frame]) if 0 <= frame < len(recording) else entry["beams"]
+        if entry["beams"] != beams:
+            raise ValueError(f"the labels of frame {frame} are of {entry['beams']} beams; the scan has {beams}")
+        check_labels(labels, recording, frame)
+        found[frame] = labels
+    return found
+
+
+def _line(entry: dict[str, Any]) -> TrueLine:
+    (x1, y1), (x2, y2) = entry["start"], entry["end"]
+    return TrueLine(int(entry["first"]), int(entry["last"]), (float(x1), float(y1)), (float(x2), float(y2)))
+
+
+def _text_of(labels: Labels, recording: Recording) -> str:
+    """JSON that a person can read: an entry a frame, a true line a line of text."""
+    about = {"name": recording.name, "frames": len(recording)}
+    lines = ["{", f'  "format": "{FORMAT}",', f'  "version": {VERSION},', f'  "recording": {_json(about)},']
+    entries = [_entry(frame, each, recording) for frame, each in sorted(labels.items())]
+    return "\n".join([*lines, '  "frames": {', ",\n".join(entries), "  }", "}", ""])
+
+
+def _entry(frame: int, labels: FrameLabels, recording: Recording) -> str:
+    beams = int(recording.offsets[frame + 1] - recording.offsets[frame])
+    head = {"revision": labels.revision, "beams": beams, "tags": labels.tags, "note": labels.note}
+    if labels.lines is None:
+        return f'    "{frame}": {_json(head)}'
+    rows = [_json({"first": x.first, "last": x.last, "start": x.start, "end": x.end}) for x in labels.lines]
+    listed = "[\n      " + ",\n      ".join(rows) + "\n    ]" if rows else "[]"
+    return f'    "{frame}": {_json(head)[:-1]}, "lines": {listed}}}'
+
+
+def _json(value: Any) -> str:
+    return json.dumps(value, ensure_ascii=False, allow_nan=False)

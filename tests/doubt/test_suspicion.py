@@ -1,0 +1,105 @@
+"""The rank puts what fails first: planted failures are found, in recordings that have failures of their own."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
+from planted import PLANTS, planted
+
+from lineseg import extract, open_recording, survey, with_stability
+from lineseg.doubt import SCORES
+from lineseg.doubt.suspicion import MOST_DOUBT, WEIGHTS, doubts, suspicion, worst_first
+from lineseg.truth import agreement, true_lines
+
+SAMPLES = Path(__file__).parents[2] / "sample_scans"
+NAMES = list(SCORES)
+
+
+def column(name, values):
+    """Scores of frames that differ in one of them only."""
+    scores = np.zeros((len(values), len(SCORES)))
+    scores[:, NAMES.index(name)] = values
+    return scores
+
+
+def fails_by_itself(recording):
+    """(frames,) whether a true line is missed there, whatever else was planted elsewhere."""
+    found = (agreement(extract(scan), true_lines(scan)) for scan in recording)
+    return np.array([each.matches < each.true_lines for each in found])
+
+
+@pytest.mark.parametrize("seed", [1, 2, 3])
+@pytest.mark.parametrize("name", ["hallway", "laboratory"])
+def test_eight_of_ten_planted_failures_are_among_the_fifteen_worst(name, seed):
+    """The weights were chosen on the seeds 100 to 129.
+
+    Frames that fail without our doing, a third of each recording, are not counted among the fifteen: they belong there.
+    No wall of the laboratory is seen at so grazing an angle that an open door could be bridged.
+    """
+    sample = open_recording(SAMPLES / f"{name}.npz")
+    recording, where = planted(sample, seed)
+    unplantable = {"bridged_door"} if name == "laboratory" else set()
+    assert set(where.values()) == {plant.__name__ for plant in PLANTS} - unplantable
+    own = fails_by_itself(sample)
+    ranked = worst_first(with_stability(recording, survey(recording)).scores).tolist()
+    worst = [frame for frame in ranked if frame in where or not own[frame]][:15]
+    found = {where[frame] for frame in worst if frame in where}
+    assert len(found) >= 8, set(where.values()) - found
+
+
+def test_a_frame_that_stands_out_to_the_bad_side_is_doubtful_and_one_to_the_good_is_not():
+    values = np.full(100, 0.8)
+    values[30], values[60] = 0.2, 1.0
+    doubt = doubts(column("coverage", values))[:, NAMES.index("coverage")]
+    assert doubt[30] == MOST_DOUBT
+    assert np.count_nonzero(doubt) == 1
+
+
+def test_the_spread_is_that_of_the_worst_tenth_but_never_less_than_is_worth_a_look():
+    values = np.zeros(101)
+    values[50] = 1.2
+    assert doubts(column("jump", values))[50, NAMES.index("jump")] == pytest.approx(1.2)
+    values = np.tile(np.arange(11.0), 10)
+    doubt = doubts(column("jump", values))[:, NAMES.index("jump")]
+    assert doubt.max() == pytest.approx(0.5 * 5 / (4 / 1.2816) * 2, rel=0.05)
+
+
+def test_what_lasts_is_doubtful_by_half():
+    values = np.zeros(400)
+    values[100:130] = 100.0
+    doubt = doubts(column("jump", values))[:, NAMES.index("jump")]
+    assert doubt[115] == pytest.approx(MOST_DOUBT / 2)
+
+
+def test_unknown_scores_count_for_nothing():
+    scores = column("jump", np.arange(20.0))
+    unknown = scores.copy()
+    unknown[:, NAMES.index("unstable")] = np.nan
+    assert np.isfinite(suspicion(unknown)).all()
+    share = 1 - WEIGHTS["unstable"] / sum(WEIGHTS.values())
+    assert suspicion(unknown) * share == pytest.approx(suspicion(scores))
+
+
+def test_weights_choose_what_counts():
+    scores = column("gap", [0, 0, 5, 0]) + column("jump", [0, 9, 0, 0])
+    assert worst_first(scores, {"gap": 1.0})[0] == 2
+    assert worst_first(scores, {"jump": 1.0})[0] == 1
+    assert suspicion(scores, {}).tolist() == [0, 0, 0, 0]
+    assert worst_first(scores, {}).tolist() == [0, 1, 2, 3]
+
+
+@pytest.mark.parametrize("weights", [{"gap": -1.0}, {"gap": np.nan}, {"misery": 1.0}])
+def test_other_weights_are_refused(weights):
+    with pytest.raises(ValueError, match=r"a weight is a number|there is no score 'misery'"):
+        suspicion(column("gap", [0, 1]), weights)
+
+
+@given(arrays(np.float64, st.tuples(st.integers(0, 30), st.just(len(SCORES))), elements=st.floats(0, 100)), st.data())
+def test_the_rank_is_bounded_and_follows_the_frames(scores, data):
+    rank = suspicion(scores)
+    assert ((rank >= 0) & (rank <= MOST_DOUBT)).all()
+    assert sorted(worst_first(scores).tolist()) == list(range(len(scores)))
+    assert suspicion(scores[::-1]) == pytest.approx(rank[::-1])
