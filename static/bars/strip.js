@@ -64,7 +64,7 @@ export function createStrip(text, { onScore, onChange }) {
   }
 
   /** The score of a frame, if it is known. @param {number} frame @returns {number | undefined} */
-  function valueOf(frame) {
+  function scoreOf(frame) {
     return survey && frame % survey.stride === 0 ? values()[frame / survey.stride] : undefined;
   }
 
@@ -73,7 +73,7 @@ export function createStrip(text, { onScore, onChange }) {
 
   /** @param {number} frame "coverage 0.83" */
   function words(frame) {
-    const value = valueOf(frame);
+    const value = scoreOf(frame);
     const what = chosen();
     return value === undefined || !what ? "" : `${what.label} ${format(value, what.unit)}`;
   }

@@ -21,7 +21,7 @@ export function createTake(text, { session, state, work }) {
 
   /** @param {"svg" | "png"} kind */
   function savePicture(kind) {
-    work(text.drawing, async (show, signal) => {
+    work(text.drawing, async (_show, signal) => {
       const { name, content } = await fetchFile(address("figure"), text.broken, { signal });
       download(name.replace(/svg$/, kind), kind === "svg" ? content : await pngOf(content, text.noPicture));
     });

@@ -14,8 +14,7 @@ const KEPT_ALIVE = 60_000;
 /** @param {Said} one @param {Said} other */
 const same = (one, other) => wordsOf(one) === wordsOf(other);
 /** @param {Said} said */
-const wordsOf = ({ lines, tags, note }) =>
-  JSON.stringify([lines && lines.map(({ first, last }) => [first, last]), tags, note]);
+const wordsOf = ({ lines, tags, note }) => JSON.stringify([lines?.map(({ first, last }) => [first, last]), tags, note]);
 
 /** @param {{onChange: () => void}} handlers onChange: what is said, or its way into the file, has changed */
 export function createKeep({ onChange }) {

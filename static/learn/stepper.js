@@ -2,7 +2,7 @@
 // The dock of mode Learn: the sentence of the present decision, and every way to another one.
 import { Player } from "../widgets/player.js";
 import { h, sentenceCase, setText } from "../widgets/dom.js";
-import { icon, iconButton } from "../widgets/icon.js";
+import { iconButton } from "../widgets/icon.js";
 import { createNumberField } from "../widgets/number.js";
 import { clamp } from "../widgets/scale.js";
 import { createSlider } from "../widgets/slider.js";

@@ -113,7 +113,7 @@ export class Trace {
       // For endpoints the value column holds y2, and the length stands in limit.
       value: ends ? limit : value,
       limit,
-      text: c.text && c.text[index],
+      text: c.text?.[index] ?? null,
     };
   }
 

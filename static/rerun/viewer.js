@@ -45,7 +45,6 @@ export function canDraw() {
  * @param {(frame: number) => void} onFrame its cursor moved on the timeline of frames
  */
 export async function start(url, dark, onFrame) {
-  // @ts-ignore a global of rerun's script
   const rerun = wasm_bindgen;
   await rerun({ module_or_path: "/rerun/re_viewer_bg.wasm" });
   let timeline = TIMELINE;

@@ -125,7 +125,7 @@ export function createMap(text, { ask, stop, onSet }) {
 
   function draw() {
     const lower = measures.find(({ name }) => name === measure.value)?.better === "lower";
-    relief = table && table.relief(x.value, y.value, measure.value, lower, file.value ? Number(file.value) : null);
+    relief = table?.relief(x.value, y.value, measure.value, lower, file.value ? Number(file.value) : null) ?? null;
     shown = relief && { type: "map", job: 0, x: x.value, y: y.value, measure: measure.value, ...relief };
     paint();
   }

@@ -70,7 +70,7 @@ export class SweepTable {
       const best = cells[j][i];
       if (!best || (lower ? height < best.height : height > best.height)) cells[j][i] = { height, params };
     }
-    return { xs, ys, cells, heights: cells.map((row) => row.map((cell) => cell && cell.height)) };
+    return { xs, ys, cells, heights: cells.map((row) => row.map((cell) => cell?.height ?? null)) };
   }
 
   /** @param {string} measure @param {number | null} wanted @returns {Iterable<Cell>} */
