@@ -23,7 +23,8 @@ from starlette.staticfiles import StaticFiles
 from starlette.types import Scope
 
 from .guard import Guard, is_loopback
-from .live.hub import Address, Live
+from .live.address import Address
+from .live.hub import Live
 from .places import data_folder, user_folder
 from .routes.api import add_api
 from .routes.export import add_export

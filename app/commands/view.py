@@ -34,7 +34,7 @@ def view(
         no_browser: only serve, open no browser.
         rerun: stream what is looked at into rerun's viewer as well, on its port 9876; it is started if there is none.
     """
-    from ..live.hub import Address, is_address
+    from ..live.address import Address, is_address
     from ..server import Settings, serve
 
     files, robots = (), ()

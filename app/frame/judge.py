@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -26,15 +27,30 @@ class Judged(NamedTuple):
     ends: NDArray[np.float64]
 
 
-def references(recording: Recording, known: Known | None) -> list[str]:
-    """By what segments can be judged: "labels" of people, the "wall" that the recording holds."""
-    there = {"labels": known is not None and bool(known.labelled), "wall": recording.wall is not None}
-    return [name for name, is_there in there.items() if is_there]
+@dataclass(frozen=True, eq=False)
+class Reference:
+    """By what the segments of a recording are judged.
 
+    available: what there is, "labels" of people and the "wall" that the recording holds; chosen: one of them, or "".
+    known: what people say of the recording, if anything can be said.
+    """
 
-def reference_of(wanted: str, available: list[str]) -> str:
-    """The wanted one, else the one that there is, else ""."""
-    return wanted if wanted in available else next(iter(available), "")
+    available: list[str]
+    chosen: str
+    known: Known | None
+
+    @classmethod
+    def of(cls, wanted: str, recording: Recording, known: Known | None) -> Reference:
+        """The wanted one, else the one that there is."""
+        there = {"labels": known is not None and bool(known.labelled), "wall": recording.wall is not None}
+        available = [name for name, is_there in there.items() if is_there]
+        chosen = wanted if wanted in available else next(iter(available), "")
+        return cls(available, chosen, known)
+
+    @property
+    def said(self) -> Known | None:
+        """What people say, where that is the truth."""
+        return self.known if self.chosen == "labels" else None
 
 
 def judged(found: Findings, said: FrameLabels | None = None) -> Judged | None:

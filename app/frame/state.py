@@ -7,16 +7,16 @@ from typing import Any
 
 import numpy as np
 
-from lineseg import Decision, Recording, difference
+from lineseg import Decision, FrameLabels, Recording, TrueLine, difference
 from lineseg.writers.finite import finite_or_none
 
 from ..live.ring import LiveRecording, first_of
-from ..scene.picture import extent_of
-from ..scene.shapes import Bounds
+from ..shelf.label_files import Known
 from ..view import View
 from ..wire import segments_json, topics_json
 from .findings import Findings
-from .judge import Judged, as_json
+from .geometry import Bounds, extent_of
+from .judge import Judged, Reference, as_json
 
 
 def state_of(
@@ -25,6 +25,7 @@ def state_of(
     label: str,
     found: Findings,
     bounds: Bounds,
+    reference: Reference,
     pinned: Findings | None = None,
     judged: Judged | None = None,
 ) -> dict[str, Any]:
@@ -68,7 +69,10 @@ def state_of(
         "histograms": {name: asdict(histogram) for name, histogram in found.histograms.items()},
         "truth": recording.walls is not None and recording.poses is not None,
         "agreement": as_json(judged.matching.agreement) if judged is not None else None,
+        "labels": _labels(reference.known, view.frame) if reference.known is not None else None,
         "reference": view.reference,
+        "references": reference.available,
+        "judgedBy": reference.chosen,
         "extractionUs": round(found.extraction_us, 1),
     }
 
@@ -110,3 +114,23 @@ def _explanation(found: Findings, beam: int | None) -> dict[str, Any] | None:
     told = asdict(found.trace.explain(beam))
     told["at"] = found.scan.xy[beam].tolist() if found.scan.valid[beam] else None
     return told | {name: finite_or_none(told[name]) for name in ("value", "limit", "margin")}
+
+
+def _labels(known: Known, frame: int) -> dict[str, Any]:
+    return labels_json(known.of(frame)) | {
+        "file": known.path.name,
+        "folder": str(known.path.parent),
+        "apart": known.apart,
+        "stamp": known.stamp,
+        "trouble": known.trouble,
+    }
+
+
+def labels_json(said: FrameLabels) -> dict[str, Any]:
+    """What people say of a frame."""
+    lines = None if said.lines is None else [_true_line(line) for line in said.lines]
+    return {"revision": said.revision, "lines": lines, "tags": said.tags, "note": said.note}
+
+
+def _true_line(line: TrueLine) -> dict[str, Any]:
+    return {"first": line.first, "last": line.last, "start": line.start, "end": line.end}

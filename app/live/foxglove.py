@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import struct
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from websockets.sync.connection import Connection
 from websockets.typing import Subprotocol
@@ -13,10 +13,8 @@ from websockets.typing import Subprotocol
 from lineseg.readers.laser_scan import TYPES, LaserScan, decode_cdr, decode_json, decode_ros1
 from lineseg.segment import Extraction
 
+from .bridge import Told
 from .markers import MARKER_ARRAY, MARKER_ENCODERS
-
-if TYPE_CHECKING:
-    from .robot import Told
 
 SUBPROTOCOLS = [Subprotocol("foxglove.sdk.v1"), Subprotocol("foxglove.websocket.v1")]
 MESSAGE_DATA = 1

@@ -1,16 +1,15 @@
-"""Scans that arrive while one looks: from a robot, or pushed by any program."""
+"""All live sources by id."""
 
 from __future__ import annotations
 
 import re
 import threading
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
-from urllib.parse import urlsplit
 
 from lineseg import Thresholds
 from lineseg.readers import Cancelled
 
+from .address import Address
 from .ring import LiveRecording, Ring
 from .robot import Robot
 from .source import Source
@@ -22,37 +21,6 @@ POLL = 0.2
 
 class TooManySourcesError(ValueError):
     """More names than the server takes scans for."""
-
-
-@dataclass(frozen=True)
-class Address:
-    """url: ws://host:port of a robot's bridge; topic: of its scans, the first without."""
-
-    url: str
-    topic: str | None = None
-
-    def __post_init__(self) -> None:
-        check_address(self.url)
-
-    @property
-    def id(self) -> str:
-        return f"live:{urlsplit(self.url).netloc}{self.topic or ''}"
-
-
-def is_address(text: str) -> bool:
-    return text.lower().startswith(("ws://", "wss://"))
-
-
-def check_address(url: str) -> None:
-    """A ValueError where `url` is no address of a WebSocket."""
-    expected = "an address is like ws://robot:9090 (rosbridge) or ws://robot:8765 (Foxglove)"
-    try:
-        parts = urlsplit(url)
-        known = is_address(url) and parts.hostname and (parts.port is None or parts.port > 0)
-    except ValueError:
-        known = False
-    if not known or re.search(r"[\s\x00-\x1f]", url) or len(url) > 300:
-        raise ValueError(f"{url[:80]!r} is no address of a robot; {expected}")
 
 
 class Live:

@@ -9,10 +9,9 @@ from typing import Any
 
 import numpy as np
 
+from lineseg.colours import segment_colours
 from lineseg.readers.laser_scan import LaserScan
 from lineseg.segment import Extraction
-
-from ..scene.palette import segment_colours
 
 # Both versions of ROS know the type by its short name.
 MARKER_ARRAY = "visualization_msgs/MarkerArray"

@@ -13,8 +13,8 @@ from websockets.sync.client import connect
 
 from lineseg import Params
 
-from .hub import check_address
-from .robot import LARGEST_MESSAGE, OPEN_SECONDS, why_not
+from .address import check_address
+from .bridge import LARGEST_MESSAGE, OPEN_SECONDS, why_not
 from .rosbridge import RobotError, RosBridge
 
 # rcl_interfaces/msg/ParameterType

@@ -6,17 +6,16 @@ import logging
 import random
 import threading
 from collections.abc import Callable
-from typing import Protocol
 from urllib.parse import urlsplit
 
-from websockets.exceptions import ConnectionClosed, InvalidHandshake, WebSocketException
+from websockets.exceptions import WebSocketException
 from websockets.sync.client import connect
 from websockets.sync.connection import Connection
 
 from lineseg import EXTRACTORS, Scan
 from lineseg.readers.laser_scan import LaserScan
-from lineseg.segment import Extraction
 
+from .bridge import LARGEST_MESSAGE, OPEN_SECONDS, Bridge, why_not
 from .foxglove import SUBPROTOCOLS, Foxglove
 from .ring import Ring
 from .rosbridge import RosBridge
@@ -24,30 +23,6 @@ from .source import Publishing, Source
 
 log = logging.getLogger(__name__)
 FIRST_PAUSE, LONGEST_PAUSE = 0.5, 15.0
-OPEN_SECONDS = 5.0
-LARGEST_MESSAGE = 4 * 1024 * 1024
-
-
-class Bridge(Protocol):
-    """What a protocol does on an open connection."""
-
-    name: str
-
-    def scans(self, topic: str | None, told: Told) -> None:
-        """Hand over each scan of the topic until the connection ends; ValueError where there can be none."""
-        ...
-
-    def publish(self, topic: str, extraction: Extraction, scan: LaserScan) -> None:
-        """Send segments as a MarkerArray; ValueError where the robot takes none."""
-        ...
-
-
-class Told(Protocol):
-    """Who hears of a bridge's messages."""
-
-    def topic_is(self, topic: str) -> None: ...
-    def waits(self, why: str) -> None: ...
-    def hand(self, decode: Callable[[], LaserScan]) -> None: ...
 
 
 class Robot(Source):
@@ -162,18 +137,3 @@ class Robot(Source):
             self.published += 1
         except ValueError as error:
             self.publishing, self.publish_trouble = None, str(error)
-
-
-def why_not(place: str, error: Exception) -> str:
-    """Why a connection failed or ended, in words that name the place."""
-    if isinstance(error, TimeoutError):
-        return f"{place} does not answer"
-    if isinstance(error, ConnectionRefusedError):
-        return f"nothing listens at {place}"
-    if isinstance(error, ConnectionClosed):
-        return f"{place} hung up"
-    if isinstance(error, InvalidHandshake):
-        return f"{place} speaks no WebSocket that can be used ({error})"
-    if isinstance(error, OSError):
-        return f"{place} cannot be reached ({error.strerror or error})"
-    return str(error)

@@ -6,17 +6,15 @@ import itertools
 import json
 import time
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from websockets.sync.connection import Connection
 
 from lineseg.readers.laser_scan import TYPES, LaserScan, decode_json
 from lineseg.segment import Extraction
 
+from .bridge import Told
 from .markers import MARKER_ARRAY, marker_array
-
-if TYPE_CHECKING:
-    from .robot import Told
 
 # Both versions of ROS know a type by its short name.
 LASER_SCAN = "sensor_msgs/LaserScan"

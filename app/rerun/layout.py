@@ -13,9 +13,8 @@ from lineseg import SCORES, Recording, Thresholds, __version__
 from lineseg.colours import SEGMENTS
 from lineseg.rerun import LINE, NO_LINE, POINT, THIN
 
+from ..frame.geometry import Bounds, bounds_of
 from ..scene.palette import LIGHT
-from ..scene.picture import bounds_of
-from ..scene.shapes import Bounds
 
 POINTS_OF = {"points": "laser/points", "seeds": "laser/seeds"}
 BIG = -3.0

@@ -10,7 +10,7 @@ from starlette.exceptions import HTTPException
 
 from lineseg import what_if, why
 
-from ..frame.judge import as_json, judged_recording, reference_of, references
+from ..frame.judge import Reference, as_json, judged_recording
 from ..session.sessions import Sessions
 from ..shelf.label_files import LabelFiles
 
@@ -50,11 +50,11 @@ def add_inspection(app: FastAPI, sessions: Sessions, files: LabelFiles) -> None:
         shown = sessions.shown(session)
         view = shown.view
         known = files.known(view.recording, shown.recording)
-        by = reference_of(view.reference, references(shown.recording, known))
-        if not by:
+        reference = Reference.of(view.reference, shown.recording, known)
+        if not reference.chosen:
             raise HTTPException(404, "the true lines of this recording are not known")
-        said = known if by == "labels" else None
+        said = reference.said
         agreement, stride = judged_recording(shown.recording, view.method, view.params, said and said.labels)
         told = {"recording": view.recording, "method": view.method, "params": view.params.numbers()}
-        told |= {"judgedBy": by, "labelled": said.stamp if said else ""}
+        told |= {"judgedBy": reference.chosen, "labelled": said.stamp if said else ""}
         return told | {"agreement": as_json(agreement), "stride": stride}

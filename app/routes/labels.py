@@ -12,7 +12,8 @@ from starlette.exceptions import HTTPException
 
 from lineseg import ConflictError, FrameLabels, Recording, Scan, TrueLine
 
-from ..shelf.label_files import LIVE, Known, LabelFiles
+from ..frame.state import labels_json
+from ..shelf.label_files import LIVE, LabelFiles
 from ..shelf.library import Library
 from ..wire import Count, Message, Name, Number, RecordingId, sentence
 from .body import body_of
@@ -68,24 +69,8 @@ def add_labels(app: FastAPI, library: Library, files: LabelFiles) -> None:
         return await run_in_threadpool(_save, library, files, said)
 
 
-def told(known: Known, frame: int) -> dict[str, Any]:
-    """What the page is told of the frame that it shows."""
-    return as_json(known.of(frame)) | {
-        "file": known.path.name,
-        "folder": str(known.path.parent),
-        "apart": known.apart,
-        "stamp": known.stamp,
-        "trouble": known.trouble,
-    }
-
-
-def as_json(said: FrameLabels) -> dict[str, Any]:
-    lines = None if said.lines is None else [vars(line) for line in said.lines]
-    return {"revision": said.revision, "lines": lines, "tags": said.tags, "note": said.note}
-
-
 def _brief(said: FrameLabels) -> dict[str, Any]:
-    return as_json(said) | {"lines": None if said.lines is None else len(said.lines)}
+    return labels_json(said) | {"lines": None if said.lines is None else len(said.lines)}
 
 
 def _save(library: Library, files: LabelFiles, said: Said) -> Response:
@@ -94,12 +79,12 @@ def _save(library: Library, files: LabelFiles, said: Said) -> Response:
         labels = _labels(said, _scan(recording, said.frame))
         saved = files.save(said.recording, recording, said.frame, labels)
     except ConflictError as error:
-        return JSONResponse({"message": str(error), "theirs": as_json(error.theirs)}, status_code=409)
+        return JSONResponse({"message": str(error), "theirs": labels_json(error.theirs)}, status_code=409)
     except ValueError as error:
         raise HTTPException(400, str(error)) from None
     except OSError as error:
         raise HTTPException(507, f"{error.filename or 'the labels'} cannot be written: {error.strerror}.") from None
-    return JSONResponse(as_json(saved))
+    return JSONResponse(labels_json(saved))
 
 
 def _labels(said: Said, scan: Scan) -> FrameLabels:

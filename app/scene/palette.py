@@ -7,9 +7,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from lineseg.colours import SEGMENTS as SEGMENTS
-from lineseg.colours import segment_colours as segment_colours
-
 Colour = tuple[int, int, int]
 Colours = NDArray[np.uint8]
 

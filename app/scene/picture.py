@@ -13,13 +13,13 @@ from lineseg import Decision, Recording, Scan, Segment, difference
 from lineseg.survey.difference import KEPT
 
 from ..frame.findings import Findings
+from ..frame.geometry import Bounds
 from ..frame.judge import Judged
 from ..view import View
 from .palette import DARK, LIGHT, Colours, Theme
 from .replay import State, decision_geometry, state_at
-from .shapes import Bounds, Lines, Points, dashed, joined, lines_between, points_at
+from .shapes import Lines, Points, dashed, joined, lines_between, points_at
 
-FRAMES_FOR_BOUNDS = 60
 DASH = 0.10
 FALSE_DASH = 0.04
 MISSED_DASH = 0.20
@@ -34,28 +34,6 @@ class Picture:
     points: dict[str, Points]
     lines: dict[str, Lines]
     bounds: Bounds
-
-
-def bounds_of(recording: Recording) -> Bounds:
-    """A box around the laser and nearly all points of the recording; stray far points do not widen it."""
-    frames = np.unique(np.linspace(0, len(recording) - 1, FRAMES_FOR_BOUNDS).astype(int)) if len(recording) else []
-    scans = [recording[int(frame)] for frame in frames]
-    xy = np.concatenate([scan.xy[scan.valid] for scan in scans]) if scans else np.empty((0, 2))
-    if not len(xy):
-        return -5.0, -5.0, 5.0, 5.0
-    low, high = np.percentile(xy, [2, 98], axis=0)
-    margin = 0.05 * max(float((high - low).max()), 1.0)
-    low, high = np.minimum(low, 0.0) - margin, np.maximum(high, 0.0) + margin
-    return float(low[0]), float(low[1]), float(high[0]), float(high[1])
-
-
-def extent_of(scan: Scan, bounds: Bounds) -> Bounds:
-    """The box around the points of one scan; that of the recording if there are none."""
-    xy = scan.xy[scan.valid]
-    if not len(xy):
-        return bounds
-    (x1, y1), (x2, y2) = xy.min(axis=0), xy.max(axis=0)
-    return float(x1), float(y1), float(x2), float(y2)
 
 
 def picture(

@@ -9,9 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lineseg import Decision, Scan
+from lineseg.colours import SEGMENTS, segment_colours
 
 from ..frame.findings import Findings
-from .palette import SEGMENTS, Colours, Theme, segment_colours
+from .palette import Colours, Theme
 from .shapes import Lines, Points, joined, lines_between, points_at
 
 Line = tuple[float, float, float]

@@ -9,13 +9,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from .palette import Colour, Colours
 
-Bounds = tuple[float, float, float, float]
-
-
-def united(one: Bounds, other: Bounds) -> Bounds:
-    """The smallest box around both."""
-    return min(one[0], other[0]), min(one[1], other[1]), max(one[2], other[2]), max(one[3], other[3])
-
 
 @dataclass(frozen=True, eq=False)
 class Points:

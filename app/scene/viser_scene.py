@@ -12,9 +12,10 @@ import viser
 
 from lineseg import Knob, Params, Thresholds
 
+from ..frame.geometry import Bounds
 from .palette import linear
 from .picture import Picture
-from .shapes import Bounds, Lines, Points
+from .shapes import Lines, Points
 
 PLAN_FOV = math.radians(10)
 NEAR, FAR = 0.5, 20_000.0

@@ -9,12 +9,11 @@ from typing import Any
 from lineseg import Recording
 
 from ..frame.findings import Findings, findings
-from ..frame.judge import judged, reference_of, references
+from ..frame.geometry import Bounds, bounds_of, united
+from ..frame.judge import Reference, judged
 from ..frame.state import state_of
 from ..live.ring import LiveRecording
-from ..routes.labels import told
-from ..scene.picture import Picture, bounds_of, picture
-from ..scene.shapes import Bounds, united
+from ..scene.picture import Picture, picture
 from ..shelf.label_files import LabelFiles
 from ..shelf.library import Library
 from ..view import View
@@ -50,13 +49,12 @@ class Composer:
         pinned = view.against and self._findings(recording, view.frame, view.against.method, view.against.params)
         inspected = view.mode == "inspect" or view.layers.verdicts
         known = self._files.known(view.recording, recording) if inspected else None
-        available = references(recording, known)
-        by = reference_of(view.reference, available)
-        said = known.of(view.frame) if known is not None and by == "labels" else None
+        reference = Reference.of(view.reference, recording, known)
+        said = reference.said.of(view.frame) if reference.said is not None else None
         judgement = self._judged(found, said) if inspected else None
         drawing = picture(view, recording, found, bounds, pinned, judgement)
-        state = state_of(view, recording, self._library.label(view.recording), found, bounds, pinned, judgement)
-        state |= {"labels": known and told(known, view.frame), "references": available, "judgedBy": by}
+        label = self._library.label(view.recording)
+        state = state_of(view, recording, label, found, bounds, reference, pinned, judgement)
         return Content(view, found, drawing, state)
 
     def _bounds_of(self, view: View, recording: Recording) -> Bounds:

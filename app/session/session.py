@@ -9,13 +9,13 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any, Literal
 
-import numpy as np
 from pydantic import BaseModel
 
 from lineseg import Recording
 from lineseg.readers import Cancelled
 
 from ..frame.findings import Findings
+from ..frame.geometry import beam_near
 from ..frame.stepping import columns_of
 from ..live.ring import LiveRecording
 from ..scene.viser_scene import ViserScene
@@ -217,11 +217,7 @@ class Session:
         shown = self.shown
         if shown is None:
             return
-        scan = shown.found.scan
-        distances = np.hypot(*(scan.xy - point).T)
-        nearest = int(np.nanargmin(distances)) if scan.valid.any() else -1
-        near = nearest >= 0 and distances[nearest] <= radius
-        self._change_from_scene({"selected": nearest if near else None})
+        self._change_from_scene({"selected": beam_near(shown.found.scan, point, radius)})
 
     def _work(self) -> None:
         while (request := self._next()) is not None:

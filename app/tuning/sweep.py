@@ -8,9 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lineseg import EXTRACTORS, Knob, Scan, Thresholds
+from lineseg.colours import segment_colours
 from lineseg.sweep.axes import spread
-
-from ..scene.palette import segment_colours
 
 MOST_VALUES = 96
 

@@ -10,15 +10,17 @@ from pathlib import Path
 import numpy as np
 import pytest
 from lineseg_app.frame.findings import BINS, findings, histogram
-from lineseg_app.frame.judge import judged
+from lineseg_app.frame.geometry import bounds_of
+from lineseg_app.frame.judge import Reference, judged
 from lineseg_app.frame.state import state_of
-from lineseg_app.scene.palette import LIGHT, linear, segment_colours
-from lineseg_app.scene.picture import bounds_of, grid_spacing, picture
+from lineseg_app.scene.palette import LIGHT, linear
+from lineseg_app.scene.picture import grid_spacing, picture
 from lineseg_app.scene.shapes import Lines, Points, dashed, points_at
 from lineseg_app.view import Layers, View
 from scenes import corner, scan_of, wall_ahead
 
 from lineseg import EXTRACTORS, Params, Recording, difference, open_recording
+from lineseg.colours import segment_colours
 from lineseg.survey.difference import KEPT, LOST
 
 SAMPLE = Path(__file__).parents[3] / "sample_scans" / "hallway.npz"
@@ -238,4 +240,7 @@ def test_every_method_is_drawn_and_told_in_plain_numbers_at_every_step(method):
         view = View(recording="x", frame=20, method=method, params=params, step=step)
         drawn = picture(view, recording, found, bounds)
         assert all(np.isfinite(lines.xyz).all() for lines in drawn.lines.values())
-        json.dumps(state_of(view, recording, "hallway", found, bounds), allow_nan=False)
+        json.dumps(
+            state_of(view, recording, "hallway", found, bounds, Reference.of("labels", recording, None)),
+            allow_nan=False,
+        )

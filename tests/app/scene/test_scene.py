@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 import zstandard
 from lineseg_app.frame.findings import findings
-from lineseg_app.scene.picture import bounds_of, picture
+from lineseg_app.frame.geometry import bounds_of
+from lineseg_app.scene.picture import picture
 from lineseg_app.scene.viser_scene import ViserScene
 from lineseg_app.view import View
 from live import Address, Page, page_of
