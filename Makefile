@@ -1,7 +1,9 @@
 PYTHON ?= python3
 BIN := .venv/bin
 EXTRAS := rerun,tune,parquet,plot
-.PHONY: run install test check dist clean
+# Tests of one file stay together: they share a server.
+PYTEST := $(BIN)/pytest -n 2 --dist loadfile
+.PHONY: run install quick test check check-page dist clean
 
 run: .venv/installed
 	$(BIN)/lineseg $(ARGS)
@@ -10,13 +12,26 @@ run: .venv/installed
 install: .venv/installed
 	$(BIN)/pip install --quiet -c constraints.txt -e '.[$(EXTRAS)]'
 
-test: .venv/installed-dev
-	$(BIN)/pytest
+# What needs neither a server nor a browser.
+quick: .venv/installed-dev
+	$(PYTEST) -m "not server"
 
-check: .venv/installed-dev
+test: .venv/installed-dev
+	$(PYTEST)
+
+check: .venv/installed-dev check-page
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/pyright
+
+ifneq ($(shell command -v npm),)
+check-page: node_modules/installed
+	npm run --silent check
+else
+check-page:
+	@echo "npm is missing: the page in static/ is not checked."
+	@test -z "$$LINESEG_NOTHING_SKIPPED"
+endif
 
 .venv/installed: pyproject.toml constraints.txt
 	$(PYTHON) -m venv .venv
@@ -27,10 +42,14 @@ check: .venv/installed-dev
 	$(BIN)/pip install --quiet -c constraints.txt -e '.[dev]'
 	touch $@
 
+node_modules/installed: package.json
+	npm install --silent --no-package-lock --no-audit --no-fund
+	touch $@
+
 dist: .venv/installed-dev
 	rm -rf dist
 	$(BIN)/python -m build --no-isolation
 	$(BIN)/twine check --strict dist/*
 
 clean:
-	rm -rf .venv build dist *.egg-info
+	rm -rf .venv node_modules build dist *.egg-info

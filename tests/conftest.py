@@ -31,11 +31,12 @@ def reference_dir() -> Path:
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """A test of a server or a browser is run again once if it fails, and listed as RERUN: it shares the machine."""
-    tests = Path(__file__).parent
+    """Mark what starts a server or a browser: the tests of a file that imports one of the helpers that do."""
+    helpers = {"live", "robots", "processes"}
     for item in items:
-        if item.path.is_relative_to(tests / "app") or item.path.is_relative_to(tests / "browser"):
-            item.add_marker(pytest.mark.flaky(reruns=1))
+        imported = {getattr(value, "__module__", None) for value in vars(getattr(item, "module", item)).values()}
+        if imported & helpers or "browser" in getattr(item, "fixturenames", ()):
+            item.add_marker(pytest.mark.server)
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:

@@ -15,7 +15,7 @@ import time
 import uuid
 from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import Any, TextIO
 
 import numba
 from numba.core import config
@@ -24,7 +24,13 @@ from numba.core.serialize import dumps
 
 from .fingerprint import fingerprint
 
+try:
+    import fcntl
+except ImportError:  # on Windows two programs may compile the same kernel at the same time
+    fcntl = None
+
 _DAYS_UNUSED = 60
+_PATIENCE = 120.0  # [s]
 # numba fills it in when it is imported.
 _config: Any = config
 
@@ -47,6 +53,7 @@ class KeptKernel:
 
     def __init__(self, kernel: Any) -> None:
         self._kernel = kernel
+        self._compiling: dict[Path, TextIO] = {}
 
     @property
     def cache_path(self) -> str:
@@ -63,13 +70,17 @@ class KeptKernel:
         return folder() / f"{self._kernel.py_func.__name__}.{sys.implementation.cache_tag}.{key}.pickle"
 
     def load_overload(self, signature: Any, target_context: Any) -> CompileResult | None:
-        """The kernel for arguments of these types, or None."""
+        """The kernel for arguments of these types, or None: then numba compiles it, and others wait for it."""
         target_context.refresh()
         path = self._path(signature, target_context.codegen())
-        try:
-            data = pickle.loads(path.read_bytes())
-        except (OSError, EOFError, pickle.UnpicklingError):
+        data = _read(path)
+        if data is None and path not in self._compiling:
+            with contextlib.suppress(OSError):
+                self._compiling[path] = _locked(path.with_suffix(".lock"))
+            data = _read(path)
+        if data is None:
             return None
+        self._let_others(path)
         with contextlib.suppress(OSError):
             os.utime(path)
         return CompileResult._rebuild(target_context, *data)
@@ -83,6 +94,34 @@ class KeptKernel:
             unfinished.write_bytes(dumps(compiled._reduce()))
             unfinished.replace(path)
             forget_the_unused(path.parent)
+        self._let_others(path)
+
+    def _let_others(self, path: Path) -> None:
+        if lock := self._compiling.pop(path, None):
+            Path(lock.name).unlink(missing_ok=True)
+            lock.close()
+
+
+def _read(path: Path) -> Any:
+    """What a file holds; None if there is none, or if it was cut short."""
+    try:
+        return pickle.loads(path.read_bytes())
+    except (OSError, EOFError, pickle.UnpicklingError):
+        return None
+
+
+def _locked(path: Path) -> TextIO:
+    """A file that one process at a time holds, at the latest until it ends; or one that another holds for too long."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    file = path.open("w")
+    late = time.monotonic() + _PATIENCE
+    while fcntl and time.monotonic() < late:
+        try:
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            break
+        except BlockingIOError:
+            time.sleep(0.05)
+    return file
 
 
 def forget_the_unused(folder: Path) -> None:

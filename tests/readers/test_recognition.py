@@ -30,7 +30,7 @@ def test_content_decides_before_the_suffix(tmp_path):
         ("words.log", b"Hello world\n", "words.log has no laser line; a CARMEN log has lines that begin with FLASER"),
         (
             "walk.bag.gz",
-            gzip.compress(b"#ROSBAG V2.0\n"),
+            gzip.compress(b"#ROSBAG V2.0\n", mtime=0),
             "walk.bag.gz: a ROS 1 bag packed by gzip; unpack it with `gunzip`",
         ),
         ("short.log.gz", gzip.compress(FLASER)[:12], "short.log.gz: the gzip data break off"),
