@@ -136,7 +136,7 @@ def _seed_distances(found: Findings) -> tuple[NDArray, NDArray]:
     if not len(rows):
         return np.empty(0), np.empty(0)
     beams = [found.trace.beams(first, last) for first, last in found.seeds.values()]
-    a, b, c = (np.repeat(rows[name], [len(window) for window in beams]) for name in "abc")
+    a, b, c = (np.repeat(rows["line"][name], [len(window) for window in beams]) for name in "abc")
     inside = np.concatenate(beams)
     xy, bearings, ranges = found.scan.xy[inside], found.scan.bearings[inside], found.scan.ranges[inside]
     with np.errstate(divide="ignore"):

@@ -23,14 +23,17 @@ def columns_of(found: Findings) -> dict[str, Any]:
     kinds, checks, phases: names of the numbers in the columns kind, check, phase. first, last, beam: beams, −1 none.
     jumps: which kinds each jump leads to. text: what each decision says, null where the page says it in its own words.
     points: how many points lie from first to last. lines: indices at which the search for the next seed begins.
+    a, b, c: of the line; others, ends: of the few decisions that have them, by index: (a, b, c) of the partner's line,
+    (x1, y1, x2, y2) of the endpoints.
     x, y: of every beam [m], null where it has no return.
     """
     trace, scan = found.trace, found.scan
     vocabulary = trace.vocabulary
     rows = trace.log[:MOST_DECISIONS]
     beams = {name: trace.as_beams(rows[name]).tolist() for name in ("first", "last", "beam")}
-    numbers = {name: rows[name].tolist() for name in ("kind", "check", "direction", "candidate", "partner")}
-    lines = {name: _rounded(rows[name], LINE_DIGITS) for name in ("a", "b", "c", "a2", "b2", "c2")}
+    numbers = {name: rows[name].tolist() for name in ("kind", "check", "direction", "candidate")}
+    lines = {name: _rounded(rows["line"][name], LINE_DIGITS) for name in ("a", "b", "c")}
+    placed = [number for number, kind in enumerate(vocabulary.kinds) if kind.effect == "placed"]
     starts = trace.starts("line")
     return {
         "kinds": vocabulary.names,
@@ -44,6 +47,8 @@ def columns_of(found: Findings) -> dict[str, Any]:
         "phase": trace.phases[:MOST_DECISIONS].tolist(),
         "points": np.maximum(rows["last"] - rows["first"] + 1, 0).tolist(),
         **lines,
+        "others": _where(rows["partner"] >= 0, rows["other"], LINE_DIGITS),
+        "ends": _where(np.isin(rows["kind"], placed), rows["ends"], METRE_DIGITS),
         "value": _rounded(rows["value"], METRE_DIGITS),
         "limit": _rounded(rows["limit"], METRE_DIGITS),
         "text": None if isinstance(trace, GrowthTrace) else trace.texts(np.arange(len(rows))),
@@ -51,6 +56,12 @@ def columns_of(found: Findings) -> dict[str, Any]:
         "x": _rounded(np.where(scan.valid, scan.xy[:, 0], np.nan), METRE_DIGITS),
         "y": _rounded(np.where(scan.valid, scan.xy[:, 1], np.nan), METRE_DIGITS),
     }
+
+
+def _where(there: NDArray[np.bool_], rows: NDArray[np.void], digits: int) -> dict[int, list[float]]:
+    """The rows that are there, by index; one with a number that is not finite is not."""
+    found = {index: rows[index].item() for index in np.flatnonzero(there).tolist()}
+    return {index: [round(v, digits) for v in row] for index, row in found.items() if np.isfinite(row).all()}
 
 
 def _rounded(values: NDArray, digits: int) -> list[float | None]:

@@ -143,7 +143,7 @@ def send_replay(stream: rr.RecordingStream, traces: Sequence[Trace], begins: Mom
 def fitted_lines(trace: Trace) -> tuple[NDArray[np.bool_], NDArray[np.float64]]:
     """(decisions,) which of them have a line; and (n, 2, 2) the part of it beside the window of each that has."""
     log = trace.log
-    lines = np.array([log["a"], log["b"], log["c"]])
+    lines = np.array([log["line"][name] for name in "abc"])
     there = is_line(lines)
     ends = trace.as_beams(np.array([log["first"], log["last"]]))[:, there]
     return there, foot(trace.scan.xy[ends], lines[:, there]).swapaxes(0, 1)

@@ -298,11 +298,11 @@ def merged(x, y, lines, p, q, rules, log):
         refit(x, y, lines, p, min(lines[p].first, lines[q].first), lines[q].last, rules)
         if log is not None:
             span = lines[p].first, lines[p].last
-            note_pair(log, LINES_MERGED, MERGE_ANGLE, pair, 0, span, -1, line_at(lines, p), other, angle, PARALLEL)
+            note_pair(log, LINES_MERGED, MERGE_ANGLE, pair, span, -1, line_at(lines, p), other, angle, PARALLEL)
         return True
     if log is not None:
         span = lines[p].first, lines[p].last
-        note_pair(log, LINES_KEPT_APART, MERGE_ANGLE, pair, 0, span, -1, line, other, angle, PARALLEL)
+        note_pair(log, LINES_KEPT_APART, MERGE_ANGLE, pair, span, -1, line, other, angle, PARALLEL)
     return False
 
 
@@ -325,7 +325,7 @@ def cut(x, y, lines, count, rules, dropped, log):
         if log is not None:
             pair, span = (lines[p].candidate, lines[p + 1].candidate), (first, k - 1)
             mine, others = line_at(lines, p), line_at(lines, p + 1)
-            note_pair(log, OVERLAP_CUT, NEARER, pair, 0, span, k, mine, others, here, there)
+            note_pair(log, OVERLAP_CUT, NEARER, pair, span, k, mine, others, here, there)
     return count
 
 

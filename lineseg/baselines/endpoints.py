@@ -5,10 +5,9 @@ from __future__ import annotations
 import math
 
 from ..kernel import kernel
-from ..region_growing.checks import NONE
 from ..region_growing.lines import line_at
 from ..total_least_squares import project, squares_of
-from ..tracing.log import note_pair
+from ..tracing.log import note_ends
 
 
 @kernel
@@ -28,5 +27,5 @@ def measure(x, y, lines, i, kind, log):
     row.length = math.hypot(row.x2 - row.x1, row.y2 - row.y1)
     row.rms = math.sqrt(squares_of(x, y, row.first, row.last, line) / (row.last - row.first + 1))
     if log is not None:
-        ends, span = (row.x1, row.y1, row.x2), (row.first, row.last)
-        note_pair(log, kind, NONE, (row.candidate, i), 0, span, -1, line, ends, row.y2, row.length)
+        ends, span = (row.x1, row.y1, row.x2, row.y2), (row.first, row.last)
+        note_ends(log, kind, row.candidate, span, line, ends, row.length)

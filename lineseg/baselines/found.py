@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ..scan import Scan
 from ..segment import Dropped, Extraction, Segment
 from ..tracing.decisions import Kind, Trace, Vocabulary
-from ..tracing.log import ROW
+from ..tracing.log import NO_ENDS, ROW, Row
 from .sequence import Line, Positions, Sequence, fit, sequence_of
 
 NOWHERE: Line = (0.0, 0.0, 0.0)
@@ -66,7 +66,7 @@ class Found:
         self.points = points
         self.params = params
         self.traced = traced
-        self.rows: list[tuple] = []
+        self.rows: list[Row] = []
         self._vocabulary = vocabulary
         self._segments: list[tuple[Segment, NDArray[np.intp]]] = []
         self._dropped: list[Dropped] = []
@@ -110,7 +110,8 @@ class Found:
         candidate = self.candidates if candidate is None else candidate
         first, last = int(run[0]), int(run[-1])
         last += len(self.points.x) if last < first else 0
-        self.rows.append((number, why, 0, candidate, partner, first, last, beam, *line, *other, value, limit))
+        row = Row(number, why, 0, candidate, partner, first, last, beam, line, other, NO_ENDS, value, limit)
+        self.rows.append(row)
 
     def extraction(self, method: str, beams: int) -> Extraction:
         """Segments in the order of their first beam."""

@@ -222,7 +222,7 @@ def merge(merging, lines, models, count, log):
         if not value < limit:
             if log is not None:
                 note_pair(
-                    log, LINES_KEPT_APART, MERGE_DISTANCE, pair, 0, (lines[kept].first, lines[kept].last), -1,
+                    log, LINES_KEPT_APART, MERGE_DISTANCE, pair, (lines[kept].first, lines[kept].last), -1,
                     line_at(lines, kept), line, value, limit,
                 )  # fmt: skip
             kept += 1
@@ -235,7 +235,7 @@ def merge(merging, lines, models, count, log):
         row.x1, row.y1 = project(mean, row.x1, row.y1)
         row.x2, row.y2 = project(mean, lines[i].x2, lines[i].y2)
         if log is not None:
-            note_pair(log, LINES_MERGED, MERGE_DISTANCE, pair, 0, span, -1, mean, line, value, limit)
+            note_pair(log, LINES_MERGED, MERGE_DISTANCE, pair, span, -1, mean, line, value, limit)
     return kept + 1 if count > 0 else 0
 
 

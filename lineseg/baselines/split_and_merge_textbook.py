@@ -121,7 +121,7 @@ def merged(x, y, lines, i, j, turn, rules, log):
     pair = lines[i].candidate, lines[j].candidate
     if log is not None:
         kind, span = (LINES_MERGED, (first, last)) if one else (LINES_KEPT_APART, (first, lines[i].last))
-        note_pair(log, kind, check, pair, 0, span, -1, line, line_at(lines, j), value, limit)
+        note_pair(log, kind, check, pair, span, -1, line, line_at(lines, j), value, limit)
     if one:
         lines[i].last = last
         lines[i].a, lines[i].b, lines[i].c = line

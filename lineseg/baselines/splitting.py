@@ -123,7 +123,7 @@ def split(x, y, last_point, rules, stack, lines, log):
         end, stop = (place - 2, last - 1) if rules.loses_points else (place - 1, last)
         if log is not None and end >= first and stop >= place:
             parts = chord(x, y, first, end), chord(x, y, place, stop)
-            note_pair(log, SPLIT, check, (name, names), 0, (first, end), place, *parts, value, limit)
+            note_pair(log, SPLIT, check, (name, names), (first, end), place, *parts, value, limit)
         stack[waiting, 0], stack[waiting, 1], stack[waiting, 2] = place, stop, names
         stack[waiting + 1, 0], stack[waiting + 1, 1], stack[waiting + 1, 2] = first, end, name
         waiting, names = waiting + 2, names + 1

@@ -6,8 +6,8 @@ import math
 
 from ..kernel import kernel
 from ..total_least_squares import distance, project, squares_of
-from ..tracing.log import note_pair
-from .checks import ENDPOINTS, NONE
+from ..tracing.log import note_ends
+from .checks import ENDPOINTS
 from .lines import line_at
 
 
@@ -22,5 +22,5 @@ def place_endpoints(points, lines, count, log):
         row.length = distance(row.x1, row.y1, row.x2, row.y2)
         row.rms = math.sqrt(squares_of(points.x, points.y, first, last, line) / (last - first + 1))
         if log is not None:
-            ends = (row.x1, row.y1, row.x2)
-            note_pair(log, ENDPOINTS, NONE, (row.candidate, i), 0, (first, last), -1, line, ends, row.y2, row.length)
+            ends = row.x1, row.y1, row.x2, row.y2
+            note_ends(log, ENDPOINTS, row.candidate, (first, last), line, ends, row.length)

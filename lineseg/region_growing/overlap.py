@@ -78,12 +78,12 @@ def merged(points, lines, i, j, turn, limits, log):
     # On a full circle the same line may have grown on both sides of the seam.
     if not agree and not (first == first_2 and last == last_2):
         if log is not None:
-            note_pair(log, LINES_KEPT_APART, check, pair, 0, (first, last), -1, line, other, value, limit)
+            note_pair(log, LINES_KEPT_APART, check, pair, (first, last), -1, line, other, value, limit)
         return False
     refit(points, lines, i, start, stop)
     if log is not None:
         line = line_at(lines, i)
-        note_pair(log, LINES_MERGED, MERGE_ANGLE, pair, 0, (start, stop), -1, line, other, angle, limits.merge_angle)
+        note_pair(log, LINES_MERGED, MERGE_ANGLE, pair, (start, stop), -1, line, other, angle, limits.merge_angle)
     return True
 
 
@@ -143,7 +143,7 @@ def cut(points, lines, i, j, turn, dropped, log):
     if log is not None:
         line, other = line_at(lines, i), line_at(lines, j)
         pair = lines[i].candidate, lines[j].candidate
-        note_pair(log, OVERLAP_CUT, NEARER, pair, 0, (first, k - 1), k, line, other, here, there)
+        note_pair(log, OVERLAP_CUT, NEARER, pair, (first, k - 1), k, line, other, here, there)
     return -1
 
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from ..scan import Scan
 from ..segment import Extraction
-from .log import Line, Row
+from .log import Ends, Line, Row
 
 Effect = Literal["none", "shown", "stands", "gone", "joined", "parted", "placed"]
 
@@ -71,7 +71,7 @@ class Decision:
     first, last: beams of the window under test, or of the line as it is after the decision; beam: the one decided on,
     or −1. line: (a, b, c), the line the beam was compared with; other: the partner's, for merges and cuts.
     check: which threshold; "" where nothing was compared, "end" at the end of the scan. value, limit: what was
-    compared.
+    compared; both are the length where endpoints are placed.
     ends: both endpoints (x1, y1, x2, y2), only where they are placed.
     """
 
@@ -90,7 +90,7 @@ class Decision:
     check: str
     value: float
     limit: float
-    ends: tuple[float, float, float, float] | None
+    ends: Ends | None
     text: str
 
 
@@ -154,24 +154,23 @@ class Trace:
         row = Row(*self.log[index].item())
         first, last = self._beam(row.first), self._beam(row.last)
         beam = self._beam(row.beam) if row.beam >= 0 else -1
-        placed = self._effect(row) == "placed"
         return Decision(
             index=index,
             kind=self.vocabulary.names[row.kind],
             phase=self.vocabulary.phases[self.phases[index]],
             candidate=row.candidate,
-            partner=-1 if placed else row.partner,
+            partner=row.partner,
             direction=row.direction,
             first=first,
             last=last,
             beam=beam,
             points=row.points,
             line=row.line,
-            other=row.other if row.partner >= 0 and not placed else None,
+            other=row.other if row.partner >= 0 else None,
             check=self.vocabulary.checks[row.check],
-            value=row.limit if placed else row.value,
+            value=row.value,
             limit=row.limit,
-            ends=(*row.other, row.value) if placed else None,
+            ends=row.ends if self._effect(row) == "placed" else None,
             text=self._sentence(row, first, last, beam),
         )
 

@@ -13,28 +13,32 @@ from numpy.typing import NDArray
 
 from ..kernel import kernel
 
+_LINE = np.dtype([(name, np.float64) for name in ("a", "b", "c")])
+_ENDS = np.dtype([(name, np.float64) for name in ("x1", "y1", "x2", "y2")])
+# The fields are those of `Row`.
 ROW = np.dtype(
     [
-        ("kind", np.int8),
-        ("check", np.int8),
-        ("direction", np.int8),
-        ("candidate", np.int32),
-        ("partner", np.int32),
-        ("first", np.int32),
-        ("last", np.int32),
-        ("beam", np.int32),
-        *((name, np.float64) for name in ("a", "b", "c", "a2", "b2", "c2", "value", "limit")),
+        *((name, np.int8) for name in ("kind", "check", "direction")),
+        *((name, np.int32) for name in ("candidate", "partner", "first", "last", "beam")),
+        *((name, _LINE) for name in ("line", "other")),
+        ("ends", _ENDS),
+        *((name, np.float64) for name in ("value", "limit")),
     ]
 )
 
-
 Line = tuple[float, float, float]
+Ends = tuple[float, float, float, float]
 NOWHERE: Line = (0.0, 0.0, 0.0)
+NO_ENDS: Ends = (0.0, 0.0, 0.0, 0.0)
 T = TypeVar("T")
 
 
 class Row(NamedTuple):
-    """One of ROW as plain numbers: `Row(*rows[i].item())`."""
+    """A decision as it is written down, for what the fields say see `Decision`: `Row(*rows[i].item())`.
+
+    kind, check: numbers of the method's vocabulary. first, last, beam: positions. line, other: (0, 0, 0) where there is
+    none; ends: four zeros unless they are placed.
+    """
 
     kind: int
     check: int
@@ -44,22 +48,11 @@ class Row(NamedTuple):
     first: int
     last: int
     beam: int
-    a: float
-    b: float
-    c: float
-    a2: float
-    b2: float
-    c2: float
+    line: Line
+    other: Line
+    ends: Ends
     value: float
     limit: float
-
-    @property
-    def line(self) -> Line:
-        return self.a, self.b, self.c
-
-    @property
-    def other(self) -> Line:
-        return self.a2, self.b2, self.c2
 
     @property
     def points(self) -> int:
@@ -77,12 +70,27 @@ class Log(NamedTuple):
 @kernel
 def note(log, kind, check, candidate, direction, span, beam, line, value, limit):
     """Write a decision about one candidate; span: (first, last) of the window under test, or of the line after it."""
-    note_pair(log, kind, check, (candidate, -1), direction, span, beam, line, (0.0, 0.0, 0.0), value, limit)
+    write(log, kind, check, (candidate, -1), direction, span, beam, line, (0.0, 0.0, 0.0), value, limit)
 
 
 @kernel
-def note_pair(log, kind, check, pair, direction, span, beam, line, other, value, limit):
-    """Write a decision about two candidates."""
+def note_pair(log, kind, check, pair, span, beam, line, other, value, limit):
+    """Write a decision about two candidates; line, other: the line of each."""
+    write(log, kind, check, pair, 0, span, beam, line, other, value, limit)
+
+
+@kernel
+def note_ends(log, kind, candidate, span, line, ends, length):
+    """Write down that a line has its endpoints (x1, y1, x2, y2), `length` apart."""
+    i = log.used[0]
+    write(log, kind, 0, (candidate, -1), 0, span, -1, line, (0.0, 0.0, 0.0), length, length)
+    if i < len(log.rows):
+        placed = log.rows[i].ends
+        placed.x1, placed.y1, placed.x2, placed.y2 = ends
+
+
+@kernel
+def write(log, kind, check, pair, direction, span, beam, line, other, value, limit):
     i = log.used[0]
     log.used[0] = i + 1
     if i >= len(log.rows):
@@ -92,8 +100,10 @@ def note_pair(log, kind, check, pair, direction, span, beam, line, other, value,
     row.candidate, row.partner = pair
     row.first, row.last = span
     row.beam = beam
-    row.a, row.b, row.c = line
-    row.a2, row.b2, row.c2 = other
+    mine, others, ends = row.line, row.other, row.ends
+    mine.a, mine.b, mine.c = line
+    others.a, others.b, others.c = other
+    ends.x1, ends.y1, ends.x2, ends.y2 = 0.0, 0.0, 0.0, 0.0
     row.value, row.limit = value, limit
 
 
@@ -111,7 +121,7 @@ class Notes:
     """A log that Python writes to, for methods whose decisions are few."""
 
     def __init__(self) -> None:
-        self._rows: list[tuple[Any, ...]] = []
+        self._rows: list[Row] = []
 
     def add(
         self,
@@ -127,8 +137,9 @@ class Notes:
         value: float = 0.0,
         limit: float = 0.0,
     ) -> None:
-        """Write a decision down; see `Decision`, and `ROW` for the order."""
-        self._rows.append((kind, check, 0, candidate, partner, *span, beam, *line, *other, value, limit))
+        """Write a decision down; see `Decision`."""
+        row = Row(kind, check, 0, candidate, partner, *span, beam, line, other, NO_ENDS, value, limit)
+        self._rows.append(row)
 
     @property
     def rows(self) -> NDArray[np.void]:

@@ -17,7 +17,6 @@
  * @property {number[]} phase
  * @property {number[]} direction
  * @property {number[]} candidate
- * @property {number[]} partner
  * @property {number[]} first
  * @property {number[]} last
  * @property {number[]} beam
@@ -25,9 +24,8 @@
  * @property {(number | null)[]} a
  * @property {(number | null)[]} b
  * @property {(number | null)[]} c
- * @property {(number | null)[]} a2
- * @property {(number | null)[]} b2
- * @property {(number | null)[]} c2
+ * @property {Record<string, Line>} others the line of the partner, by index
+ * @property {Record<string, number[]>} ends x1, y1, x2, y2 where endpoints are placed, by index
  * @property {(number | null)[]} value
  * @property {(number | null)[]} limit
  * @property {number[]} lines
@@ -90,15 +88,10 @@ export class Trace {
   /** @param {number} index @returns {Event} */
   at(index) {
     const { columns: c } = this;
-    const kind = c.kinds[c.kind[index]];
-    const of = (/** @type {(number | null)[][]} */ ...names) => names.map((name) => name[index] ?? Infinity);
-    const line = /** @type {Line} */ (of(c.a, c.b, c.c));
-    const other = /** @type {Line} */ (of(c.a2, c.b2, c.c2));
-    const ends = kind === "endpoints";
-    const { value, limit } = { value: c.value[index] ?? Infinity, limit: c.limit[index] ?? Infinity };
+    const line = /** @type {Line} */ ([c.a, c.b, c.c].map((column) => column[index] ?? Infinity));
     return {
       index,
-      kind,
+      kind: c.kinds[c.kind[index]],
       check: c.checks[c.check[index]],
       phase: c.phases[c.phase[index]],
       direction: c.direction[index],
@@ -108,11 +101,10 @@ export class Trace {
       beam: c.beam[index],
       points: c.points[index],
       line: Math.hypot(line[0], line[1]) > 0.5 ? line : null,
-      other: !ends && Math.hypot(other[0], other[1]) > 0.5 ? other : null,
-      ends: ends ? [...other, value] : null,
-      // For endpoints the value column holds y2, and the length stands in limit.
-      value: ends ? limit : value,
-      limit,
+      other: c.others[index] ?? null,
+      ends: c.ends[index] ?? null,
+      value: c.value[index] ?? Infinity,
+      limit: c.limit[index] ?? Infinity,
       text: c.text?.[index] ?? null,
     };
   }
