@@ -24,7 +24,8 @@ from .region_growing.extraction import extraction_of
 from .region_growing.trace import VOCABULARY, GrowthTrace
 from .scan import Scan
 from .segment import Extraction
-from .tracing.decisions import Trace, Vocabulary
+from .tracing.decisions import Trace
+from .tracing.vocabulary import Vocabulary
 
 
 @dataclass(frozen=True)

@@ -15,6 +15,8 @@ class Knob:
     symbol: the paper's; ros: the name in the ROS program that has it ("" where none has).
     low, high: the range of a slider; least, most: what is allowed at all, and why.
     step: of a slider [unit]; log: whether the slider is logarithmic; extension: not in the paper.
+    refuses: what is said of what it refuses, in the fields of `Sentence`: a check of this name is then there for the
+    kernels; floor: it refuses what is below it, not what is above. counted: what its histogram counts, if it has one.
     """
 
     symbol: str
@@ -30,6 +32,9 @@ class Knob:
     label: str = ""
     help: str = ""
     extension: bool = False
+    refuses: str = ""
+    counted: str = ""
+    floor: bool = False
 
 
 def switch(symbol: str, label: str, help: str) -> Knob:

@@ -16,6 +16,8 @@ Epsilon = Annotated[
         label="distance to the line",
         why="a distance of 0 would refuse every measured point",
         help="Farthest a point may lie from its line. Set it to the range precision of the laser.",
+        refuses="beam {beam} lies {value:m} from the line, ε = {limit:m} (over by {over:m})",
+        counted="Distances to the line of the points that were tested",
     ),
 ]  # fmt: skip
 Delta = Annotated[
@@ -25,6 +27,8 @@ Delta = Annotated[
         label="distance to the predicted point",
         why="a distance of 0 would refuse every measured point",
         help="In a seed: farthest a point may lie from where its beam meets the line. Keeps breaks out of seeds.",
+        refuses="beam {beam} lies {value:m} from its predicted point, δ = {limit:m} (over by {over:m})",
+        counted="Distances to the predicted point, in seeds",
     ),
 ]  # fmt: skip
 SeedPoints = Annotated[
@@ -43,6 +47,9 @@ MinPoints = Annotated[
         label="points in a line",
         why="2 points are the fewest that make a line",
         help="Fewest points a line may have.",
+        refuses="{value:g} points < P_min = {limit:g} (short by {short:g})",
+        counted="Points in each line that grew",
+        floor=True,
     ),
 ]  # fmt: skip
 MinLength = Annotated[
@@ -52,6 +59,9 @@ MinLength = Annotated[
         label="length of a line",
         why="a length is never negative",
         help="Shortest a line may be, between its endpoints.",
+        refuses="{value:m} < L_min = {limit:m} (short by {short:m})",
+        counted="Length of each line that grew",
+        floor=True,
     ),
 ]  # fmt: skip
 
@@ -72,6 +82,7 @@ class Params(Thresholds):
             label="dropout crossed",
             why="a number of beams is never negative",
             help="Most beams without a return that a seed or a line may cross. 0: none, as the authors' program.",
+            refuses="{value:g} beams without a return lie before beam {beam}, D_max = {limit:g} (over by {over:g})",
             extension=True,
         ),
     ] = 3  # fmt: skip
@@ -82,6 +93,7 @@ class Params(Thresholds):
             label="gap bridged",
             why="a gap of 0 would part every point from the next",
             help="Widest gap between neighbouring points that a seed or a growing line may bridge.",
+            refuses="a gap of {value:m} lies before beam {beam}, G_max = {limit:m} (over by {over:m})",
             extension=True,
         ),
     ] = 30.0  # fmt: skip
@@ -92,6 +104,7 @@ class Params(Thresholds):
             label="merge angle",
             why="two lines are never more than a right angle apart",
             help="Neighbouring lines that overlap and differ by less than this angle become one. 0: none do.",
+            refuses="{value:deg} apart, not less than {limit:deg}",
             extension=True,
         ),
     ] = 0.10  # fmt: skip
@@ -103,6 +116,7 @@ class Params(Thresholds):
             why="a factor is never negative",
             help="Most times that the rms distance of two lines may grow where they become one. With it, up to D_max "
             "stray points may part them. 0: neither, as in the paper.",
+            refuses="as one they have an rms of {value:m}, more than {limit:m}",
             extension=True,
         ),
     ] = 1.2  # fmt: skip

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from lineseg import EXTRACTORS, Decision, Extraction, Recording, Scan, Thresholds, Trace
 from lineseg.knobs import Knob
-from lineseg.region_growing.checks import CHECKS
+from lineseg.region_growing.checks import number_of
 from lineseg.region_growing.trace import GrowthTrace
 
 BINS = 24
@@ -146,4 +146,4 @@ def _seed_distances(found: Findings) -> tuple[NDArray, NDArray]:
 
 def _refused(trace: GrowthTrace, check: str) -> NDArray:
     rows = trace.log[np.concatenate((trace.indices("seed rejected"), trace.indices("growth stopped")))]
-    return rows["value"][rows["check"] == CHECKS.index(check)]
+    return rows["value"][rows["check"] == number_of(check)]

@@ -37,7 +37,7 @@ def columns_of(found: Findings) -> dict[str, Any]:
     starts = trace.starts("line")
     return {
         "kinds": vocabulary.names,
-        "checks": vocabulary.checks,
+        "checks": vocabulary.check_names,
         "phases": vocabulary.phases,
         "jumps": vocabulary.jumps,
         "total": len(trace),

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from lineseg import EXTRACTORS, SCORES, Recording, Thresholds, Trace
 from lineseg.rerun import dropped_strips, hue_of_beams, hues_of, raised, segment_strips
 from lineseg.survey import survey
-from lineseg.tracing.decisions import Kind
+from lineseg.tracing.vocabulary import Kind
 
 from ..scene.palette import LIGHT
 from ..scene.picture import truth

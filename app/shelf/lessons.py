@@ -37,7 +37,7 @@ class Find(Part):
     """A decision, by what it is and not by its number: the nth (from 0, or from the end) that agrees in all."""
 
     kind: Annotated[str, _one_of(VOCABULARY.names)]
-    check: Annotated[str, _one_of(VOCABULARY.checks)] | None = None
+    check: Annotated[str, _one_of(VOCABULARY.check_names)] | None = None
     direction: Literal[1, -1] | None = None
     beam: Beam | None = None
     nth: int = 0

@@ -21,8 +21,8 @@ from ..region_growing.checks import CHECKS, DELTA, END, EPSILON, MERGE_ANGLE, MI
 from ..region_growing.lines import DROPPED, LINE, Dropping, append, drop, line_at, remove
 from ..scan import Scan
 from ..total_least_squares import Moments, add, empty, line_of, project, signed_distance
-from ..tracing.decisions import Kind, Vocabulary
 from ..tracing.log import ROW, note, note_pair, written
+from ..tracing.vocabulary import Kind, Vocabulary
 from .endpoints import place_endpoints
 from .logged import LoggedMethod, Run
 
@@ -116,14 +116,14 @@ VOCABULARY = Vocabulary(
         ),
         Kind("end reached", "growth", "shown", "", "growth reached the end of the scan; the line has {span}"),
         Kind("line kept", "growth", "stands", "line", "line kept: {span}, {value:.3f} m ≥ L_min = {limit:.3f} m"),
-        Kind("line dropped", "growth", "gone", "drop", "line dropped: {span}; {lack}"),
-        Kind("lines merged", "overlap", "joined", "merge", "lines merged: {angle} apart; now {span}"),
-        Kind("lines kept apart", "overlap", "none", "", "overlapping lines stay two: {angle} apart"),
+        Kind("line dropped", "growth", "gone", "drop", "line dropped: {span}; {refusal}"),
+        Kind("lines merged", "overlap", "joined", "merge", "lines merged: {value:deg} apart; now {span}"),
+        Kind("lines kept apart", "overlap", "none", "", "overlapping lines stay two: {value:deg} apart"),
         Kind(
             "overlap cut", "overlap", "parted", "cut",
             "overlap cut at beam {beam}, {value:.3f} m from the first line, {limit:.3f} m from the second",
         ),
-        Kind("line erased", "overlap", "gone", "drop", "line erased: {span}; {lack}"),
+        Kind("line erased", "overlap", "gone", "drop", "line erased: {span}; {refusal}"),
         Kind("line passed over", "overlap", "none", "", "line passed over: {span} stands behind an erased one"),
         Kind("endpoints", "endpoints", "placed", "", "endpoints placed: {span}, {limit:.3f} m apart"),
     ),

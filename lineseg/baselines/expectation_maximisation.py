@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from ..kernel import entry_kernel
 from ..knobs import Knob, Thresholds
 from ..total_least_squares import Moments, line_of
-from ..tracing.decisions import Kind
+from ..tracing.vocabulary import Kind
 from .found import Found, Method, vocabulary
 from .knobs import BRIDGE, MAX_GAP, MIN_LENGTH, MIN_POINTS
 from .sequence import Sequence, fit, runs

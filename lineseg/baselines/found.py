@@ -8,10 +8,12 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..region_growing.checks import CHECKS, MIN_LENGTH, MIN_POINTS
 from ..scan import Scan
 from ..segment import Dropped, Extraction, Segment
-from ..tracing.decisions import Kind, Trace, Vocabulary
+from ..tracing.decisions import Trace
 from ..tracing.log import NO_ENDS, ROW, Row
+from ..tracing.vocabulary import Check, Kind, Vocabulary
 from .sequence import Line, Positions, Sequence, fit, sequence_of
 
 NOWHERE: Line = (0.0, 0.0, 0.0)
@@ -26,8 +28,9 @@ def vocabulary(phase: str, checks: tuple[str, ...], *kinds: Kind) -> Vocabulary:
     kept = Kind(
         KEPT, phase, "stands", "line", "line kept: {span}, {points} points, {value:.3f} m ≥ L_min = {limit:.3f} m"
     )
-    dropped = Kind(DROPPED, phase, "gone", "drop", "line dropped: {span}; {lack}")
-    return Vocabulary((*kinds, kept, dropped), ("", *checks, "min_points", "min_length"))
+    dropped = Kind(DROPPED, phase, "gone", "drop", "line dropped: {span}; {refusal}")
+    own = (Check(""), *map(Check, checks), CHECKS[MIN_POINTS], CHECKS[MIN_LENGTH])
+    return Vocabulary((*kinds, kept, dropped), own)
 
 
 class Method(NamedTuple):
@@ -106,7 +109,7 @@ class Found:
         """Write down a decision about the next candidate, or the one named; `run` and `beam` are positions."""
         if not self.traced:
             return
-        number, why = self._vocabulary.names.index(kind), self._vocabulary.checks.index(check)
+        number, why = self._vocabulary.names.index(kind), self._vocabulary.check_names.index(check)
         candidate = self.candidates if candidate is None else candidate
         first, last = int(run[0]), int(run[-1])
         last += len(self.points.x) if last < first else 0

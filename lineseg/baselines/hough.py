@@ -17,7 +17,7 @@ import numpy as np
 
 from ..kernel import entry_kernel
 from ..knobs import Knob, Thresholds
-from ..tracing.decisions import Kind
+from ..tracing.vocabulary import Kind
 from .consensus import consensus
 from .found import Found, Method, vocabulary
 from .knobs import BRIDGE, EPSILON, MAX_GAP, MIN_LENGTH, MIN_POINTS

@@ -16,8 +16,8 @@ from ..params import MinLength, MinPoints
 from ..region_growing.checks import NONE
 from ..region_growing.lines import DROPPED, LINE, Dropping, line_at
 from ..scan import Scan
-from ..tracing.decisions import Kind, Vocabulary
 from ..tracing.log import ROW, note, written
+from ..tracing.vocabulary import Kind, Vocabulary
 from .endpoints import measure
 from .logged import LoggedMethod, Run
 from .splitting import KINDS, SPLIT_CHECKS, LineGap, SplitDistance, Splitting, loop_of, select, split

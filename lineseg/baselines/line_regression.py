@@ -17,7 +17,7 @@ from ..covariance import covariance_of
 from ..kernel import entry_kernel, kernel
 from ..knobs import Knob, Thresholds
 from ..total_least_squares import line_of, moments_of
-from ..tracing.decisions import Kind
+from ..tracing.vocabulary import Kind
 from .found import NOWHERE, Found, Method, vocabulary
 from .knobs import MAX_GAP, MIN_LENGTH, MIN_POINTS
 from .sequence import Sequence, fit, opened_between_lines

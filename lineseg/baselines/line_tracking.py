@@ -16,7 +16,7 @@ import numpy as np
 from ..kernel import entry_kernel
 from ..knobs import Knob, Thresholds
 from ..total_least_squares import is_nearer, moments_of, scatter_of, with_point
-from ..tracing.decisions import Kind
+from ..tracing.vocabulary import Kind
 from .found import Found, Method, vocabulary
 from .knobs import EPSILON, MAX_GAP, MIN_LENGTH, MIN_POINTS
 from .sequence import Sequence, fit, opened_between_lines

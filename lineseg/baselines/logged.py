@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 from ..region_growing.extraction import extraction_of
 from ..scan import Scan
 from ..segment import Extraction
-from ..tracing.decisions import Trace, Vocabulary
+from ..tracing.decisions import Trace
+from ..tracing.vocabulary import Vocabulary
 
 
 class Run(NamedTuple):

@@ -15,7 +15,7 @@ import numpy as np
 
 from ..kernel import entry_kernel, kernel
 from ..knobs import Knob, Thresholds
-from ..tracing.decisions import Kind
+from ..tracing.vocabulary import Kind
 from .consensus import consensus
 from .found import Found, Method, vocabulary
 from .knobs import BRIDGE, EPSILON, MAX_GAP, MIN_LENGTH, MIN_POINTS, SEED

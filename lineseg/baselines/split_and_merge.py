@@ -21,8 +21,8 @@ from ..region_growing.checks import NONE
 from ..region_growing.lines import DROPPED, LINE, Dropping, line_at
 from ..scan import Scan
 from ..total_least_squares import project, signed_distance
-from ..tracing.decisions import Kind, Vocabulary
 from ..tracing.log import ROW, Notes, note, note_pair, written
+from ..tracing.vocabulary import Check, Kind, Vocabulary
 from .chord import chord
 from .endpoints import measure
 from .logged import LoggedMethod, Run
@@ -120,7 +120,7 @@ VOCABULARY = Vocabulary(
         Kind("lines kept apart", "merge", "none", "", "lines stay two: χ² = {value:.3g} ≥ {limit:g}"),
         Kind("endpoints", "endpoints", "placed", "", "endpoints placed: {span}, {limit:.3f} m apart"),
     ),
-    (*SPLIT_CHECKS, "outlier_distance", "merge_distance"),
+    (*SPLIT_CHECKS, Check("outlier_distance"), Check("merge_distance")),
 )
 
 

@@ -18,8 +18,8 @@ from ..params import MinLength, MinPoints
 from ..region_growing.checks import NONE
 from ..region_growing.lines import DROPPED, LINE, Dropping, line_at, remove
 from ..scan import Scan
-from ..tracing.decisions import Kind, Vocabulary
 from ..tracing.log import ROW, note, note_pair, written
+from ..tracing.vocabulary import Kind, Vocabulary
 from .chord import farthest, step_to
 from .endpoints import place_endpoints
 from .logged import LoggedMethod, Run

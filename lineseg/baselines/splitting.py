@@ -15,8 +15,8 @@ from ..region_growing.growth import length_of
 from ..region_growing.lines import append, drop, line_at
 from ..scan import Scan
 from ..total_least_squares import line_of, moments_of
-from ..tracing.decisions import Kind
 from ..tracing.log import note, note_pair
+from ..tracing.vocabulary import Check, Kind
 from .chord import chord, farthest, widest_step
 
 SplitDistance = Annotated[
@@ -62,9 +62,9 @@ KINDS = (
     Kind("split", "split", "parted", "seed", "split at beam {beam}: the first part is {span}"),
     Kind("point left", "split", "gone", "", "beam {first} is left alone"),
     Kind("stretch kept", "split", "stands", "", "straight: {span}, all within {value:.3f} < {limit:.3f} m"),
-    Kind("line dropped", "select", "gone", "drop", "line dropped: {span}; {lack}"),
+    Kind("line dropped", "select", "gone", "drop", "line dropped: {span}; {refusal}"),
 )
-SPLIT_CHECKS = (*CHECKS, "split_distance", "max_gap")
+SPLIT_CHECKS = (*CHECKS, Check("split_distance"), Check("max_gap"))
 SPLIT_DISTANCE, LINE_GAP = range(len(CHECKS), len(CHECKS) + 2)
 
 

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from ..extractors import extract, trace_growth
 from ..params import Params
-from ..region_growing.checks import CHECKS, GROWTH_STOPPED, LINE_DROPPED, SEED_REJECTED
-from ..region_growing.trace import GrowthTrace, Trace, lack, longest, nearest, refusal
+from ..region_growing.checks import GROWTH_STOPPED, LINE_DROPPED, SEED_REJECTED
+from ..region_growing.trace import GrowthTrace, Trace, longest, nearest
 from ..scan import Scan
 from ..tracing.log import Row
 from . import LOOSER
@@ -112,17 +112,17 @@ def _reason(traced: Trace, beams: NDArray[np.intp]) -> tuple[str, int, float, fl
     dropped = rows[rows["kind"] == LINE_DROPPED]
     if len(dropped):
         row = longest(dropped)
-        check, value, limit = CHECKS[row.check], row.value, row.limit
-        span = f"beams {_beam(traced, row.first)}–{_beam(traced, row.last)}"
-        words = f"its line of {span} was dropped, {lack(check, value, limit)}{_stop(traced, row)}"
-        return check, -1, value, limit, words
+        told = traced.told(row)
+        words = f"its line of {told.span} was dropped, {told.refusal}{_stop(traced, row)}"
+        return told.check.name, -1, row.value, row.limit, words
     rejected = rows[rows["kind"] == SEED_REJECTED]
     if not len(rejected):
         return "", -1, np.nan, np.nan, "no seed was sought here"
     row = nearest(rejected)
-    beam, value, limit, check = _beam(traced, row.beam), row.value, row.limit, CHECKS[row.check]
-    symbol = next(knob.symbol for name, _, knob in traced.params.knobs() if name == check)
-    return check, beam, value, limit, f"seed refused by {symbol}: {refusal(beam, row.check, value, limit)}"
+    told = traced.told(row)
+    symbol = next(knob.symbol for name, _, knob in traced.params.knobs() if name == told.check.name)
+    words = f"seed refused by {symbol}: {told.refusal}"
+    return told.check.name, told.beam, row.value, row.limit, words
 
 
 def _stop(traced: Trace, dropped: Row) -> str:
@@ -131,9 +131,4 @@ def _stop(traced: Trace, dropped: Row) -> str:
     stops = log[(log["kind"] == GROWTH_STOPPED) & (log["candidate"] == dropped.candidate) & (log["beam"] >= 0)]
     if not len(stops):
         return ""
-    row = nearest(stops)
-    return f"; it stopped where {refusal(_beam(traced, row.beam), row.check, row.value, row.limit)}"
-
-
-def _beam(traced: Trace, position: int) -> int:
-    return int(traced.as_beams(np.array([position]))[0])
+    return f"; it stopped where {traced.told(nearest(stops)).refusal}"

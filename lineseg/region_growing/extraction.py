@@ -43,7 +43,7 @@ def _dropped(scan: Scan, rows: NDArray[np.void], beams: NDArray[np.integer]) -> 
         dx, dy = scan.ranges[last] * scan.rays[:, last] - scan.ranges[first] * scan.rays[:, first]
         lengths = np.hypot(dx, dy)
     points = rows["last"] - rows["first"] + 1
-    checks = (CHECKS[check] for check in rows["check"].tolist())
+    checks = (CHECKS[check].name for check in rows["check"].tolist())
     numbers = (column.tolist() for column in (first, last, points, lengths))
     found = zip(*numbers, checks, rows["value"].tolist(), rows["limit"].tolist(), strict=True)
     return tuple(map(Dropped._make, found))

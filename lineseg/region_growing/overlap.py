@@ -12,15 +12,17 @@ from .checks import (
     LINES_KEPT_APART,
     LINES_MERGED,
     MERGE_ANGLE,
-    MERGE_RMS,
     MIN_LENGTH,
     MIN_POINTS,
     NEARER,
     NONE,
     OVERLAP_CUT,
+    number_of,
 )
 from .growth import length_of
 from .lines import drop, line_at, remove
+
+MERGE_RMS = number_of("merge_rms")
 
 
 @kernel

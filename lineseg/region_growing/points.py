@@ -10,8 +10,10 @@ from numpy.typing import NDArray
 
 from ..kernel import kernel
 from ..total_least_squares import at
-from .checks import MAX_DROPOUT, MAX_GAP, NONE
+from .checks import NONE, number_of
 from .occluder import look_past, square
+
+MAX_DROPOUT, MAX_GAP = number_of("max_dropout"), number_of("max_gap")
 
 
 class Limits(NamedTuple):

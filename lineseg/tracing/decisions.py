@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Literal, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,52 +13,7 @@ from numpy.typing import NDArray
 from ..scan import Scan
 from ..segment import Extraction
 from .log import Ends, Line, Row
-
-Effect = Literal["none", "shown", "stands", "gone", "joined", "parted", "placed"]
-
-
-class Kind(NamedTuple):
-    """A kind of decision of a method.
-
-    effect: what it does to the lines there are. "shown": its candidate is one at this moment only; "stands": from now
-    on; "gone": no longer; "joined": it stands and its partner is gone; "parted": it ends before `beam`, where its
-    partner begins; "placed": it has its endpoints. jump: by which button of the page it is found: seed (how a line of
-    this method begins), line, drop, merge, cut, refusal. text: its sentence, with the fields of `Sentence`.
-    """
-
-    name: str
-    phase: str
-    effect: Effect = "none"
-    jump: str = ""
-    text: str = ""
-
-
-@dataclass(frozen=True)
-class Vocabulary:
-    """What a method decides, by which checks; a row of its log has numbers of these."""
-
-    kinds: tuple[Kind, ...]
-    checks: tuple[str, ...]
-
-    @cached_property
-    def names(self) -> tuple[str, ...]:
-        return tuple(kind.name for kind in self.kinds)
-
-    @cached_property
-    def phases(self) -> tuple[str, ...]:
-        return tuple(dict.fromkeys(kind.phase for kind in self.kinds))
-
-    def jump_of(self, kind: str) -> str:
-        return self.kinds[self.names.index(kind)].jump
-
-    @cached_property
-    def jumps(self) -> dict[str, tuple[str, ...]]:
-        """The kinds of decision that each jump leads to."""
-        found: dict[str, tuple[str, ...]] = {}
-        for kind in self.kinds:
-            if kind.jump:
-                found[kind.jump] = (*found.get(kind.jump, ()), kind.name)
-        return found
+from .vocabulary import Effect, Sentence, Vocabulary, metres
 
 
 @dataclass(frozen=True)
@@ -122,7 +76,8 @@ class Trace:
     """The decisions of one run; a sequence of `Decision`.
 
     log: (decisions,) structured array, one row each (see log.py), with first, last and beam as positions; positions
-    (m,) int turns them into beams, and may go on counting past the seam of a full circle.
+    (m,) int turns them into beams, and may go on counting past the seam of a full circle. total: number of points, as
+    many as positions without.
     """
 
     def __init__(
@@ -133,12 +88,14 @@ class Trace:
         vocabulary: Vocabulary,
         log: NDArray[np.void],
         positions: NDArray[np.integer],
+        total: int | None = None,
     ) -> None:
         self.scan = scan
         self.params = params
         self.extraction = extraction
         self.vocabulary = vocabulary
         self.log = log
+        self.total = len(positions) if total is None else total
         self._beams = positions % max(len(scan), 1)
 
     def __len__(self) -> int:
@@ -152,33 +109,32 @@ class Trace:
             raise IndexError(f"decision {index}: the trace has the decisions 0 to {len(self) - 1}")
         index %= len(self)
         row = Row(*self.log[index].item())
-        first, last = self._beam(row.first), self._beam(row.last)
-        beam = self._beam(row.beam) if row.beam >= 0 else -1
+        told = self.told(row)
         return Decision(
             index=index,
-            kind=self.vocabulary.names[row.kind],
+            kind=told.kind.name,
             phase=self.vocabulary.phases[self.phases[index]],
             candidate=row.candidate,
             partner=row.partner,
             direction=row.direction,
-            first=first,
-            last=last,
-            beam=beam,
+            first=told.first,
+            last=told.last,
+            beam=told.beam,
             points=row.points,
             line=row.line,
             other=row.other if row.partner >= 0 else None,
-            check=self.vocabulary.checks[row.check],
+            check=told.check.name,
             value=row.value,
             limit=row.limit,
-            ends=row.ends if self._effect(row) == "placed" else None,
-            text=self._sentence(row, first, last, beam),
+            ends=row.ends if told.kind.effect == "placed" else None,
+            text=str(told),
         )
 
     def texts(self, indices: NDArray[np.integer]) -> list[str]:
         """The sentences of some decisions, for a fraction of what the whole decisions cost."""
         rows = self.log[indices]
         beams = self.as_beams(np.array([rows["first"], rows["last"], rows["beam"]])).T.tolist()
-        return [self._sentence(Row(*row), *where) for row, where in zip(rows.tolist(), beams, strict=True)]
+        return [str(self._sentence(Row(*row), *where)) for row, where in zip(rows.tolist(), beams, strict=True)]
 
     def beams(self, first: int, last: int) -> NDArray[np.intp]:
         """The valid beams from beam `first` to beam `last`, both inclusive, across the seam where last < first."""
@@ -261,10 +217,15 @@ class Trace:
     def _beam(self, position: int) -> int:
         return int(self._beams[min(max(position, 0), len(self._beams) - 1)])
 
-    def _sentence(self, row: Row, first: int, last: int, beam: int) -> str:
+    def _sentence(self, row: Row, first: int, last: int, beam: int) -> Sentence:
         """first, last, beam: the beams at the row's positions; −1 for a beam: none."""
-        sentence = Sentence(first, last, beam, row.points, self.vocabulary.checks[row.check], row.value, row.limit)
-        return sentence.fill(self.vocabulary.kinds[row.kind].text)
+        kind, check = self.vocabulary.kinds[row.kind], self.vocabulary.checks[row.check]
+        return Sentence(row, kind, check, first, last, beam, self.total)
+
+    def told(self, row: Row) -> Sentence:
+        """What the decision of a row is told with."""
+        beam = self._beam(row.beam) if row.beam >= 0 else -1
+        return self._sentence(row, self._beam(row.first), self._beam(row.last), beam)
 
     def explain(self, beam: int) -> Explanation:
         """Why beam `beam` belongs to its segment, or to none: in one sentence, with threshold, value and margin."""
@@ -311,32 +272,3 @@ class Trace:
         for position in np.flatnonzero(self._beams == beam):
             within |= (self.log["first"] <= position) & (position <= self.log["last"])
         return within
-
-
-class Sentence(NamedTuple):
-    """The fields of a decision's text; `{span}` is its beams, `{lack}` what a dropped line lacks."""
-
-    first: int
-    last: int
-    beam: int
-    points: int
-    check: str
-    value: float
-    limit: float
-
-    def fill(self, text: str) -> str:
-        span, angle = f"beams {self.first}–{self.last}", f"{math.degrees(self.value):.1f}°"
-        return text.format(**self._asdict(), span=span, angle=angle, lack=lack(self.check, self.value, self.limit))
-
-
-def lack(check: str, value: float, limit: float) -> str:
-    """What a dropped line lacks."""
-    if check == "min_points":
-        return f"{value:g} points < P_min = {limit:g} (short by {limit - value:g})"
-    if check == "nearer":
-        return f"it lies {metres(value)} from its first shared point, the line that overlaps it {metres(limit)}"
-    return f"{metres(value)} < L_min = {metres(limit)} (short by {metres(limit - value)})"
-
-
-def metres(value: float) -> str:
-    return f"{value:.3f} m" if math.isfinite(value) else "infinitely far"

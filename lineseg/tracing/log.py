@@ -6,7 +6,7 @@ A kernel compiled for `log = None` has no trace of this left in it; compiled for
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, NamedTuple, TypeVar
+from typing import NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray

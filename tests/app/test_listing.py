@@ -50,7 +50,7 @@ def test_every_event_names_a_decision_and_a_check_that_exist():
         phase, _, rest = event.partition(": ")
         kind, _, check = rest.removesuffix(" forward").removesuffix(" backward").rstrip(")").partition(" (")
         assert phase in ("seed", "growth", "overlap", "endpoints")
-        assert kind in VOCABULARY.names and check in VOCABULARY.checks, event
+        assert kind in VOCABULARY.names and check in VOCABULARY.check_names, event
 
 
 @pytest.mark.parametrize("path", SAMPLES, ids=lambda path: path.stem)
