@@ -47,7 +47,7 @@ function operates(target, pressed) {
   return Boolean(element?.closest?.("button, summary, a, input[type=checkbox]"));
 }
 
-/** @param {Binding[]} bindings @param {typeof import("./text/en.js").text} words */
+/** @param {Binding[]} bindings @param {typeof import("./text/page.js").pageText} words */
 export function showHelp(bindings, words) {
   if (document.querySelector("dialog[open]")) return;
   const row = (/** @type {string} */ keys, /** @type {string} */ does) =>

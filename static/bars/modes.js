@@ -1,5 +1,5 @@
 // @ts-check
-// The switch between the modes of the page.
+// The switch between the modes, and what of the page each of them shows.
 import { h } from "../widgets/dom.js";
 
 export const MODES = /** @type {const} */ (["tune", "learn", "inspect"]);
@@ -7,9 +7,11 @@ export const MODES = /** @type {const} */ (["tune", "learn", "inspect"]);
 
 /**
  * @param {{label: string} & Record<Mode, string>} text
- * @param {(mode: Mode) => void} onMode
+ * @param {HTMLElement} main told the mode
+ * @param {Record<"learn" | "usual", HTMLElement[]>} shown in the mode Learn, in the others
+ * @param {{onMode: (mode: Mode) => void, onEntered: () => void}} handlers
  */
-export function createModes(text, onMode) {
+export function createModes(text, main, shown, { onMode, onEntered }) {
   const buttons = MODES.map((mode) =>
     h(
       "button",
@@ -19,9 +21,14 @@ export function createModes(text, onMode) {
   );
   return {
     element: h("div", { class: "modes", role: "group", "aria-label": text.label }, ...buttons),
-    /** @param {string} mode */
-    set(mode) {
+    /** @param {Readonly<import("../wire.js").View>} view */
+    setView({ mode }) {
       for (const button of buttons) button.setAttribute("aria-pressed", String(button.dataset.mode === mode));
+      const entered = main.dataset.mode !== mode;
+      main.dataset.mode = mode;
+      if (entered) onEntered();
+      for (const place of shown.learn) place.hidden = mode !== "learn";
+      for (const place of shown.usual) place.hidden = mode === "learn";
     },
   };
 }

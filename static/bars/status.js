@@ -8,9 +8,10 @@ const ANNOUNCE_MS = 800;
 
 /**
  * @param {HTMLElement} bar
- * @param {typeof import("../text/en.js").text.status} text
+ * @param {typeof import("../text/page.js").pageText.status} text
+ * @param {HTMLElement} live how a live source fares
  */
-export function mountStatus(bar, text) {
+export function mountStatus(bar, text, live) {
   const figures = {
     segments: figure("segments", ""),
     coverage: figure("coverage", text.coverage),
@@ -23,7 +24,7 @@ export function mountStatus(bar, text) {
   const spoken = h("span", { class: "off-screen", role: "status" });
   const entries = Object.values(figures).map(({ element }) => element);
   bar.setAttribute("aria-label", text.label);
-  bar.append(...entries, h("span", { class: "spacer" }), format, connection, spoken);
+  bar.append(...entries, live, h("span", { class: "spacer" }), format, connection, spoken);
   tooltip(figures.extraction.element, text.extractionHelp);
   tooltip(figures.roundTrip.element, text.roundTripHelp);
   let coverageHelp = "";

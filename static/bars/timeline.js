@@ -1,6 +1,6 @@
 // @ts-check
 import { Player } from "../widgets/player.js";
-import { createStrip } from "./strip.js";
+import { Strip } from "./strip.js";
 import { h, setText } from "../widgets/dom.js";
 import { iconButton } from "../widgets/icon.js";
 import { createNumberField } from "../widgets/number.js";
@@ -13,149 +13,180 @@ import { tooltip } from "../widgets/tooltip.js";
 const SPEEDS = [1, 2, 5, 10, 20, 40];
 const USUAL_SPEED = 10;
 
+/** @typedef {typeof import("../text/page.js").pageText.timeline} Text */
 /**
- * Frames of the recording: play, speed, number, scrubber over the strip of scores, stamp.
- * @param {HTMLElement} bar
- * @param {typeof import("../text/en.js").text.timeline} text
- * @param {{onFrame: (frame: number) => void, onScore: (score: string) => void, onScores: () => void, onFollow: (live: boolean) => void,
- *          settled: () => boolean, pill: HTMLElement}} handlers
- *   onScores: the strip shows other values; onFollow: of a live recording; pill: shows whether it is followed
+ * @typedef {object} Handlers
+ * @property {(frame: number) => void} onFrame
+ * @property {(score: string) => void} onScore
+ * @property {() => void} onScores the strip shows other values
+ * @property {(live: boolean) => void} onFollow of a live recording
+ * @property {() => boolean} settled
+ * @property {HTMLElement} pill shows whether it is followed
  */
-export function mountTimeline(bar, text, { onFrame, onScore, onScores, onFollow, settled, pill }) {
-  let frame = 0;
-  let frames = 0;
-  /** Number of the first frame: of a live recording the oldest scans are gone. */
-  let first = 0;
-  /** Whether a live recording is followed; null of another. @type {boolean | null} */
-  let live = null;
 
-  const player = new Player(USUAL_SPEED, {
-    ready: settled,
-    atEnd: () => frame >= frames - 1,
-    rewind: () => go(0),
-    next: () => go(frame + 1),
-    onState: showPlay,
-  });
-  const play = iconButton("play", text.play, toggle);
-  const speed = h(
-    "select",
-    { class: "select", "aria-label": text.speed, onchange: () => player.setSpeed(Number(speed.value)) },
-    ...SPEEDS.map((n) => h("option", { value: String(n), selected: n === USUAL_SPEED }, text.perSecond(n))),
-  );
-  tooltip(speed, text.speed);
-  const number = createNumberField({
-    label: text.frame,
-    className: "frame-number",
-    accept(typed) {
-      const wanted = Number(typed);
-      const [least, most] = [first + 1, first + frames];
-      if (!Number.isInteger(wanted) || wanted < least || wanted > most) return text.range(least, most);
-      go(wanted - least);
-      return null;
-    },
-  });
-  const total = h("span", { class: "of" });
-  const slider = createSlider({
-    label: text.scrubber,
-    onPlace: (place) => go(strip.snap(Math.round(place * Math.max(0, frames - 1)))),
-    onSteps: (steps) => move(steps),
-  });
-  const stamp = h("span", { class: "stamp" });
-  tooltip(stamp, text.stamp);
-  const strip = createStrip(text.strip, { onScore, onChange: onScores });
-  const track = h("div", { class: "track" }, ...strip.backdrop, slider.element);
-  strip.watch(track);
-  // Where the thumb stands already the scrubber tells nothing, yet the pixel may show another frame.
-  slider.element.addEventListener("click", () => go(strip.snap(frame)));
-  bar.append(
-    play,
-    pill,
-    speed,
-    h("span", { class: "counter" }, number.element, total, number.error),
-    track,
-    strip.chooser,
-    stamp,
-  );
+/** Frames of the recording: play, speed, number, scrubber over the strip of scores, stamp. */
+export class Timeline {
+  #frame = 0;
+  #frames = 0;
+  /** Number of the first frame: of a live recording the oldest scans are gone. */
+  #first = 0;
+  /** Whether a live recording is followed; null of another. @type {boolean | null} */
+  #live = null;
+  #bar;
+  #text;
+  #handlers;
+  #player;
+  #strip;
+  #controls;
+
+  /** @param {HTMLElement} bar @param {Text} text @param {Handlers} handlers */
+  constructor(bar, text, handlers) {
+    this.#bar = bar;
+    this.#text = text;
+    this.#handlers = handlers;
+    this.#player = new Player(USUAL_SPEED, {
+      ready: handlers.settled,
+      atEnd: () => this.#frame >= this.#frames - 1,
+      rewind: () => this.#go(0),
+      next: () => this.#go(this.#frame + 1),
+      onState: () => this.#showPlay(),
+    });
+    this.#strip = new Strip(text.strip, { onScore: handlers.onScore, onChange: handlers.onScores });
+    this.#controls = this.#createControls();
+    const { play, speed, number, total, slider, stamp } = this.#controls;
+    const track = h("div", { class: "track" }, ...this.#strip.backdrop, slider.element);
+    this.#strip.watch(track);
+    const counter = h("span", { class: "counter" }, number.element, total, number.error);
+    bar.append(play, handlers.pill, speed, counter, track, this.#strip.chooser, stamp);
+    bar.setAttribute("aria-label", text.label);
+  }
+
+  #createControls() {
+    const text = this.#text;
+    const speed = h(
+      "select",
+      { class: "select", "aria-label": text.speed, onchange: () => this.#player.setSpeed(Number(speed.value)) },
+      ...SPEEDS.map((n) => h("option", { value: String(n), selected: n === USUAL_SPEED }, text.perSecond(n))),
+    );
+    tooltip(speed, text.speed);
+    const slider = createSlider({
+      label: text.scrubber,
+      onPlace: (place) => this.#go(this.#strip.snap(Math.round(place * Math.max(0, this.#frames - 1)))),
+      onSteps: (steps) => this.move(steps),
+    });
+    // Where the thumb stands already the scrubber tells nothing, yet the pixel may show another frame.
+    slider.element.addEventListener("click", () => this.#go(this.#strip.snap(this.#frame)));
+    const stamp = h("span", { class: "stamp" });
+    tooltip(stamp, text.stamp);
+    return {
+      play: iconButton("play", text.play, () => this.toggle()),
+      speed,
+      number: createNumberField({
+        label: text.frame,
+        className: "frame-number",
+        accept: (typed) => this.#accept(typed),
+      }),
+      total: h("span", { class: "of" }),
+      slider,
+      stamp,
+    };
+  }
+
+  /** @param {string} typed @returns {string | null} why it is refused */
+  #accept(typed) {
+    const wanted = Number(typed);
+    const [least, most] = [this.#first + 1, this.#first + this.#frames];
+    if (!Number.isInteger(wanted) || wanted < least || wanted > most) return this.#text.range(least, most);
+    this.#go(wanted - least);
+    return null;
+  }
 
   /** @param {number} wanted */
-  function go(wanted) {
-    const next = clamp(wanted, 0, Math.max(0, frames - 1));
-    if (next === frame) return;
-    frame = next;
-    show();
-    onFrame(next);
+  #go(wanted) {
+    const next = clamp(wanted, 0, Math.max(0, this.#frames - 1));
+    if (next === this.#frame) return;
+    this.#frame = next;
+    this.#show();
+    this.#handlers.onFrame(next);
   }
 
   /** @param {number} steps ±Infinity: to the ends */
-  function move(steps) {
-    player.stop();
-    if (live === false && steps === Infinity) onFollow(true);
-    else go(frame + steps);
+  move(steps) {
+    this.#player.stop();
+    if (this.#live === false && steps === Infinity) this.#handlers.onFollow(true);
+    else this.#go(this.#frame + steps);
   }
 
   /** Play or pause. Who stands at the end of a live recording that was paused follows it again. */
-  function toggle() {
-    if (live) onFollow(false);
-    else if (live === false && !player.playing && frame >= frames - 1) onFollow(true);
-    else if (frames > 1) player.toggle();
+  toggle() {
+    const atEnd = !this.#player.playing && this.#frame >= this.#frames - 1;
+    if (this.#live) this.#handlers.onFollow(false);
+    else if (this.#live === false && atEnd) this.#handlers.onFollow(true);
+    else if (this.#frames > 1) this.#player.toggle();
   }
 
-  function showPlay() {
-    const on = player.playing || live === true;
-    play.show(on ? "pause" : "play", on ? text.pause : text.play);
+  /** To the next or former of the frames in the order of their score, the worst first. @param {1 | -1} by */
+  doubtful(by) {
+    this.#player.stop();
+    const next = this.#strip.frames.doubtful(this.#frame, by);
+    if (next !== null) this.#go(next);
   }
 
-  function show() {
-    const words = String(first + frame + 1);
-    number.set(words);
-    slider.set(
-      frames > 1 ? frame / (frames - 1) : 0,
-      [`${words} ${text.of(first + frames)}`, strip.words(frame)].filter(Boolean).join(", "),
-    );
+  /** The next frame in which A and B differ; null if there is none. */
+  different() {
+    return this.#strip.frames.different(this.#frame);
   }
 
-  return {
-    toggle,
-    stop: () => player.stop(),
-    move,
-    /** To the next or former of the frames in the order of their score, the worst first. @param {1 | -1} by */
-    doubtful(by) {
-      player.stop();
-      const next = strip.doubtful(frame, by);
-      if (next !== null) go(next);
-    },
-    setScores: strip.setScores,
-    showStrip: strip.show,
-    /** @param {import("../wire.js").Survey} survey */
-    setSurvey(survey) {
-      strip.setSurvey(survey);
-      show();
-    },
-    get strip() {
-      return strip.current;
-    },
-    words: strip.words,
-    number: strip.number,
-    summary: strip.summary,
-    different: () => strip.different(frame),
-    /** @param {number} next frame of the View */
-    setFrame(next) {
-      frame = next;
-      show();
-    },
-    /** @param {State} state */
-    setState(state) {
-      ({ frames, first, live } = state);
-      if (live) player.stop();
-      showPlay();
-      bar.classList.toggle("single", frames < 2);
-      strip.setState(state);
-      for (const control of [play, speed, number.element, slider.element]) control.disabled = frames < 2;
-      play.disabled = frames < 2 && live === null;
-      setText(total, text.of(first + frames));
-      number.element.style.width = `${String(first + frames).length + 2}ch`;
-      setText(stamp, state.stamp === null ? "" : `${state.stamp.toFixed(3)} s`);
-      show();
-    },
-  };
+  /** What the scores say of the frames. */
+  get scored() {
+    return this.#strip.frames;
+  }
+
+  #showPlay() {
+    const on = this.#player.playing || this.#live === true;
+    this.#controls.play.show(on ? "pause" : "play", on ? this.#text.pause : this.#text.play);
+  }
+
+  #show() {
+    const frame = this.#frame;
+    const words = String(this.#first + frame + 1);
+    this.#controls.number.set(words);
+    const said = [`${words} ${this.#text.of(this.#first + this.#frames)}`, this.#strip.frames.words(frame)];
+    this.#controls.slider.set(this.#frames > 1 ? frame / (this.#frames - 1) : 0, said.filter(Boolean).join(", "));
+  }
+
+  /** @param {import("../wire.js").Score[]} scores */
+  setScores(scores) {
+    this.#strip.setScores(scores);
+  }
+
+  /** @param {import("../wire.js").Survey} survey */
+  setSurvey(survey) {
+    this.#strip.setSurvey(survey);
+    this.#show();
+  }
+
+  /** @param {Readonly<import("../wire.js").View>} view */
+  setView({ frame, score, dark }) {
+    this.#frame = frame;
+    this.#show();
+    this.#strip.show(score, dark);
+  }
+
+  /** @param {State} state */
+  setState(state) {
+    const { frames, first, live } = state;
+    [this.#frames, this.#first, this.#live] = [frames, first, live];
+    if (live) this.#player.stop();
+    this.#showPlay();
+    this.#bar.classList.toggle("single", frames < 2);
+    this.#strip.setState(state);
+    const { play, speed, number, slider, total, stamp } = this.#controls;
+    for (const control of [play, speed, number.element, slider.element]) control.disabled = frames < 2;
+    play.disabled = frames < 2 && live === null;
+    setText(total, this.#text.of(first + frames));
+    number.element.style.width = `${String(first + frames).length + 2}ch`;
+    setText(stamp, state.stamp === null ? "" : `${state.stamp.toFixed(3)} s`);
+    this.#show();
+  }
 }

@@ -12,21 +12,83 @@ const THEMES = /** @type {const} */ (["auto", "light", "dark"]);
 /** @typedef {(typeof THEMES)[number]} Theme */
 
 /**
+ * The menu of what can be opened.
+ * @param {typeof import("../text/page.js").pageText} words
+ * @param {{onOpen: () => void, onRecording: (id: string) => void}} handlers
+ */
+function createRecordings(words, { onOpen, onRecording }) {
+  const text = words.top;
+  /** @type {RecordingEntry[]} */
+  let recordings = [];
+  /** @type {string | null} */
+  let current = null;
+  const menu = createMenu({ label: text.noRecording, name: text.recording, className: "recording", groups });
+
+  /** @param {RecordingEntry} entry */
+  function item({ id, label, missing }) {
+    return {
+      label,
+      note: missing ? text.missing : "",
+      current: id === current,
+      disabled: missing,
+      run: () => onRecording(id),
+    };
+  }
+
+  function groups() {
+    const names = [...new Set(recordings.map(({ group }) => group))];
+    const open = { label: text.openFile, note: text.openHint, run: onOpen };
+    return [
+      { title: "", items: [open] },
+      ...names.map((name) => ({
+        title: words.groups[name] ?? name,
+        items: recordings.filter(({ group }) => group === name).map(item),
+      })),
+    ];
+  }
+
+  return {
+    element: menu.element,
+    /** @param {RecordingEntry[]} next */
+    offer(next) {
+      recordings = next;
+    },
+    /** @param {string} recording @param {string} label */
+    set(recording, label) {
+      current = recording;
+      menu.setLabel(label);
+    },
+  };
+}
+
+/**
+ * The button that goes through the themes.
+ * @param {typeof import("../text/page.js").pageText.top} text
+ * @param {Theme} theme
+ * @param {(theme: Theme) => void} onTheme
+ */
+function createThemeButton(text, theme, onTheme) {
+  /** @type {Record<Theme, [import("../widgets/icon.js").IconName, string]>} */
+  const shown = { auto: ["auto", text.themeAuto], light: ["sun", text.themeLight], dark: ["moon", text.themeDark] };
+  const button = iconButton("auto", text.themeAuto, () => {
+    theme = THEMES[(THEMES.indexOf(theme) + 1) % THEMES.length];
+    button.show(...shown[theme]);
+    onTheme(theme);
+  });
+  button.show(...shown[theme]);
+  return button;
+}
+
+/**
  * @param {HTMLElement} bar
- * @param {typeof import("../text/en.js").text} words
+ * @param {typeof import("../text/page.js").pageText} words
  * @param {{exchange: HTMLElement, ab: HTMLElement, modes: HTMLElement, theme: Theme, onRecording: (id: string) => void, onOpen: () => void,
  *          onTopic: (topic: string) => void, onMethod: (method: string) => void, onLink: () => void,
  *          onTheme: (theme: Theme) => void, onHelp: () => void}} handlers
  */
 export function mountTopbar(bar, words, handlers) {
   const text = words.top;
-  /** @type {RecordingEntry[]} */
-  let recordings = [];
-  /** @type {string | null} */
-  let current = null;
-  let theme = handlers.theme;
-
-  const menu = createMenu({ label: text.noRecording, name: text.recording, className: "recording", groups });
+  const recordings = createRecordings(words, handlers);
   const topic = h("select", { class: "select", "aria-label": text.topic, hidden: true });
   topic.addEventListener("change", () => handlers.onTopic(topic.value));
   const method = h("select", { class: "select", "aria-label": text.method, hidden: true });
@@ -38,11 +100,6 @@ export function mountTopbar(bar, words, handlers) {
     h("span", { class: "label" }, text.copyLink),
   );
   tooltip(link, text.copyLink);
-  const themeButton = iconButton("auto", text.themeAuto, () => {
-    theme = THEMES[(THEMES.indexOf(theme) + 1) % THEMES.length];
-    showTheme();
-    handlers.onTheme(theme);
-  });
   const help = h(
     "button",
     { type: "button", class: "icon-button", "aria-label": text.help, title: text.help, onclick: handlers.onHelp },
@@ -50,7 +107,7 @@ export function mountTopbar(bar, words, handlers) {
   );
   bar.append(
     h("h1", { class: "app-name" }, words.appName),
-    menu.element,
+    recordings.element,
     topic,
     method,
     h("span", { class: "spacer" }),
@@ -59,42 +116,14 @@ export function mountTopbar(bar, words, handlers) {
     handlers.ab,
     link,
     handlers.exchange,
-    themeButton,
+    createThemeButton(text, handlers.theme, handlers.onTheme),
     help,
   );
-  showTheme();
-
-  function groups() {
-    const names = [...new Set(recordings.map(({ group }) => group))];
-    const open = { label: text.openFile, note: text.openHint, run: handlers.onOpen };
-    return [
-      { title: "", items: [open] },
-      ...names.map((group) => ({
-        title: words.groups[group] ?? group,
-        items: recordings
-          .filter((entry) => entry.group === group)
-          .map(({ id, label, missing }) => ({
-            label,
-            note: missing ? text.missing : "",
-            current: id === current,
-            disabled: missing,
-            run: () => handlers.onRecording(id),
-          })),
-      })),
-    ];
-  }
-
-  function showTheme() {
-    const shown = { auto: ["auto", text.themeAuto], light: ["sun", text.themeLight], dark: ["moon", text.themeDark] }[
-      theme
-    ];
-    themeButton.show(/** @type {import("../widgets/icon.js").IconName} */ (shown[0]), shown[1]);
-  }
 
   return {
     /** @param {RecordingEntry[]} next */
     setRecordings(next) {
-      recordings = next;
+      recordings.offer(next);
     },
     /** @param {Method[]} methods */
     setMethods(methods) {
@@ -110,8 +139,7 @@ export function mountTopbar(bar, words, handlers) {
     },
     /** @param {State} state */
     setState(state) {
-      current = state.recording;
-      menu.setLabel(state.label);
+      recordings.set(state.recording, state.label);
       const { topics } = state;
       topic.hidden = topics.length < 2;
       const key = topics.map(({ name }) => name).join("\n");

@@ -220,8 +220,8 @@ export function createDraw(stage, view, text, { onRecording, onSave }) {
     },
     undo,
     redo,
-    /** @param {string | null} recording of the View */
-    setRecording(recording) {
+    /** @param {Readonly<import("../wire.js").View>} view */
+    setView({ recording }) {
       const next = recording === null ? null : worldOf(recording);
       if (!next) {
         if (world) [world, past, future, before] = [null, [], [], null];

@@ -1,31 +1,41 @@
 // @ts-check
 // Where the frame of a failure pack came from, and what was said of it.
 import { h, setText } from "../widgets/dom.js";
+import { toast } from "../widgets/toast.js";
 import { tooltip } from "../widgets/tooltip.js";
 
 /** @typedef {import("../wire.js").State} State */
 /** @typedef {import("../wire.js").Pack} Pack */
 
 /**
+ * @param {import("../page.js").Page} page
  * @param {typeof import("../text/export.js").exportText.card} text
- * @param {(pack: Pack) => void} onTake
  */
-export function createPackCard(text, onTake) {
+export function createPackCard(page, text) {
   const from = h("span", { class: "muted pack-from" });
   const note = h("p", { class: "pack-note" });
-  const take = h("button", { type: "button", class: "button", onclick: () => pack && onTake(pack) }, text.take);
-  tooltip(take, text.takeHelp);
+  const button = h("button", { type: "button", class: "button", onclick: () => pack && take(pack) }, text.take);
+  tooltip(button, text.takeHelp);
   const element = h(
     "section",
     { class: "pack", "aria-label": text.label, hidden: true },
     h("div", { class: "pack-head" }, h("b", {}, text.label), from),
     note,
-    take,
+    button,
   );
   /** @type {Pack | null} */
   let pack = null;
+
+  /** The frame of a failure pack, as it was looked at. @param {Pack} pack */
+  function take({ method, params }) {
+    if (page.looksAt(method, params)) return;
+    page.change({ method, params });
+    toast(text.taken);
+  }
+
   return {
     element,
+    take,
     /** @param {State} state */
     setState(state) {
       pack = state.pack;
@@ -36,7 +46,7 @@ export function createPackCard(text, onTake) {
       from.title = from.textContent ?? "";
       setText(note, pack.note || text.noNote);
       note.classList.toggle("muted", !pack.note);
-      take.hidden =
+      button.hidden =
         method === state.method && Object.entries(params).every(([name, value]) => state.params[name] === value);
     },
   };

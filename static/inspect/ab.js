@@ -62,6 +62,10 @@ export function createAb(text, { onToggle, onSwap, onAdopt, onNext }) {
   );
   /** @type {Against | null} */
   let against = null;
+  /** @type {State | null} */
+  let drawn = null;
+  /** @type {Method[]} */
+  let methods = [];
   /** What the totals belong to. */
   let counted = "";
 
@@ -75,8 +79,13 @@ export function createAb(text, { onToggle, onSwap, onAdopt, onNext }) {
   return {
     button,
     element,
-    /** @param {State} state @param {Method[]} methods */
-    setState(state, methods) {
+    /** @param {Method[]} next */
+    setMethods(next) {
+      methods = next;
+    },
+    /** @param {State} state */
+    setState(state) {
+      drawn = state;
       against = state.against;
       button.setAttribute("aria-pressed", String(against !== null));
       element.hidden = against === null;
@@ -85,10 +94,10 @@ export function createAb(text, { onToggle, onSwap, onAdopt, onNext }) {
       fill(rows[0].cells, state.difference);
       if (counted !== keyOf(state, ...PARTS)) fill(rows[1].cells, null);
     },
-    /** @param {Survey} survey @param {State | null} state */
-    setSurvey(survey, state) {
-      if (!survey.totals || !against || !state) return;
-      counted = keyOf({ ...state, params: survey.params }, ...PARTS);
+    /** @param {Survey} survey */
+    setSurvey(survey) {
+      if (!survey.totals || !against || !drawn) return;
+      counted = keyOf({ ...drawn, params: survey.params }, ...PARTS);
       fill(rows[1].cells, survey.totals);
     },
   };

@@ -184,10 +184,10 @@ export function createFrames(text, { onFrame, onScore, number, value, words, pas
     get inView() {
       return /** @type {HTMLElement[]} */ ([...spacer.children]).map((row) => Number(row.dataset.frame));
     },
-    /** @param {number} next */
-    setFrame(next) {
-      if (next === frame) return;
-      frame = next;
+    /** @param {Readonly<import("../wire.js").View>} view */
+    setView(view) {
+      if (view.frame === frame) return;
+      frame = view.frame;
       paint();
     },
     /** The next or former frame of the list, its first to begin with. @param {1 | -1} by */

@@ -60,8 +60,8 @@ export function createWeights(text, onWeights) {
         }),
       );
     },
-    /** @param {Record<string, number>} weights */
-    set(weights) {
+    /** @param {import("../wire.js").State} state */
+    setState({ weights }) {
       for (const [name, { input, shown }] of inputs) {
         const value = String(weights[name] ?? 0);
         if (document.activeElement !== input) input.value = value;

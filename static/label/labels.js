@@ -247,8 +247,8 @@ export function createLabels(stage, view, text, { onFrame, number }) {
       draw(false);
       return true;
     },
-    /** The server is there again. */
-    retry: () => keep.retry(),
+    /** The server is there, perhaps again. */
+    setWelcome: () => keep.retry(),
     /** Tags of all frames. @param {string[]} names */
     suggest: (names) => tags.suggest(names),
     /** @param {State} next */

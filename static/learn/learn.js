@@ -27,7 +27,7 @@ import { compared, variables } from "./values.js";
 
 /**
  * @param {{stage: HTMLElement, view: PlanView, dock: HTMLElement, panel: HTMLElement}} places
- * @param {{tune: typeof import("../text/en.js").text.tune, learn: typeof import("../text/learn.js").learnText}} words
+ * @param {{tune: typeof import("../text/page.js").pageText.tune, learn: typeof import("../text/learn.js").learnText}} words
  * @param {{onStep: (step: number | null) => void, onChange: (patch: Patch, gesture?: string | null) => void,
  *          onDraw: () => void, settled: () => boolean, session: () => string}} handlers
  */
@@ -263,8 +263,8 @@ export function mountLearn(
       stepper.setStep(step);
       return show();
     },
-    /** @param {import("../wire.js").Method} method the chosen one @param {Knob[]} knobs of the method that the lessons are about */
-    setMethod(method, knobs) {
+    /** @param {import("../wire.js").Method} method the chosen one @param {import("../wire.js").Method[]} methods the lessons are about the first */
+    setMethod(method, [{ knobs }]) {
       own = method.knobs === knobs;
       listingPlace.hidden = formulas.element.hidden = !own;
       other.hidden = own;

@@ -35,7 +35,7 @@ const METHOD = "region-growing";
 const DONE_KEY = "lineseg.lessons";
 
 /**
- * @param {{tune: typeof import("../text/en.js").text.tune, learn: typeof import("../text/learn.js").learnText}} words
+ * @param {{tune: typeof import("../text/page.js").pageText.tune, learn: typeof import("../text/learn.js").learnText}} words
  * @param {{onChange: (patch: Patch, gesture?: string | null) => void, onGo: (step: number | null) => void, onDraw: () => void}} handlers
  */
 export function createLessons(words, { onChange, onGo, onDraw }) {

@@ -6,8 +6,50 @@ import { tooltip } from "../widgets/tooltip.js";
 /** @typedef {import("../wire.js").State} State */
 /** @typedef {import("../wire.js").LiveStatus} LiveStatus */
 
+/** @typedef {typeof import("../text/live.js").liveText} Text */
+
+/** How the source fares, for the status line. @param {Text} text */
+function createFigures(text) {
+  /** @type {LiveStatus | null} */
+  let status = null;
+  const dot = h("span", { class: "dot", "aria-hidden": "true" });
+  const words = h("span", { class: "live-words", role: "status" });
+  const rate = h("span", { class: "live-rate" });
+  const delay = h("span", { class: "live-delay" });
+  const dropped = h("span", { class: "live-dropped" });
+  const publishing = h("span", { class: "live-publishing" });
+  const figures = [dot, words, rate, delay, dropped, publishing];
+  const element = h("span", { class: "connection live-status", hidden: true }, ...figures);
+  const help = () => (status ? text.help(status.most, status.total, status.refused) : "");
+  tooltip(delay, text.delayHelp);
+  tooltip(dropped, help);
+  tooltip(rate, help);
+
+  return {
+    element,
+    /** @param {LiveStatus | null} of null: of no live source */
+    set(of) {
+      status = of;
+      element.hidden = of === null;
+      if (!of) return;
+      element.dataset.now = of.connection;
+      const well = of.connection === "open" && of.rate > 0;
+      setText(words, of.publishTrouble || of.message || (well ? "" : text.connection[of.connection]));
+      words.hidden = words.textContent === "";
+      setText(rate, of.rate > 0 ? text.rate(of.rate) : text.silent);
+      rate.hidden = of.connection !== "open";
+      delay.hidden = rate.hidden || of.delay === null || of.rate === 0;
+      setText(delay, of.delay === null ? "" : text.delay(of.delay));
+      setText(dropped, text.dropped(of.dropped));
+      dropped.hidden = of.dropped === 0;
+      publishing.hidden = of.publisher === "";
+      setText(publishing, text.publishing(of.publishTopic, of.published));
+    },
+  };
+}
+
 /**
- * @param {typeof import("../text/live.js").liveText} text
+ * @param {Text} text
  * @param {{onFollow: (live: boolean) => void}} handlers
  */
 export function createLive(text, { onFollow }) {
@@ -31,25 +73,7 @@ export function createLive(text, { onFollow }) {
     newer,
   );
   tooltip(button, () => (state?.live ? text.following : text.follow));
-  const dot = h("span", { class: "dot", "aria-hidden": "true" });
-  const words = h("span", { class: "live-words", role: "status" });
-  const rate = h("span", { class: "live-rate" });
-  const delay = h("span", { class: "live-delay" });
-  const dropped = h("span", { class: "live-dropped" });
-  const publishing = h("span", { class: "live-publishing" });
-  const element = h(
-    "span",
-    { class: "connection live-status", hidden: true },
-    dot,
-    words,
-    rate,
-    delay,
-    dropped,
-    publishing,
-  );
-  tooltip(delay, text.delayHelp);
-  tooltip(dropped, () => (status ? text.help(status.most, status.total, status.refused) : ""));
-  tooltip(rate, () => (status ? text.help(status.most, status.total, status.refused) : ""));
+  const figures = createFigures(text);
 
   function show() {
     const of = status && state && status.recording === state.recording ? status : null;
@@ -58,27 +82,14 @@ export function createLive(text, { onFollow }) {
     button.dataset.now = of?.connection ?? "open";
     const waiting = of && state && !state.live ? of.total - state.first - state.frames : 0;
     setText(newer, waiting > 0 ? text.newer(waiting) : "");
-    element.hidden = of === null;
-    if (!of) return;
-    element.dataset.now = of.connection;
-    const well = of.connection === "open" && of.rate > 0;
-    setText(words, of.publishTrouble || of.message || (well ? "" : text.connection[of.connection]));
-    words.hidden = words.textContent === "";
-    setText(rate, of.rate > 0 ? text.rate(of.rate) : text.silent);
-    rate.hidden = of.connection !== "open";
-    delay.hidden = rate.hidden || of.delay === null || of.rate === 0;
-    setText(delay, of.delay === null ? "" : text.delay(of.delay));
-    setText(dropped, text.dropped(of.dropped));
-    dropped.hidden = of.dropped === 0;
-    publishing.hidden = of.publisher === "";
-    setText(publishing, text.publishing(of.publishTopic, of.published));
+    figures.set(of);
   }
 
   return {
     /** For the timeline. */
     button,
     /** For the status line. */
-    element,
+    element: figures.element,
     get status() {
       return status;
     },
@@ -88,7 +99,7 @@ export function createLive(text, { onFollow }) {
       show();
     },
     /** @param {LiveStatus} next */
-    setStatus(next) {
+    setLive(next) {
       status = next;
       show();
     },

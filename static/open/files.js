@@ -79,20 +79,23 @@ export function chooseFile(onFiles) {
 /**
  * Sends a recording.
  * @param {File} file
- * @param {{onProgress: (done: number, total: number) => void, onDone: (recording: string) => void, onTrouble: (why: string) => void}} handlers
+ * @param {(done: number, total: number) => void} onProgress
+ * @param {AbortSignal} signal
  * @param {string} broken what to say if the connection breaks
- * @returns {() => void} cancels
+ * @returns {Promise<string>} its id; rejected with a sentence
  */
-export function upload(file, { onProgress, onDone, onTrouble }, broken) {
+export function upload(file, onProgress, signal, broken) {
   const request = new XMLHttpRequest();
   request.open("POST", `/api/upload?name=${encodeURIComponent(file.name)}`);
   request.setRequestHeader("Content-Type", "application/octet-stream");
   request.upload.onprogress = ({ loaded, total }) => onProgress(loaded, total);
-  request.onerror = () => onTrouble(broken);
-  request.onload = () => {
-    if (request.status === 200) onDone(JSON.parse(request.responseText).recording);
-    else onTrouble(messageOf(request.responseText));
-  };
-  request.send(file);
-  return () => request.abort();
+  signal.addEventListener("abort", () => request.abort());
+  return new Promise((resolve, reject) => {
+    request.onerror = request.onabort = () => reject(new Error(broken));
+    request.onload = () => {
+      if (request.status === 200) resolve(JSON.parse(request.responseText).recording);
+      else reject(new Error(messageOf(request.responseText)));
+    };
+    request.send(file);
+  });
 }

@@ -6,159 +6,158 @@ import { iconButton } from "../widgets/icon.js";
 import { addressOf, record } from "./run.js";
 
 /** @typedef {import("../wire.js").State} State */
+/** @typedef {typeof import("../text/rerun.js").rerunText} Text */
 /** @typedef {{setFrame: (frame: number) => Promise<void>}} Viewer */
+/** @typedef {{session: () => string, dark: () => boolean, onFrame: (frame: number) => void, cancelLabel: string}} Handlers */
 
 const PARTS = /** @type {const} */ (["recording", "topic", "method", "params"]);
 
-/**
- * @param {HTMLElement} stage
- * @param {typeof import("../text/rerun.js").rerunText} text
- * @param {{session: () => string, dark: () => boolean, onFrame: (frame: number) => void, cancelLabel: string}} handlers
- */
-export function mountRerun(stage, text, { session, dark, onFrame, cancelLabel }) {
+export class RerunTab {
   /** @type {State | null} */
-  let state = null;
+  #state = null;
   /** What the recording shows, and its id. */
-  let recorded = { key: "", id: "" };
+  #recorded = { key: "", id: "" };
   /** @type {AbortController | null} */
-  let work = null;
+  #work = null;
   /** @type {Viewer | null} */
-  let viewer = null;
+  #viewer = null;
   /** Where the cursor is, and where it was last sent. */
-  let cursor = -1;
-  let asked = -1;
+  #cursor = -1;
+  #asked = -1;
   /** Counts the frames of the page that were opened, so that a viewer that comes too late is not taken. */
-  let generation = 0;
+  #generation = 0;
+  #text;
+  #handlers;
+  #words = h("span", { class: "rerun-words", role: "status" });
+  #bar = h("progress", { class: "progress rerun-progress", max: 1, hidden: true });
+  #place = h("div", { class: "rerun-place" });
+  #cancel;
+  #again;
+  #save;
+  #box;
 
-  const words = h("span", { class: "rerun-words", role: "status" });
-  const bar = h("progress", { class: "progress rerun-progress", max: 1, hidden: true });
-  const cancel = h(
-    "button",
-    { type: "button", class: "button", hidden: true, onclick: () => work?.abort() },
-    cancelLabel,
-  );
-  const again = h(
-    "button",
-    { type: "button", class: "button primary", hidden: true, onclick: () => show() },
-    text.again,
-  );
-  const save = h("a", { class: "button", download: "", hidden: true }, text.download);
-  const head = h(
-    "div",
-    { class: "rerun-head" },
-    words,
-    bar,
-    cancel,
-    again,
-    save,
-    iconButton("close", text.close, close),
-  );
-  const place = h("div", { class: "rerun-place" });
-  const box = h("section", { class: "rerun", "aria-label": text.viewer, hidden: true }, head, place);
-  stage.append(box);
-  const button = h(
-    "button",
-    {
-      type: "button",
-      class: "mode",
-      "aria-pressed": "false",
-      title: text.tabHelp,
-      onclick: () => (box.hidden ? open() : close()),
-    },
-    text.tab,
-  );
-
-  function open() {
-    box.hidden = false;
-    button.setAttribute("aria-pressed", "true");
-    if (!state) return;
-    if (recorded.key !== keyOf(state, ...PARTS)) show();
-    else follow();
+  /** @param {HTMLElement} stage @param {Text} text @param {Handlers} handlers */
+  constructor(stage, text, handlers) {
+    this.#text = text;
+    this.#handlers = handlers;
+    const cancelled = () => this.#work?.abort();
+    const { cancelLabel } = handlers;
+    this.#cancel = h("button", { type: "button", class: "button", hidden: true, onclick: cancelled }, cancelLabel);
+    const repeat = { type: "button", class: "button primary", hidden: true, onclick: () => this.#show() };
+    this.#again = h("button", repeat, text.again);
+    this.#save = h("a", { class: "button", download: "", hidden: true }, text.download);
+    const close = iconButton("close", text.close, () => this.#close());
+    const head = [this.#words, this.#bar, this.#cancel, this.#again, this.#save, close];
+    this.#box = h(
+      "section",
+      { class: "rerun", "aria-label": text.viewer, hidden: true },
+      h("div", { class: "rerun-head" }, ...head),
+      this.#place,
+    );
+    stage.append(this.#box);
+    const toggle = () => (this.#box.hidden ? this.#open() : this.#close());
+    const tab = { type: "button", class: "mode", "aria-pressed": "false", title: text.tabHelp, onclick: toggle };
+    this.button = h("button", tab, text.tab);
   }
 
-  function close() {
-    work?.abort();
-    box.hidden = true;
-    button.setAttribute("aria-pressed", "false");
+  #open() {
+    this.#box.hidden = false;
+    this.button.setAttribute("aria-pressed", "true");
+    if (!this.#state) return;
+    if (this.#recorded.key !== keyOf(this.#state, ...PARTS)) this.#show();
+    else this.#follow();
   }
 
-  async function show() {
-    if (!state) return;
-    work?.abort();
-    const mine = (work = new AbortController());
-    const { label } = state;
-    const key = keyOf(state, ...PARTS);
-    again.hidden = save.hidden = true;
-    cancel.hidden = bar.hidden = false;
-    setText(words, text.recording(label));
+  #close() {
+    this.#work?.abort();
+    this.#box.hidden = true;
+    this.button.setAttribute("aria-pressed", "false");
+  }
+
+  async #show() {
+    if (!this.#state) return;
+    this.#work?.abort();
+    const mine = new AbortController();
+    this.#work = mine;
+    const { label } = this.#state;
+    const key = keyOf(this.#state, ...PARTS);
+    this.#again.hidden = this.#save.hidden = true;
+    this.#cancel.hidden = this.#bar.hidden = false;
+    setText(this.#words, this.#text.recording(label));
     try {
-      const { recording } = await record(session(), false, (done, total) => (bar.value = done / total), mine.signal);
-      recorded = { key, id: recording };
-      save.href = addressOf(recording, label);
-      save.hidden = false;
-      await start();
+      const show = (/** @type {number} */ done, /** @type {number} */ total) => {
+        this.#bar.value = done / total;
+      };
+      const { recording } = await record(this.#handlers.session(), false, show, mine.signal);
+      this.#recorded = { key, id: recording };
+      this.#save.href = addressOf(recording, label);
+      this.#save.hidden = false;
+      await this.#start();
     } catch (error) {
-      if (work !== mine) return;
-      setText(words, mine.signal.aborted ? text.cancelled : String(error instanceof Error ? error.message : error));
-      again.hidden = false;
+      if (this.#work !== mine) return;
+      const why = String(error instanceof Error ? error.message : error);
+      setText(this.#words, mine.signal.aborted ? this.#text.cancelled : why);
+      this.#again.hidden = false;
     }
-    if (work !== mine) return;
-    work = null;
-    cancel.hidden = bar.hidden = true;
+    if (this.#work !== mine) return;
+    this.#work = null;
+    this.#cancel.hidden = this.#bar.hidden = true;
   }
 
   /** A new frame with a new viewer: one that has run keeps what it had loaded. */
-  async function start() {
-    setText(words, text.starting);
-    viewer = null;
-    cursor = asked = -1;
-    const mine = ++generation;
-    const frame = h("iframe", { class: "rerun-frame", title: text.viewer, allow: "", src: "/rerun/" });
-    place.replaceChildren(frame);
+  async #start() {
+    setText(this.#words, this.#text.starting);
+    this.#viewer = null;
+    this.#cursor = this.#asked = -1;
+    const mine = ++this.#generation;
+    const frame = h("iframe", { class: "rerun-frame", title: this.#text.viewer, allow: "", src: "/rerun/" });
+    this.#place.replaceChildren(frame);
     await new Promise((resolve) => frame.addEventListener("load", resolve, { once: true }));
     const inner = /** @type {any} */ (frame.contentWindow).rerunViewer;
-    if (!inner?.canDraw()) return setText(words, text.noDrawing);
+    if (!inner?.canDraw()) return setText(this.#words, this.#text.noDrawing);
     try {
-      const started = await inner.start(addressOf(recorded.id), dark(), moved);
-      if (mine !== generation) return;
-      viewer = started;
-      setText(words, text.follows);
-      follow();
+      const moved = (/** @type {number} */ to) => this.#moved(to);
+      const started = await inner.start(addressOf(this.#recorded.id), this.#handlers.dark(), moved);
+      if (mine !== this.#generation) return;
+      this.#viewer = started;
+      setText(this.#words, this.#text.follows);
+      this.#follow();
     } catch (error) {
-      setText(words, text.crashed(String(error)));
+      setText(this.#words, this.#text.crashed(String(error)));
     }
   }
 
   /** @param {number} frame */
-  function moved(frame) {
-    cursor = asked = frame;
-    if (viewer && !box.hidden && state && frame !== state.frame) onFrame(frame);
+  #moved(frame) {
+    this.#cursor = this.#asked = frame;
+    if (this.#viewer && !this.#box.hidden && this.#state && frame !== this.#state.frame) this.#handlers.onFrame(frame);
   }
 
-  function follow() {
-    if (!viewer || box.hidden || !state || asked === state.frame) return;
-    const frame = (asked = state.frame);
-    viewer.setFrame(frame).then(
-      () => (cursor = frame),
-      (error) => setText(words, text.crashed(String(error))),
+  #follow() {
+    if (!this.#viewer || this.#box.hidden || !this.#state || this.#asked === this.#state.frame) return;
+    const { frame } = this.#state;
+    this.#asked = frame;
+    this.#viewer.setFrame(frame).then(
+      () => {
+        this.#cursor = frame;
+      },
+      (error) => setText(this.#words, this.#text.crashed(String(error))),
     );
   }
 
-  return {
-    button,
-    /** @param {State} next */
-    setState(next) {
-      state = next;
-      const stale = recorded.id !== "" && recorded.key !== keyOf(next, ...PARTS);
-      if (!work && recorded.id) {
-        again.hidden = !stale;
-        if (viewer) setText(words, stale ? text.stale : text.follows);
-      }
-      if (!stale) follow();
-    },
-    /** For scripts and tests. */
-    get cursor() {
-      return viewer ? cursor : null;
-    },
-  };
+  /** @param {State} next */
+  setState(next) {
+    this.#state = next;
+    const stale = this.#recorded.id !== "" && this.#recorded.key !== keyOf(next, ...PARTS);
+    if (!this.#work && this.#recorded.id) {
+      this.#again.hidden = !stale;
+      if (this.#viewer) setText(this.#words, stale ? this.#text.stale : this.#text.follows);
+    }
+    if (!stale) this.#follow();
+  }
+
+  /** For scripts and tests. */
+  get cursor() {
+    return this.#viewer ? this.#cursor : null;
+  }
 }

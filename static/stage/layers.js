@@ -6,7 +6,7 @@ import { popUnder } from "../widgets/menu.js";
 import { tooltip } from "../widgets/tooltip.js";
 
 /**
- * @param {typeof import("../text/en.js").text} words
+ * @param {typeof import("../text/page.js").pageText} words
  * @param {(layers: Record<string, boolean>) => void} onLayers
  */
 export function createLayers(words, onLayers) {
@@ -37,12 +37,12 @@ export function createLayers(words, onLayers) {
   return {
     button,
     list,
-    /** Offers the true walls only where they are known. @param {boolean} known */
-    setTruth(known) {
-      rows[names.indexOf("truth")].hidden = !known;
+    /** Offers the true walls only where they are known. @param {import("../wire.js").State} state */
+    setState({ truth }) {
+      rows[names.indexOf("truth")].hidden = !truth;
     },
-    /** @param {Record<string, boolean>} layers */
-    set(layers) {
+    /** @param {Readonly<import("../wire.js").View>} view */
+    setView({ layers }) {
       for (const [name, box] of boxes) box.checked = layers[name] ?? false;
     },
   };

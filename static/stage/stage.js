@@ -23,7 +23,7 @@ const OVERRULED = `
 
 /**
  * @param {HTMLElement} stage
- * @param {typeof import("../text/en.js").text.stage} text
+ * @param {typeof import("../text/page.js").pageText.stage} text
  * @param {{onKey: (event: KeyboardEvent) => boolean, onFrame: (frame: Window) => void}} handlers
  *   onKey: a key pressed in the scene, true if the page took it; onFrame: a scene was loaded
  */

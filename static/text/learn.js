@@ -1,5 +1,5 @@
 // @ts-check
-// The words of mode Learn. Another language is another file with the same keys.
+// Words of the mode Learn.
 
 /** @typedef {import("../learn/trace.js").Event} Event */
 

@@ -8,7 +8,7 @@ import { createMenu } from "../widgets/menu.js";
 /** @typedef {import("../wire.js").Params} Params */
 
 /**
- * @param {typeof import("../text/en.js").text} words
+ * @param {typeof import("../text/page.js").pageText} words
  * @param {{params: () => Params, method: () => import("../wire.js").Method, onImport: (file: string) => Promise<string | null>,
  *          first: () => import("../widgets/menu.js").Group[], more: () => import("../widgets/menu.js").Group[]}} handlers
  *   onImport: applies the text of a parameter file, or says why not; first, more: what the menu holds before and after

@@ -12,10 +12,12 @@ import { symbol } from "./sliders.js";
 
 /**
  * The card that says why the selected point is, or is not, in a line.
- * @param {typeof import("../text/en.js").text.explanation} text
+ * @param {typeof import("../text/page.js").pageText.explanation} text
+ * @param {{project: (x: number, y: number) => [number, number] | null, onMove: (listener: () => void) => void}} stage
+ *   project: where a point is on the stage [px]
  * @param {{onClose: () => void, onChange: (name: string, value: number) => void}} handlers
  */
-export function createExplanation(text, { onClose, onChange }) {
+export function createExplanation(text, stage, { onClose, onChange }) {
   const beam = h("span", { class: "phase" });
   const sentence = h("p", { class: "decision" });
   const versus = createVersus();
@@ -34,19 +36,37 @@ export function createExplanation(text, { onClose, onChange }) {
   /** @type {Explanation | null} */
   let shown = null;
   let placed = false;
+  /** @type {import("../wire.js").Method[]} */
+  let methods = [];
+  /** Of the method. @type {Knob[]} */
+  let knobs = [];
+  stage.onMove(place);
 
   /** Whether the card, at its usual place, would hide what is there. @param {number} left @param {number} top */
   function isUnder(left, top) {
-    const stage = element.offsetParent;
-    if (!stage) return false;
-    const beside = Math.abs(left - stage.clientWidth / 2) > element.offsetWidth / 2;
-    return !beside && top > stage.clientHeight - element.offsetHeight - 48;
+    const holder = element.offsetParent;
+    if (!holder) return false;
+    const beside = Math.abs(left - holder.clientWidth / 2) > element.offsetWidth / 2;
+    return !beside && top > holder.clientHeight - element.offsetHeight - 48;
+  }
+
+  /** Puts the card where it does not hide its point; where it is, it stays until another point is explained. */
+  function place() {
+    const spot = shown?.at && !placed ? stage.project(...shown.at) : null;
+    if (!spot) return;
+    placed = true;
+    element.classList.toggle("out-of-the-way", isUnder(...spot));
   }
 
   return {
     element,
-    /** @param {Explanation | null} explanation @param {Knob[]} knobs */
-    set(explanation, knobs) {
+    /** @param {import("../wire.js").Method[]} next */
+    setMethods(next) {
+      methods = next;
+    },
+    /** @param {import("../wire.js").State} state */
+    setState({ explanation, method }) {
+      knobs = (methods.find(({ name }) => name === method) ?? methods[0]).knobs;
       element.hidden = !explanation;
       if (explanation?.beam !== shown?.beam) placed = false;
       shown = explanation;
@@ -54,19 +74,10 @@ export function createExplanation(text, { onClose, onChange }) {
       setText(beam, text.beam(explanation.beam));
       setText(sentence, explanation.text);
       versus.set(comparison(explanation, knobs));
+      place();
     },
-    /**
-     * Puts the card where it does not hide its point; where it is, it stays until another point is explained.
-     * @param {(x: number, y: number) => [number, number] | null} project where a point is on the stage [px]
-     */
-    place(project) {
-      const spot = shown?.at && !placed ? project(...shown.at) : null;
-      if (!spot) return;
-      placed = true;
-      element.classList.toggle("out-of-the-way", isUnder(...spot));
-    },
-    /** What would change the answer, as buttons that do it. @param {import("../wire.js").WhatIf[]} found @param {Knob[]} knobs */
-    setChanges(found, knobs) {
+    /** What would change the answer, as buttons that do it. @param {import("../wire.js").WhatIf[]} found */
+    setChanges(found) {
       const buttons = found.flatMap(({ name, value, text: why }) => {
         const knob = knobs.find((each) => each.name === name);
         if (!knob || value === null) return [];

@@ -7,7 +7,7 @@ import { h, setText } from "../widgets/dom.js";
 
 /**
  * The segments of the frame and the candidates that were dropped, each a way to ask why.
- * @param {typeof import("../text/en.js").text.lines} text
+ * @param {typeof import("../text/page.js").pageText.lines} text
  * @param {(beam: number) => void} onSelect
  */
 export function createLines(text, onSelect) {

@@ -18,7 +18,7 @@ import { createSwitch } from "./switch.js";
 
 /**
  * @param {HTMLElement} panel
- * @param {typeof import("../text/en.js").text} text
+ * @param {typeof import("../text/page.js").pageText} text
  * @param {{onParams: (params: Params, gesture: string | null) => void, onSelect: (beam: number) => void,
  *          onUndo: () => void, onRedo: () => void}} handlers
  * @param {{name: string, label: string, content: HTMLElement}[]} inspecting further pages, first in the mode Inspect
@@ -124,8 +124,8 @@ export function mountPanel(panel, text, { onParams, onSelect, onUndo, onRedo }, 
       // They are the authors' and set ε for lasers; others' thresholds are other numbers.
       presets.element.hidden = !["epsilon", "delta"].every((name) => next.some((knob) => knob.name === name));
     },
-    /** @param {Params} params of the View @param {boolean} canUndo @param {boolean} canRedo */
-    setParams(params, canUndo, canRedo) {
+    /** @param {Readonly<import("../wire.js").View>} view @param {import("../parts.js").Change} change */
+    setView({ params, mode }, { canUndo, canRedo }) {
       for (const [name, value] of Object.entries(params)) thresholds.get(name)?.set(value);
       const changed = knobs.some((knob) => knob.extension && params[knob.name] !== knob.default);
       extensions.classList.toggle("changed", changed);
@@ -133,13 +133,12 @@ export function mountPanel(panel, text, { onParams, onSelect, onUndo, onRedo }, 
       redo.disabled = !canRedo;
       resetAll.disabled = knobs.every((knob) => params[knob.name] === knob.default);
       message.hidden = true;
+      tabs.setMode(mode);
     },
     /** The row of a threshold, for what else stands there. @param {string} name */
     row: (name) => thresholds.get(name)?.element ?? null,
     /** Shows one of the pages. @param {string} name */
     open: (name) => tabs.open(name),
-    /** @param {string} mode of the page */
-    setMode: (mode) => tabs.setMode(mode),
     /** @param {State} state */
     setState(state) {
       for (const [name, threshold] of thresholds) threshold.setHistogram(state.histograms?.[name]);

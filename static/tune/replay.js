@@ -20,7 +20,7 @@ const USUAL_SPEED = 5;
 
 /**
  * @param {HTMLElement} dock
- * @param {typeof import("../text/en.js").text} words
+ * @param {typeof import("../text/page.js").pageText} words
  * @param {{onStep: (step: number | null) => void, settled: () => boolean}} handlers
  */
 export function mountReplay(dock, words, { onStep, settled }) {
@@ -155,8 +155,9 @@ export function mountReplay(dock, words, { onStep, settled }) {
       knobs = method.knobs;
       setText(/** @type {Element} */ (jumps.firstElementChild), text.next(method.begins));
     },
-    /** @param {number | null} next step of the View */
-    setStep(next) {
+    /** @param {Readonly<import("../wire.js").View>} view */
+    setView(view) {
+      const next = view.mode === "learn" ? null : view.step;
       if (next === null) player.stop();
       step = next;
       show();

@@ -8,7 +8,7 @@ import { hideTooltip, tooltip } from "../widgets/tooltip.js";
 
 /** @typedef {import("../wire.js").Knob} Knob */
 /** @typedef {import("../wire.js").Histogram} Histogram */
-/** @typedef {typeof import("../text/en.js").text.tune} Text */
+/** @typedef {typeof import("../text/page.js").pageText.tune} Text */
 
 const WITH_HISTOGRAM = new Set(["epsilon", "delta", "min_points", "min_length"]);
 const PAGE = 10;

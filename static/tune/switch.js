@@ -9,7 +9,7 @@ import { symbol } from "./sliders.js";
 /**
  * The same as createThreshold, as a checkbox.
  * @param {Knob} knob
- * @param {typeof import("../text/en.js").text.tune} text
+ * @param {typeof import("../text/page.js").pageText.tune} text
  * @param {(name: string, value: number) => void} onChange 1 for on, 0 for off
  */
 export function createSwitch(knob, text, onChange) {

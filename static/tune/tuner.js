@@ -16,9 +16,9 @@ const METHOD = "region-growing";
 
 /**
  * @param {typeof import("../text/tuning.js").tuningText} text
- * @param {{session: () => string | null, onParams: (params: Params) => void}} handlers
+ * @param {{session: () => string | null, onParams: (params: Params) => void, row: (name: string) => HTMLElement | null}} handlers row: of a threshold's slider
  */
-export function createTuner(text, { session, onParams }) {
+export function createTuner(text, { session, onParams, row }) {
   const address = () => {
     const id = session();
     return (
@@ -76,18 +76,18 @@ export function createTuner(text, { session, onParams }) {
     ],
     /** Shows the table of a sweep in the map. @param {File} file */
     openSweep: (file) => map.open(file),
-    /** @param {Method} method @param {(name: string) => HTMLElement | null} holder of a threshold's slider */
-    setMethod({ name, knobs }, holder) {
+    /** @param {Method} method */
+    setMethod({ name, knobs }) {
       able = name === METHOD;
       sensitivity.legend.hidden = !able;
-      sensitivity.setKnobs(able ? knobs : [], holder);
+      sensitivity.setKnobs(able ? knobs : [], row);
       asked = "";
       if (!able) return;
       map.setKnobs(knobs);
       auto.setKnobs(knobs);
     },
-    /** @param {Params} next of the View */
-    setParams: (next) => able && sensitivity.setParams(next),
+    /** @param {Readonly<import("../wire.js").View>} view */
+    setView: (view) => able && sensitivity.setParams(view.params),
     /** @param {State} state */
     setState(state) {
       if (!able || state.method !== METHOD) return;

@@ -14,7 +14,7 @@ export function presenterIn(hash) {
 }
 
 /**
- * @param {typeof import("../text/en.js").text.follow} text
+ * @param {typeof import("../text/page.js").pageText.follow} text
  * @param {{presenter: string | null, onFollow: (presenter: string | null) => void}} handlers onFollow: null to stop
  */
 export function createFollow(text, { presenter, onFollow }) {
@@ -62,8 +62,8 @@ export function createFollow(text, { presenter, onFollow }) {
         });
       return allowed;
     },
-    /** @param {Presence | null} next */
-    setPresence(next) {
+    /** @param {{following: Presence | null}} state */
+    setState({ following: next }) {
       if (next === null && presence !== "gone") return;
       presence = next ?? presence;
       if (presence === "gone") active = false;

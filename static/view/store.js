@@ -302,3 +302,40 @@ function parseLayers(value) {
     .map((word) => /** @type {const} */ ([word.replace(/^-/, ""), !word.startsWith("-")]));
   return Object.fromEntries(entries.filter(([name]) => name in LAYERS));
 }
+
+/** What a drawn state says of the View. @param {import("../wire.js").State} state */
+export function viewOf(state) {
+  const {
+    mode,
+    recording,
+    topics,
+    frame,
+    method,
+    params,
+    step,
+    layers: shown,
+    selected,
+    camera,
+    score,
+    against,
+    reference,
+  } = state;
+  const topic = topics.length > 1 ? state.topic : null;
+  const following = state.live ?? true;
+  return {
+    mode,
+    recording,
+    topic,
+    frame,
+    method,
+    params,
+    step,
+    layers: shown,
+    selected,
+    camera,
+    score,
+    against,
+    reference,
+    live: following,
+  };
+}

@@ -1,7 +1,7 @@
 // @ts-check
-// Every word of the page. Another language is another file with the same keys.
+// Words of what all modes have: bars, stage, thresholds, replay, help.
 
-export const text = {
+export const pageText = {
   appName: "lineseg",
   top: {
     recording: "Recording",

@@ -1,0 +1,163 @@
+// @ts-check
+// What is known of the frames by their scores: the newest survey, and what follows from it.
+import { clamp } from "../widgets/scale.js";
+
+/** @typedef {import("../wire.js").State} State */
+/** @typedef {import("../wire.js").Score} Score */
+/** @typedef {import("../wire.js").Survey} Survey */
+
+export class ScoredFrames {
+  /** @type {Score[]} */
+  scores = [];
+  /** @type {Survey | null} */
+  survey = null;
+  /** @type {State | null} */
+  #state = null;
+  #score = "";
+  /** Frames from the most doubtful to the least, once asked for. @type {Uint32Array | null} */
+  #ranking = null;
+  #rank = -1;
+
+  /** The name of the chosen one. */
+  get score() {
+    return this.#score;
+  }
+  set score(name) {
+    this.#score = name;
+    this.#forgetRanking();
+  }
+
+  get chosen() {
+    return this.scores.find(({ name }) => name === this.#score);
+  }
+
+  get complete() {
+    return this.survey !== null && this.survey.message === null && this.survey.stride === 1;
+  }
+
+  /** Whether the chosen score is still to come, because it takes many surveys. */
+  get due() {
+    return this.complete && !this.values.length && this.#score !== "difference";
+  }
+
+  /** Whether nothing is pinned that the frames could differ from. */
+  get lacksPinned() {
+    return !this.values.length && this.complete && !this.#state?.against;
+  }
+
+  /** The values that are known of the chosen score; none if there is no survey. */
+  get values() {
+    const at = this.scores.findIndex(({ name }) => name === this.#score);
+    if (!this.survey || this.survey.message !== null || at < 0) return new Float32Array(0);
+    return columnOf(this.survey, at);
+  }
+
+  /** Whether the values belong to other thresholds than what is drawn, or to some of the frames only. */
+  get stale() {
+    const [survey, state] = [this.survey, this.#state];
+    if (!survey || !state) return false;
+    return survey.stride !== 1 || !samePlace(survey, state) || !sameParams(survey.params, state.params);
+  }
+
+  /** What a frame is called: of a live recording the oldest are gone. @param {number} frame */
+  number = (frame) => (this.survey?.first ?? 0) + frame + 1;
+
+  /** @param {number} frame "coverage 0.83" */
+  words = (frame) => {
+    const value = this.survey && frame % this.survey.stride === 0 ? this.values[frame / this.survey.stride] : undefined;
+    return value === undefined || !this.chosen ? "" : `${this.chosen.label} ${format(value, this.chosen.unit)}`;
+  };
+
+  /** All scores of a frame, "coverage 0.83 · segments 7". @param {number} frame */
+  summary = (frame) => {
+    const survey = this.survey;
+    if (!survey || !this.complete) return "";
+    const said = this.scores.map((what, k) => ({ what, value: columnOf(survey, k)[frame] }));
+    return said
+      .filter(({ what, value }) => value !== undefined && what.name !== this.#score)
+      .map(({ what, value }) => `${what.label} ${format(value, what.unit)}`)
+      .join(" · ");
+  };
+
+  /** @param {Survey} next @returns {boolean} false if it is of another recording than what is drawn */
+  take(next) {
+    if (this.#state && !samePlace(next, this.#state)) return false;
+    this.survey = next;
+    this.#forgetRanking();
+    return true;
+  }
+
+  /** @param {State} next @returns {boolean} whether the survey was of another recording, and is gone */
+  draw(next) {
+    this.#state = next;
+    if (!this.survey || samePlace(this.survey, next)) return false;
+    this.survey = null;
+    return true;
+  }
+
+  /** The next (1) or former (−1) in the order of doubt, the worst to begin with; null if it is not known yet. @param {number} frame @param {1 | -1} by */
+  doubtful(frame, by) {
+    const known = this.values;
+    if (!this.survey || this.survey.stride > 1 || !known.length) return null;
+    const sign = this.chosen?.worse === "lower" ? 1 : -1;
+    this.#ranking ??= Uint32Array.from(known.keys()).sort(
+      (one, other) => sign * (known[one] - known[other]) || one - other,
+    );
+    this.#rank = this.#ranking[this.#rank] === frame ? clamp(this.#rank + by, 0, known.length - 1) : 0;
+    return this.#ranking[this.#rank];
+  }
+
+  /** The next frame, after the last the first, in which A and B differ; null if there is none. @param {number} frame */
+  different(frame) {
+    const at = this.scores.findIndex(({ name }) => name === "difference");
+    const known = this.survey && this.complete ? columnOf(this.survey, at) : [];
+    for (let k = 1; k <= known.length; k++) {
+      const next = (frame + k) % known.length;
+      if (known[next] > 0) return next;
+    }
+    return null;
+  }
+
+  /** For the list of frames, scripts and tests. */
+  get current() {
+    if (!this.survey) return null;
+    const { recording, params, stride, message } = this.survey;
+    const complete = this.complete && !this.due;
+    return Object.freeze({
+      score: this.#score,
+      values: this.values.slice(),
+      recording,
+      params,
+      stride,
+      message,
+      complete,
+    });
+  }
+
+  #forgetRanking() {
+    [this.#ranking, this.#rank] = [null, -1];
+  }
+}
+
+/** The values of the score at a place in the list, of every stride-th frame; none if it was not told. @param {Survey} survey @param {number} at */
+function columnOf({ frames, stride, values }, at) {
+  const known = Math.ceil(frames / stride);
+  const column = values.subarray(at * known, (at + 1) * known);
+  return Number.isNaN(column[0]) ? column.subarray(0, 0) : column;
+}
+
+/** @param {Survey} survey @param {State} state */
+function samePlace(survey, state) {
+  return survey.recording === state.recording && survey.topic === (state.topic ?? "");
+}
+
+/** @param {import("../wire.js").Params} one @param {import("../wire.js").Params} other */
+function sameParams(one, other) {
+  return Object.entries(one).every(([name, value]) => other[name] === value);
+}
+
+/** @param {number} value @param {string} unit */
+export function format(value, unit) {
+  const digits = Number.isInteger(value) ? 0 : Math.abs(value) >= 10 ? 1 : unit && Math.abs(value) < 0.1 ? 3 : 2;
+  return unit ? `${value.toFixed(digits)} ${unit}` : value.toFixed(digits);
+}

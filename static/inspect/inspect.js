@@ -1,0 +1,93 @@
+// @ts-check
+// Mode Inspect: frames by how doubtful they are, what is wrong in them, and the comparison of two results.
+import { toast } from "../widgets/toast.js";
+import { createAb } from "./ab.js";
+import { createFilter } from "./filter.js";
+import { createFrames } from "./frames.js";
+import { createTruth } from "./truth.js";
+import { createWeights } from "./weights.js";
+import { createWords } from "./words.js";
+
+/**
+ * @param {import("../page.js").Page} page
+ * @param {typeof import("../text/inspect.js").inspectText} text
+ * @param {{timeline: () => import("../bars/timeline.js").Timeline, onTags: (tags: string[]) => void}} handlers
+ *   onTags: all that there are
+ */
+export function createInspect(page, text, { timeline, onTags }) {
+  const inspecting = () => page.view.mode === "inspect";
+  const weights = createWeights(text.weights, (changed) =>
+    page.change({ weights: { ...page.view.weights, ...changed } }),
+  );
+  const words = createWords({
+    session: page.sessionId,
+    wanted: () => [...frames.inView, ...filter.unknown()],
+    onWords: () => (filter.searching ? listFrames() : frames.paint()),
+  });
+  const filter = createFilter(text.filter, { words: words.of, onChange: listFrames, onTags });
+  const frames = createFrames(text.frames, {
+    onFrame: page.goToFrame,
+    onScore: (score) => page.change({ score }),
+    number: (frame) => timeline().scored.number(frame),
+    value: (frame) => timeline().scored.words(frame),
+    words: said,
+    passes: filter.passes,
+    filter: filter.element,
+    onRows: () => inspecting() && words.need(),
+    extra: weights.element,
+  });
+  const ab = createAb(text.ab, {
+    onToggle: togglePin,
+    onSwap: () => page.view.against && page.change({ ...page.view.against, against: present(), step: null }),
+    onAdopt: () => page.view.against && page.change({ ...page.view.against, against: null, step: null }),
+    onNext: nextDifference,
+  });
+  const truth = createTruth(text.truth, {
+    session: page.sessionId,
+    onShow: (verdicts) => page.change({ layers: { verdicts } }),
+    onReference: (reference) => page.change({ reference }),
+  });
+
+  /** What people and the server say of a frame. @param {number} frame */
+  function said(frame) {
+    const wrong = words.of(frame);
+    const looks = wrong?.join(" · ") || (wrong ? text.nothingWrong : timeline().scored.summary(frame));
+    return [filter.line(frame), looks].filter(Boolean).join(" · ");
+  }
+
+  function listFrames() {
+    frames.sort();
+    filter.tell();
+    if (inspecting()) words.need();
+  }
+
+  /** What B is, as A would be pinned. */
+  function present() {
+    return { method: page.view.method, params: page.view.params };
+  }
+
+  function togglePin() {
+    page.change({ against: page.view.against ? null : present() });
+  }
+
+  function nextDifference() {
+    if (!page.view.against) return;
+    const next = timeline().different();
+    if (next === null) toast(text.ab.nowhere);
+    else page.goToFrame(next);
+  }
+
+  return {
+    parts: [ab, frames, truth, words, filter, weights],
+    pages: {
+      frames: { name: "frames", label: text.tabs.frames, content: frames.element },
+      truth: { name: "truth", label: text.tabs.truth, content: truth.element },
+    },
+    ab,
+    frames,
+    togglePin,
+    nextDifference,
+    /** The strip shows other values, or the mode was entered. */
+    showScored: () => inspecting() && frames.setScored(timeline().scored.current),
+  };
+}

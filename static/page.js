@@ -1,0 +1,139 @@
+// @ts-check
+// What the parts of this tab share: its View, its session, what was drawn last, and how all of them are told.
+import { tell } from "./parts.js";
+import { Link } from "./view/link.js";
+import { keepSessionOnLeave, takeSession } from "./view/session.js";
+import { Store, viewOf } from "./view/store.js";
+
+/** @typedef {import("./parts.js").Part} Part */
+/** @typedef {import("./wire.js").Method} Method */
+/** @typedef {import("./wire.js").Params} Params */
+/** @typedef {import("./wire.js").State} State */
+
+export class Page {
+  store = new Store();
+  session = takeSession();
+  /** @type {Link | null} */
+  link = null;
+  /** What the server said first. @type {import("./wire.js").Welcome | null} */
+  welcome = null;
+  /** The last drawn state. @type {State | null} */
+  drawn = null;
+  /** In the order in which they are told. @type {Part[]} */
+  parts = [];
+  #method = "";
+
+  constructor() {
+    this.store.onChange((view, patch) => {
+      if (patch) this.link?.send(patch);
+      this.showMethod();
+      const { canUndo, canRedo } = this.store;
+      this.tell("setView", view, { patch, canUndo, canRedo });
+    });
+  }
+
+  /**
+   * @param {ConstructorParameters<typeof Link>[1]["onMessage"]} onMessage
+   * @param {{readonly presenter: string | null}} following the presenter that this tab mirrors
+   */
+  connect(onMessage, following) {
+    const { session } = this;
+    const link = new Link(`${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/api/session`, {
+      rev: session.rev,
+      hello: () => ({
+        type: "hello",
+        session: session.id,
+        rev: link.rev,
+        view: this.sendable(),
+        follow: following.presenter,
+      }),
+      onMessage,
+      onConnection: (connection, reason) => this.tell("setConnection", connection, reason),
+    });
+    this.link = link;
+    keepSessionOnLeave(() => ({ id: session.id, rev: link.rev, hash: this.store.hash }));
+  }
+
+  /** @template {keyof Part} Name @param {Name} name @param {Parameters<NonNullable<Part[Name]>>} what */
+  tell(name, ...what) {
+    tell(this.parts, name, ...what);
+  }
+
+  get view() {
+    return this.store.view;
+  }
+
+  get methods() {
+    return this.welcome?.methods ?? [];
+  }
+
+  /** Of this name, or the first of all. @param {string} name */
+  methodOf(name) {
+    return this.methods.find((method) => method.name === name) ?? this.methods[0];
+  }
+
+  /** Tells of the chosen method, if it is another. */
+  showMethod() {
+    const { method } = this.view;
+    if (method === this.#method || !this.methods.length) return;
+    this.#method = method;
+    this.tell("setMethod", this.methodOf(method), this.methods);
+  }
+
+  /** Takes the View from what is drawn. */
+  adoptDrawn() {
+    if (this.drawn) this.store.adopt(viewOf(this.drawn));
+  }
+
+  /** The View as the server takes it. */
+  sendable() {
+    const { recording, ...rest } = this.view;
+    return recording === null ? rest : { recording, ...rest };
+  }
+
+  /** The id of the session for requests. */
+  sessionId = () => this.session.id ?? "";
+
+  /** Everything that was changed here is drawn. */
+  settled = () => this.link?.settled ?? true;
+
+  get learning() {
+    return this.view.mode === "learn";
+  }
+
+  get replaying() {
+    return this.learning || this.view.step !== null;
+  }
+
+  /** @param {import("./view/store.js").Patch} patch @param {string | null} [gesture] */
+  change = (patch, gesture = null) => this.store.change(patch, gesture);
+
+  /** @param {number} frame */
+  goToFrame = (frame) => {
+    // The decisions of another frame are others.
+    this.change({ frame, selected: null, step: this.replaying ? 0 : null, live: false });
+  };
+
+  /** @param {boolean} on whether the newest frame of a live recording is followed */
+  follow = (on) => this.change(on ? { live: true, step: null, selected: null } : { live: false });
+
+  /** @param {string} mode */
+  setMode = (mode) => {
+    if (mode === this.view.mode) return;
+    // Inspecting begins with the most suspicious frames, learning with the first decision.
+    const score = mode === "inspect" && this.view.score === "coverage" ? { score: "suspicion" } : {};
+    this.change({ mode, step: mode === "learn" ? 0 : null, ...score });
+  };
+
+  /** Opens the world that drawing begins with. */
+  drawWorld = () => {
+    const recording = this.welcome?.recordings.find(({ group }) => group === "Drawn")?.id;
+    if (recording) this.change({ recording, step: null });
+  };
+
+  /** Whether so much of a method is what is looked at. @param {string} method @param {Params} params */
+  looksAt(method, params) {
+    const view = this.view;
+    return method === view.method && Object.entries(params).every(([name, value]) => view.params[name] === value);
+  }
+}

@@ -1,0 +1,64 @@
+// @ts-check
+// What of the plan is looked at: all of a recording when it is opened, or what a link says.
+import { iconButton } from "../widgets/icon.js";
+
+/** @typedef {import("../view/store.js").Look} Look */
+
+/**
+ * @param {import("../page.js").Page} page
+ * @param {ReturnType<typeof import("./stage.js").mountStage>} stage
+ * @param {typeof import("../text/page.js").pageText.stage} text
+ * @param {{drawing: () => boolean, names: (recording: string) => boolean, onLook: () => void}} handlers
+ *   drawing: the recording is a world that is being drawn; names: it is that of the link; onLook: something else is looked at
+ */
+export function createCamera(page, stage, text, { drawing, names, onLook }) {
+  /** What a link says of the plan, until the plan is there. @type {Look | null} */
+  let wanted = null;
+  let fitted = "";
+  const fitButton = iconButton("fit", text.fit, fit);
+  const freeButton = iconButton("cube", text.free, toggle);
+  stage.onMove(() => {
+    if (wanted) return;
+    page.store.look = stage.look;
+    onLook();
+  });
+
+  function fit() {
+    const box = page.drawn?.bounds ?? page.drawn?.extent;
+    if (box) stage.fit(box);
+  }
+
+  function toggle() {
+    page.change({ camera: page.view.camera === "plan" ? "free" : "plan" });
+  }
+
+  return {
+    buttons: [fitButton, freeButton],
+    fit,
+    toggle,
+    /** What to look at once the plan is there. @param {Look | null} look */
+    want(look) {
+      wanted = look;
+    },
+    /** @param {Readonly<import("../wire.js").View>} view */
+    setView({ camera }) {
+      stage.setMode(camera);
+      freeButton.setAttribute("aria-pressed", String(camera === "free"));
+      freeButton.setAttribute("aria-label", camera === "free" ? text.plan : text.free);
+    },
+    /** @param {import("../wire.js").State} state */
+    setState({ recording, topic }) {
+      // A drawn world stays where it is while it changes.
+      const place = drawing() ? "drawn" : `${recording} ${topic}`;
+      if (place !== fitted) {
+        fitted = place;
+        fit();
+      }
+      if (!wanted || !names(recording)) return;
+      stage.lookAt(wanted);
+      wanted = null;
+    },
+    /** @param {import("../wire.js").Welcome} welcome */
+    setWelcome: ({ viser }) => stage.open(viser),
+  };
+}

@@ -1,0 +1,30 @@
+// @ts-check
+// The stage and what belongs to it: notices, its tools, the card that explains a point.
+import { createExplanation } from "../tune/explanation.js";
+import { h } from "../widgets/dom.js";
+import { createCamera } from "./camera.js";
+import { createLayers } from "./layers.js";
+import { mountNotices } from "./notices.js";
+import { mountStage } from "./stage.js";
+
+/**
+ * @param {import("../page.js").Page} page
+ * @param {HTMLElement} holder
+ * @param {typeof import("../text/page.js").pageText} text
+ * @param {{onKey: (event: KeyboardEvent) => boolean, onFrame: (frame: Window) => void, onCancel: () => void, onRetry: () => void,
+ *          drawing: () => boolean, names: (recording: string) => boolean, onLook: () => void}} handlers as of the stage, the notices, the camera
+ */
+export function mountScene(page, holder, text, { onKey, onFrame, onCancel, onRetry, drawing, names, onLook }) {
+  const stage = mountStage(holder, text.stage, { onKey, onFrame });
+  const notices = mountNotices(holder, text.stage, { onCancel, onRetry });
+  const camera = createCamera(page, stage, text.stage, { drawing, names, onLook });
+  const layers = createLayers(text, (switched) => page.change({ layers: switched }));
+  const explanation = createExplanation(text.explanation, stage, {
+    onClose: () => page.change({ selected: null }),
+    onChange: (name, value) => page.change({ params: { [name]: value } }),
+  });
+  const tools = h("div", { class: "stage-tools" }, ...camera.buttons, layers.button);
+  holder.append(tools, layers.list, explanation.element);
+  holder.setAttribute("aria-label", text.stage.label);
+  return { parts: [notices, layers, camera, explanation], stage, notices, camera, layers, explanation };
+}

@@ -1,0 +1,57 @@
+// @ts-check
+// Mode Tune: the panel of thresholds with its pages, the replay, and what a change of a threshold would do.
+import { createWhatIf } from "../inspect/what_if.js";
+import { mountPanel } from "./panel.js";
+import { mountReplay } from "./replay.js";
+import { createTuner } from "./tuner.js";
+
+/**
+ * @param {import("../page.js").Page} page
+ * @param {{panel: HTMLElement, replay: HTMLElement}} places
+ * @param {typeof import("../text/words.js").words} text
+ * @param {{pages: {name: string, label: string, content: HTMLElement}[], explanation: ReturnType<typeof import("./explanation.js").createExplanation>}} others
+ *   pages: further ones of the panel, in the mode Inspect
+ */
+export function createTune(page, places, text, { pages, explanation }) {
+  const tuner = createTuner(text.tuning, {
+    session: () => page.session.id,
+    onParams: (params) => page.change({ params }),
+    row: (name) => panel.row(name),
+  });
+  const panel = mountPanel(
+    places.panel,
+    text.page,
+    {
+      onParams: (params, gesture) => page.change({ params }, gesture),
+      onSelect: (selected) => page.change({ selected }),
+      onUndo: () => page.store.undo(),
+      onRedo: () => page.store.redo(),
+    },
+    pages,
+    tuner,
+  );
+  const replay = mountReplay(places.replay, text.page, {
+    onStep: (step) => page.change({ step }),
+    settled: page.settled,
+  });
+  const whatIf = createWhatIf({
+    session: page.sessionId,
+    onChanges(changes) {
+      panel.setMarks(changes);
+      explanation.setChanges(changes);
+    },
+  });
+
+  return {
+    parts: [replay, panel, tuner, whatIf],
+    replay,
+    panel,
+    tuner,
+    /** Shows the table of a sweep in the map. @param {File} file */
+    openSweep(file) {
+      page.setMode("tune");
+      panel.open("map");
+      tuner.openSweep(file);
+    },
+  };
+}

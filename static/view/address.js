@@ -1,0 +1,86 @@
+// @ts-check
+// The address bar: the View as a hash, written soon after each change and read when it is opened; links to copy.
+import { copy } from "../widgets/clipboard.js";
+import { toast } from "../widgets/toast.js";
+import { presenterIn } from "./follow.js";
+import { createLinked } from "./linked.js";
+
+/** @typedef {import("./store.js").Look} Look */
+
+const DELAY_MS = 200;
+
+/**
+ * @param {import("../page.js").Page} page
+ * @param {{top: typeof import("../text/page.js").pageText.top, follow: typeof import("../text/page.js").pageText.follow}} text
+ * @param {{following: () => string | null, onLook: (look: Look | null) => void}} handlers
+ *   following: the presenter that this tab mirrors; onLook: what to look at in the recording of the link
+ */
+export function createAddress(page, text, { following, onLook }) {
+  const linked = createLinked();
+  let timer = 0;
+  /** Of the last drawn state. @type {{recording: string, topic: string | null} | null} */
+  let shown = null;
+  addEventListener("hashchange", () => (presenterIn(location.hash) ? location.reload() : read(location.hash)));
+
+  function write() {
+    clearTimeout(timer);
+    timer = 0;
+    if (linked.held) return;
+    const presenter = following();
+    const hash = presenter === null ? page.store.hash : `follow=${presenter}`;
+    if (`#${hash}` !== location.hash) history.replaceState(null, "", `#${hash}`);
+  }
+
+  function writeSoon() {
+    if (!timer) timer = setTimeout(write, DELAY_MS);
+  }
+
+  /** @param {string} hash */
+  function read(hash) {
+    if (!page.store.read(hash)) return;
+    linked.open(page.view, page.store.name);
+    onLook(page.store.look);
+  }
+
+  const followLink = () => `${location.origin}${location.pathname}#follow=${page.welcome?.presenter ?? ""}`;
+
+  return {
+    linked,
+    read,
+    write,
+    writeSoon,
+    get followLink() {
+      return followLink();
+    },
+    async copyLink() {
+      linked.release();
+      write();
+      await copy(location.href);
+      toast(page.view.recording?.startsWith("upload:") ? text.top.linkCopiedUpload : text.top.linkCopied);
+    },
+    async copyFollowLink() {
+      await copy(followLink());
+      toast(text.follow.copied);
+    },
+    /** The recording of the link cannot be opened. */
+    lose() {
+      linked.lose();
+      onLook(null);
+    },
+    /** @param {unknown} _ @param {import("../parts.js").Change} change */
+    setView(_, { patch }) {
+      if (patch) linked.release();
+      writeSoon();
+    },
+    /** @param {import("../wire.js").State} state */
+    setState({ recording, topic, label }) {
+      page.store.name = label;
+      // What is shown instead of a link that cannot be opened must not hide why.
+      const opened = shown !== null && (recording !== shown.recording || topic !== shown.topic);
+      shown = { recording, topic };
+      if (!opened) return;
+      linked.opened(recording);
+      if (!linked.names(recording)) onLook(null);
+    },
+  };
+}
