@@ -7,8 +7,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from lineseg.region_growing.trace import GrowthTrace
-
 from .findings import Findings
 
 # Beyond this a page would be busy for seconds with what nobody steps through.
@@ -21,8 +19,8 @@ def columns_of(found: Findings) -> dict[str, Any]:
     """The first MOST_DECISIONS decisions as columns, one entry each, and the points they speak of.
 
     kinds, checks, phases: names of the numbers in the columns kind, check, phase. first, last, beam: beams, −1 none.
-    jumps: which kinds each jump leads to. text: what each decision says, null where the page says it in its own words.
-    points: how many points lie from first to last. lines: indices at which the search for the next seed begins.
+    text: the sentence of each. points: how many points lie from first to last.
+    jumps, starts: indices to which each jump of the method leads, and at which each phase and each line begins.
     a, b, c: of the line; others, ends: of the few decisions that have them, by index: (a, b, c) of the partner's line,
     (x1, y1, x2, y2) of the endpoints.
     x, y: of every beam [m], null where it has no return.
@@ -34,12 +32,12 @@ def columns_of(found: Findings) -> dict[str, Any]:
     numbers = {name: rows[name].tolist() for name in ("kind", "check", "direction", "candidate")}
     lines = {name: _rounded(rows["line"][name], LINE_DIGITS) for name in ("a", "b", "c")}
     placed = [number for number, kind in enumerate(vocabulary.kinds) if kind.effect == "placed"]
-    starts = trace.starts("line")
     return {
         "kinds": vocabulary.names,
         "checks": vocabulary.check_names,
         "phases": vocabulary.phases,
-        "jumps": vocabulary.jumps,
+        "jumps": {name: _among(rows, trace.jump(name)) for name in vocabulary.jumps},
+        "starts": {level: _among(rows, trace.starts(level)) for level in ("phase", "line")},
         "total": len(trace),
         "circle": scan.full_circle,
         **numbers,
@@ -51,11 +49,14 @@ def columns_of(found: Findings) -> dict[str, Any]:
         "ends": _where(np.isin(rows["kind"], placed), rows["ends"], METRE_DIGITS),
         "value": _rounded(rows["value"], METRE_DIGITS),
         "limit": _rounded(rows["limit"], METRE_DIGITS),
-        "text": None if isinstance(trace, GrowthTrace) else trace.texts(np.arange(len(rows))),
-        "lines": starts[starts < len(rows)].tolist(),
+        "text": trace.texts(np.arange(len(rows))),
         "x": _rounded(np.where(scan.valid, scan.xy[:, 0], np.nan), METRE_DIGITS),
         "y": _rounded(np.where(scan.valid, scan.xy[:, 1], np.nan), METRE_DIGITS),
     }
+
+
+def _among(rows: NDArray[np.void], indices: NDArray[np.integer]) -> list[int]:
+    return indices[indices < len(rows)].tolist()
 
 
 def _where(there: NDArray[np.bool_], rows: NDArray[np.void], digits: int) -> dict[int, list[float]]:

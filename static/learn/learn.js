@@ -138,7 +138,7 @@ export function mountLearn(
   /** @param {Event} event @param {boolean} right */
   function answered(event, right) {
     stepper.go(event.index);
-    stepper.say(`${right ? text.predict.right : text.predict.wrong} ${text.sentence(event)}`);
+    stepper.say(`${right ? text.predict.right : text.predict.wrong} ${event.text}`);
   }
 
   /** Every fit of the growing line up to here. @param {Event | null} event */

@@ -215,7 +215,7 @@ export function mountStepper(dock, words, { onStep, onBeam, onZoom, settled, may
     const event = step !== null && trace && step < trace.length ? trace.at(step) : null;
     setText(phase, event ? (words.phases[event.phase] ?? sentenceCase(event.phase)) : words.phases.whole);
     phase.dataset.phase = event?.phase ?? "";
-    setText(sentence, instead ?? (event ? words.sentence(event) : idle()));
+    setText(sentence, instead ?? event?.text ?? idle());
     leave.disabled = step === null;
     const plain = event && ["lines merged", "lines kept apart", "overlap cut", "endpoints"].includes(event.kind);
     const check = event?.kind === "line kept" ? "min_length" : (event?.check ?? "");

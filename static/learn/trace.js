@@ -8,8 +8,9 @@
  * @property {string[]} kinds
  * @property {string[]} checks
  * @property {string[]} phases
- * @property {Record<string, string[]>} jumps kinds of decision that each jump leads to
- * @property {string[] | null} text what each decision says; null: the page says it in its own words
+ * @property {Partial<Record<Jump, number[]>>} jumps where each jump leads that this method has
+ * @property {{phase: number[], line: number[]}} starts where each phase and each line begins
+ * @property {string[]} text the sentence of each decision
  * @property {number} total decisions there are; the columns may hold only the first of them
  * @property {boolean} circle
  * @property {number[]} kind
@@ -28,7 +29,6 @@
  * @property {Record<string, number[]>} ends x1, y1, x2, y2 where endpoints are placed, by index
  * @property {(number | null)[]} value
  * @property {(number | null)[]} limit
- * @property {number[]} lines
  * @property {(number | null)[]} x
  * @property {(number | null)[]} y
  */
@@ -51,10 +51,10 @@
  * @property {number[] | null} ends x1, y1, x2, y2 of "endpoints"
  * @property {number} value
  * @property {number} limit
- * @property {string | null} text in the method's own words, where the page has none
+ * @property {string} text its sentence
  */
 
-/** Where one may jump to; the columns say which decisions count as it. */
+/** Where one may jump to; the columns say where that is. */
 export const JUMPS = /** @type {const} */ (["seed", "refusal", "line", "drop", "merge", "cut"]);
 /** @typedef {(typeof JUMPS)[number]} Jump */
 /** @typedef {"decision" | "phase" | "line"} Level */
@@ -71,18 +71,10 @@ export class Trace {
     this.columns = columns;
     this.length = columns.kind.length;
     this.beams = columns.x.length;
-    const kinds = columns.kind.map((kind) => columns.kinds[kind]);
-    const those = (/** @type {readonly string[]} */ wanted) =>
-      kinds.flatMap((kind, k) => (wanted.includes(kind) ? [k] : []));
     this.marks = /** @type {Record<Jump, number[]>} */ (
-      Object.fromEntries(JUMPS.map((name) => [name, those(columns.jumps[name] ?? [])]))
+      Object.fromEntries(JUMPS.map((name) => [name, columns.jumps[name] ?? []]))
     );
-    const { phase, candidate } = columns;
-    const growth = columns.phases.indexOf("growth");
-    const turns = kinds.flatMap((_, k) =>
-      k === 0 || phase[k] !== phase[k - 1] || (phase[k] <= growth && candidate[k] !== candidate[k - 1]) ? [k] : [],
-    );
-    this.starts = { decision: null, phase: turns, line: columns.lines };
+    this.starts = { decision: null, ...columns.starts };
   }
 
   /** @param {number} index @returns {Event} */
@@ -105,7 +97,7 @@ export class Trace {
       ends: c.ends[index] ?? null,
       value: c.value[index] ?? Infinity,
       limit: c.limit[index] ?? Infinity,
-      text: c.text?.[index] ?? null,
+      text: c.text[index],
     };
   }
 

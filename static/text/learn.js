@@ -4,51 +4,8 @@
 /** @typedef {import("../learn/trace.js").Event} Event */
 
 const m = (/** @type {number} */ value) => (Number.isFinite(value) ? `${value.toFixed(3)}\u00a0m` : "infinitely far");
-const deg = (/** @type {number} */ value) => `${((value * 180) / Math.PI).toFixed(1)}°`;
-const lacks = (/** @type {Event} */ { check, value, limit }) =>
-  check === "min_points"
-    ? `it has ${value} points, fewer than P_min\u00a0=\u00a0${limit}`
-    : check === "min_length"
-      ? `it is ${m(value)} long, shorter than L_min\u00a0=\u00a0${m(limit)}`
-      : "the line that overlaps it is nearer to all its points";
 
 const AGAIN = "Try again";
-
-/** Why a step, or a point, was refused. @param {Event} event */
-function refusal({ beam, check, value, limit }) {
-  if (check === "max_dropout")
-    return `${value} beams without a return lie before beam ${beam}, more than D_max\u00a0=\u00a0${limit}`;
-  if (check === "max_gap") return `before beam ${beam} there is a gap of ${m(value)}, wider than ${m(limit)}`;
-  if (check === "delta")
-    return `beam ${beam} lies ${m(value)} from where the line predicts it, more than δ\u00a0=\u00a0${m(limit)}`;
-  return `beam ${beam} lies ${m(value)} from the line; ε allows ${m(limit)}`;
-}
-
-/** @type {Record<string, (event: Event) => string>} */
-const SENTENCES = {
-  "seed rejected": (e) => `Beams ${e.first} to ${e.last} are no seed: ${refusal(e)}.`,
-  "seed found": (e) => `Beams ${e.first} to ${e.last} are a seed: all of them lie on one line. It starts to grow.`,
-  "point added": (e) =>
-    `Beam ${e.beam} joins, growing ${e.direction > 0 ? "forward" : "backward"}: it lies ${m(e.value)} from the line, less than ε\u00a0=\u00a0${m(e.limit)}. The line is fitted anew.`,
-  "growth stopped": (e) =>
-    e.check === "end"
-      ? `Growth ${e.direction > 0 ? "forward" : "backward"} ends: there is no further point.`
-      : `Growth ${e.direction > 0 ? "forward" : "backward"} stops: ${refusal(e)}.`,
-  "line kept": (e) => `The line of beams ${e.first} to ${e.last} is kept: ${e.points} points, ${m(e.value)} long.`,
-  "line dropped": (e) => `The line of beams ${e.first} to ${e.last} is dropped: ${lacks(e)}.`,
-  "lines merged": (e) =>
-    `Two neighbours differ by only ${deg(e.value)}, less than ${deg(e.limit)}: they become one, beams ${e.first} to ${e.last}.`,
-  "lines kept apart": (e) =>
-    e.check === "merge_rms"
-      ? `Two neighbours have nearly one direction, but as one line their points lie ${m(e.value)} from it (rms), more than ${m(e.limit)}: they stay two.`
-      : `Two neighbours differ by ${deg(e.value)}, not less than ${deg(e.limit)}: they stay two.`,
-  "overlap cut": (e) =>
-    e.value < e.limit
-      ? `The overlap is cut behind beam ${e.last}: every shared point is nearer to the first line (${m(e.value)}) than to the second (${m(e.limit)}). The second begins at beam ${e.beam}.`
-      : `The overlap is cut at beam ${e.beam}: it is the first shared point not nearer to the first line (${m(e.value)}) than to the second (${m(e.limit)}).`,
-  endpoints: (e) =>
-    `The outermost points, beams ${e.first} and ${e.last}, are projected on the line: its ends are ${m(e.value)} apart.`,
-};
 
 export const learnText = {
   modes: { label: "Mode", tune: "Tune", learn: "Learn", inspect: "Inspect" },
@@ -58,7 +15,6 @@ export const learnText = {
     zoom: "in Learn: zoom to the decision",
     answer: "in Learn: answers of a prediction",
   },
-  sentence: (/** @type {Event} */ event) => event.text ?? SENTENCES[event.kind]?.(event) ?? event.kind,
   otherMethod: (/** @type {string} */ label, /** @type {string} */ citation) =>
     `${label} (${citation}) is replayed here decision by decision. Pseudocode, formulas, charts and lessons are those of region growing.`,
   whole: (/** @type {number} */ lines, /** @type {number} */ steps) =>

@@ -10,6 +10,7 @@ from lineseg_app.tuning.sweep import sweep, values_of
 from live import Address, Page
 
 from lineseg import Params, extract, open_recording
+from lineseg.baselines.ransac import RansacParams
 
 
 @pytest.mark.parametrize("name", ["lessons/2_grazing_wall", "lessons/6_curved_wall", "laboratory"])
@@ -29,7 +30,19 @@ def test_the_columns_tell_every_decision(name):
             decision.points,
         ]
         assert (columns["a"][at], columns["c"][at]) == pytest.approx((decision.line[0], decision.line[2]), abs=1e-8)
-    assert columns["lines"] == found.trace.starts("line").tolist()
+        assert columns["text"][at] == decision.text
+        assert columns["others"].get(at) == pytest.approx(decision.other, abs=1e-8)
+        assert columns["ends"].get(at) == pytest.approx(decision.ends, abs=1e-6)
+    for level, starts in columns["starts"].items():
+        assert starts == found.trace.starts(level).tolist()
+    assert columns["jumps"] == {jump: found.trace.jump(jump).tolist() for jump in found.trace.vocabulary.jumps}
+    assert columns["jumps"].keys() == {"refusal", "seed", "line", "drop", "merge", "cut"}
+
+
+def test_a_method_without_cuts_has_no_jump_to_them():
+    scan = open_recording(data_folder("sample_scans") / "laboratory.npz")
+    columns = columns_of(findings(scan, 0, "ransac", RansacParams()))
+    assert columns["jumps"].keys() == {"seed", "line", "drop"}
 
 
 def test_a_page_in_mode_learn_gets_the_trace_once(page: Page):
