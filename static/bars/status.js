@@ -43,7 +43,7 @@ export function mountStatus(bar, text, live) {
       );
       if (latencyMs !== null) figures.roundTrip.set(`${Math.round(latencyMs)} ms`, text.roundTrip);
       coverageHelp = text.coverageHelp(covered, valid, beams);
-      setText(format, [state.format, state.frameId, `${beams} beams`].filter(Boolean).join(" · "));
+      setText(format, [state.format, state.frameId, text.beams(beams)].filter(Boolean).join(" · "));
       clearTimeout(timer);
       timer = setTimeout(() => setText(spoken, text.announce(segments.length, first + frame + 1)), ANNOUNCE_MS);
     },

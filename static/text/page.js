@@ -3,6 +3,7 @@
 
 export const pageText = {
   appName: "lineseg",
+  noAnswer: "The server gave no answer.",
   top: {
     recording: "Recording",
     noRecording: "No recording",
@@ -224,6 +225,7 @@ export const pageText = {
     roundTrip: "round trip",
     extractionHelp: "Time of the extraction of this frame",
     roundTripHelp: "From your input to the drawn picture",
+    beams: (/** @type {number} */ n) => `${n} beams`,
     connection: { connecting: "connecting", open: "connected", lost: "not connected" },
     announce: (/** @type {number} */ n, /** @type {number} */ frame) =>
       `${n} ${n === 1 ? "segment" : "segments"} in frame ${frame}`,

@@ -1,5 +1,6 @@
 // @ts-check
-// Every word of the page, by part. Another language is another folder with the same keys.
+// The page's own words, by part. Names and helps of thresholds, methods, scores and recordings, and sentences about a frame
+// come from the server; the pseudocode is learn/listing.json, the data sheets of lasers tune/presets.js.
 import { drawText } from "./draw.js";
 import { exportText } from "./export.js";
 import { inspectText } from "./inspect.js";

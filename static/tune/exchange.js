@@ -1,5 +1,6 @@
 // @ts-check
 // The menu of what is taken along; parameters as text, out and in.
+import { pageText } from "../text/page.js";
 import { copy, download } from "../widgets/clipboard.js";
 import { openDialog } from "../widgets/dialog.js";
 import { h } from "../widgets/dom.js";
@@ -114,6 +115,6 @@ export function messageOf(body) {
   try {
     return String(JSON.parse(body).message);
   } catch {
-    return body.slice(0, 300) || "The server gave no answer.";
+    return body.slice(0, 300) || pageText.noAnswer;
   }
 }
