@@ -14,7 +14,7 @@ const LONGEST_PAST = 200;
 
 /**
  * @param {HTMLElement} stage
- * @param {ReturnType<typeof import("../stage/stage.js").mountStage>} view
+ * @param {import("../stage/stage.js").Stage} view
  * @param {typeof import("../text/draw.js").drawText} text
  * @param {{onRecording: (id: string) => void, onSave: () => void}} handlers
  */

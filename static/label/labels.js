@@ -17,7 +17,7 @@ import { createTags } from "./tags.js";
 
 /**
  * @param {HTMLElement} stage
- * @param {ReturnType<typeof import("../stage/stage.js").mountStage>} view
+ * @param {import("../stage/stage.js").Stage} view
  * @param {typeof import("../text/label.js").labelText} text
  * @param {{onFrame: (frame: number) => void, number: (frame: number) => number}} handlers number: what a frame is called
  */

@@ -15,7 +15,7 @@ const REACH = 30;
 
 /**
  * @param {HTMLElement} stage
- * @param {ReturnType<typeof import("../stage/stage.js").mountStage>} view
+ * @param {import("../stage/stage.js").Stage} view
  * @param {typeof import("../text/label.js").labelText.handle} text
  * @param {{onChoose: (line: number, beam: number | null) => void, onGrip: (grip: Grip, beam: number, done: boolean) => void, onDrawn: (run: number[]) => void}} handlers
  *   onChoose: a line, and its beam under the pointer; onGrip: a grip of the chosen line at another beam; done: the gesture ends there

@@ -6,7 +6,7 @@ import { iconButton } from "../widgets/icon.js";
 
 /**
  * @param {import("../page.js").Page} page
- * @param {ReturnType<typeof import("./stage.js").mountStage>} stage
+ * @param {import("./stage.js").Stage} stage
  * @param {typeof import("../text/page.js").pageText.stage} text
  * @param {{drawing: () => boolean, names: (recording: string) => boolean, onLook: () => void}} handlers
  *   drawing: the recording is a world that is being drawn; names: it is that of the link; onLook: something else is looked at

@@ -5,7 +5,7 @@ import { h } from "../widgets/dom.js";
 import { createCamera } from "./camera.js";
 import { createLayers } from "./layers.js";
 import { mountNotices } from "./notices.js";
-import { mountStage } from "./stage.js";
+import { Stage } from "./stage.js";
 
 /**
  * @param {import("../page.js").Page} page
@@ -15,7 +15,7 @@ import { mountStage } from "./stage.js";
  *          drawing: () => boolean, names: (recording: string) => boolean, onLook: () => void}} handlers as of the stage, the notices, the camera
  */
 export function mountScene(page, holder, text, { onKey, onFrame, onCancel, onRetry, drawing, names, onLook }) {
-  const stage = mountStage(holder, text.stage, { onKey, onFrame });
+  const stage = new Stage(holder, text.stage, { onKey, onFrame });
   const notices = mountNotices(holder, text.stage, { onCancel, onRetry });
   const camera = createCamera(page, stage, text.stage, { drawing, names, onLook });
   const layers = createLayers(text, (switched) => page.change({ layers: switched }));

@@ -1,0 +1,112 @@
+// @ts-check
+// viser's camera (camera-controls on three.js): locked to the plan, or free; in the coordinates of the scan.
+
+/** @typedef {{control: any, camera: any, mutable: any}} Found viser's camera and its control */
+/** What the plan shows, and from how high [m]. @typedef {{x: number, y: number, height: number}} Plan */
+
+export const PLAN_FOV_DEG = 10;
+const FREE_FOV_DEG = 45;
+/** The least distance of the camera to the plan [m]. */
+export const NEAREST = 0.5;
+const WHEEL_SPEED = 1;
+// camera-controls' actions
+const ACTION = { ROTATE: 1, TRUCK: 2, DOLLY: 16, TOUCH_ROTATE: 64, TOUCH_TRUCK: 128, TOUCH_DOLLY_TRUCK: 4096 };
+
+/** viser's camera, once its scene stands. @param {HTMLIFrameElement} frame @returns {Found | null} */
+export function cameraIn(frame) {
+  const mutable = /** @type {any} */ (frame.contentWindow)?.__viserMutable;
+  const control = mutable?.cameraControl;
+  const camera = control?.camera ?? mutable?.camera;
+  return control && camera ? { control, camera, mutable } : null;
+}
+
+/** What it looks at from straight above; null if it does not. @param {Found} found @returns {Plan | null} */
+export function planOf({ control, camera }) {
+  const up = toWorld(camera.up);
+  const eye = control.getPosition(camera.position.clone());
+  const at = control.getTarget(camera.position.clone());
+  const above =
+    up[1] > 0.999 &&
+    Math.hypot(eye.x - at.x, eye.z - at.z) < 1e-3 * control.distance &&
+    Math.abs(camera.fov - PLAN_FOV_DEG) < 0.01;
+  const [x, y] = toWorld(at);
+  return above ? { x, y, height: control.distance } : null;
+}
+
+/** @param {Found} found @param {number} height */
+export function clip({ camera }, height) {
+  camera.near = height / 4;
+  camera.far = height * 4;
+  camera.updateProjectionMatrix();
+}
+
+/** Only panning and zooming are possible. @param {Found} found @param {Plan} plan */
+export function lockPlan(found, { x, y, height }) {
+  const { control, camera, mutable } = found;
+  allowAnyAngle(control);
+  camera.fov = PLAN_FOV_DEG;
+  clip(found, height);
+  place(control, camera, [0, 1, 0], [x, y, height], [x, y, 0]);
+  control.minPolarAngle = control.maxPolarAngle = Math.PI / 2;
+  control.minAzimuthAngle = control.maxAzimuthAngle = control.azimuthAngle;
+  control.mouseButtons.left = control.mouseButtons.right = ACTION.TRUCK;
+  control.mouseButtons.middle = ACTION.TRUCK;
+  control.mouseButtons.wheel = ACTION.DOLLY;
+  control.touches.one = ACTION.TOUCH_TRUCK;
+  control.touches.two = control.touches.three = ACTION.TOUCH_DOLLY_TRUCK;
+  control.dollyToCursor = true;
+  control.dollySpeed = WHEEL_SPEED;
+  control.minDistance = NEAREST;
+  mutable.requestRender();
+}
+
+/** Turns freely, beginning with a look from the south at what the plan shows. @param {Found} found @param {Plan} plan */
+export function unlock({ control, camera, mutable }, { x, y, height }) {
+  const away = (height * Math.tan(rad(PLAN_FOV_DEG / 2))) / Math.tan(rad(FREE_FOV_DEG / 2));
+  allowAnyAngle(control);
+  camera.fov = FREE_FOV_DEG;
+  camera.near = 0.05;
+  camera.far = 2000;
+  camera.updateProjectionMatrix();
+  place(control, camera, [0, 0, 1], [x, y - 0.75 * away, 0.8 * away], [x, y, 0]);
+  control.mouseButtons.left = ACTION.ROTATE;
+  control.mouseButtons.right = control.mouseButtons.middle = ACTION.TRUCK;
+  control.touches.one = ACTION.TOUCH_ROTATE;
+  control.dollyToCursor = false;
+  mutable.requestRender();
+}
+
+/** @param {any} control */
+function allowAnyAngle(control) {
+  control.minPolarAngle = 0;
+  control.maxPolarAngle = Math.PI;
+  control.minAzimuthAngle = -Infinity;
+  control.maxAzimuthAngle = Infinity;
+}
+
+/**
+ * @param {any} control @param {any} camera
+ * @param {number[]} up @param {number[]} eye @param {number[]} at in the coordinates of the scan
+ */
+function place(control, camera, up, eye, at) {
+  camera.up.set(...toThree(up));
+  control.updateCameraUp();
+  control.setLookAt(...toThree(eye), ...toThree(at), false);
+  control.update(0);
+}
+
+/** @param {number} degrees */
+export function rad(degrees) {
+  return (degrees * Math.PI) / 180;
+}
+
+// viser shows z up; three.js, which its camera lives in, has y up.
+/** @param {number[]} point @returns {[number, number, number]} */
+function toThree([x, y, z]) {
+  return [-y, z, -x];
+}
+
+/** @param {{x: number, y: number, z: number}} point @returns {[number, number, number]} */
+function toWorld({ x, y, z }) {
+  return [-z, -x, y];
+}
