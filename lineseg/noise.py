@@ -1,0 +1,241 @@
+"""The noise of a laser, from its scans alone: how far ranges scatter, and how far walls depart from straight.
+
+Along a straight line 1/ρ is a·cos φ + b·sin φ: linear in the ray u of the beam. Of three beams with the rays u₁, u₂, u₃ on
+one wall therefore, at whatever angle they meet it,
+
+    e = [u₂u₃]/ρ₁ − [u₁u₃]/ρ₂ + [u₁u₂]/ρ₃ = 0,
+
+with [uv] the cross product. Ranges with the standard deviation σ give e the variance σ²·Σ (wᵢ/ρᵢ²)², w the three cross
+products, so that e over the root of that sum scatters by σ itself. Of neighbouring beams this is the white part of the
+noise: what a wall does over some beams cancels. Of beams that are some length apart on the wall it holds how far the wall
+departs from straight over that length as well.
+
+Edges, corners and clutter are told from walls by a mixture: what is measured on walls has a known distribution with one
+unknown scale, the rest lies above it, anywhere (Dempster, Laird, Rubin: *Maximum likelihood from incomplete data via the
+EM algorithm*, J. Royal Statistical Society B 39(1), 1977).
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .kernel import entry_kernel, kernel
+from .region_growing.points import is_valid
+from .scan import Floats, Recording
+
+# Successive triples that are averaged: fewer tell walls from clutter less well, more find no place on short walls.
+WINDOW = 8
+BINS = 8
+# The variance of such a mean, for second differences of white noise have the correlations 1, −2/3 and 1/6, as degrees of
+# freedom (Welch, Satterthwaite).
+WINDOW_DOF = WINDOW**2 / (WINDOW + 2 * (WINDOW - 1) * 4 / 9 + 2 * (WINDOW - 2) / 36)
+# Windows in a bin: of fewer the scale is uncertain by more than a tenth.
+LEAST = 40
+# Share of a bin that must lie on walls for its scale to be believed.
+TRUSTED = 0.2
+# Over these lengths walls are looked at [m], in so many scans, from every so-manyth beam.
+LENGTHS = (0.3, 0.6, 1.0)
+FRAMES = 300
+ROUGH_FRAMES = 60
+ROUGH_STRIDE = 3
+ROUGH_TRUSTED = 0.4
+
+
+@dataclass(frozen=True, eq=False)
+class RangeNoise:
+    """How the points of a recording scatter.
+
+    edges: (bins + 1,) of the ranges [m]; sigma: (bins,) standard deviation of a range there [m], NaN where no wall tells;
+    walls: (bins,) share of what was measured there that lies on walls; windows: (bins,) number of measurements.
+    base [m], growth: σ² = base² + (growth·ρ)² through these.
+    lengths: (lengths,) [m]; rough: (lengths,) departure of a wall from straight over each [m], beyond the white part,
+    NaN where no wall tells.
+    """
+
+    edges: Floats
+    sigma: Floats
+    walls: Floats
+    windows: NDArray[np.int64]
+    base: float
+    growth: float
+    lengths: Floats
+    rough: Floats
+
+    def at(self, ranges: Floats | float) -> Floats:
+        """σ of ranges [m]; NaN everywhere where the recording does not tell."""
+        return np.hypot(self.base, self.growth * np.asarray(ranges))
+
+    @property
+    def known(self) -> bool:
+        """Whether the scans tell the noise at all."""
+        return math.isfinite(self.base)
+
+    @property
+    def roughness(self) -> float:
+        """The greatest of `rough` [m], 0 where nothing is known of it."""
+        return float(np.nanmax(self.rough)) if np.isfinite(self.rough).any() else 0.0
+
+
+def noise(recording: Recording) -> RangeNoise:
+    """The noise of a recording, from at most 300 of its scans, evenly spread.
+
+    What is too little to judge by (a scan of ten beams, none valid, no straight wall) has NaN.
+    """
+    ranges, departures = _neighbouring(recording)
+    edges, sigma, walls, windows = _by_range(ranges, departures)
+    base, growth = _law(edges, sigma, windows)
+    rough = np.array([_rough(recording, length, base, growth) for length in LENGTHS])
+    return RangeNoise(edges, sigma, walls, windows, base, growth, np.array(LENGTHS), rough)
+
+
+def _spread(recording: Recording, most: int) -> list[int]:
+    return sorted(set(np.linspace(0, len(recording) - 1, min(len(recording), most)).round().astype(int).tolist()))
+
+
+def _neighbouring(recording: Recording) -> tuple[Floats, Floats]:
+    """Ranges and scatter of windows of neighbouring beams."""
+    found = []
+    for frame in _spread(recording, FRAMES):
+        scan = recording[frame]
+        out = np.empty((2, len(scan) // WINDOW + 1))
+        used = windows_of(scan.ranges.astype(np.float64), scan.rays, scan.range_min, scan.range_max, out)
+        found.append(out[:, :used])
+    ranges, squares = np.hstack(found) if found else np.empty((2, 0))
+    # Equal ranges, as of a simulator, leave nothing to measure.
+    some = squares > 0.0
+    return ranges[some], np.sqrt(squares[some])
+
+
+@entry_kernel
+def windows_of(ranges, rays, range_min, range_max, out):
+    """The mean range and the mean square of e of each run of WINDOW triples of neighbouring beams: their number."""
+    used = count = 0
+    square = distance = 0.0
+    for k in range(1, len(ranges) - 1):
+        one, two, three = ranges[k - 1], ranges[k], ranges[k + 1]
+        if not (
+            is_valid(one, range_min, range_max)
+            & is_valid(two, range_min, range_max)
+            & is_valid(three, range_min, range_max)
+        ):
+            count, square, distance = 0, 0.0, 0.0
+            continue
+        square += departure(ranges, rays, k - 1, k, k + 1) ** 2
+        distance += two
+        count += 1
+        if count == WINDOW:
+            out[0, used], out[1, used] = distance / WINDOW, square / WINDOW
+            used, count, square, distance = used + 1, 0, 0.0, 0.0
+    return used
+
+
+@kernel
+def departure(ranges, rays, i, j, k):
+    """e of three beams, over the root of the sum: as large as σ, if they lie on one straight wall [m]."""
+    one = (rays[0, j] * rays[1, k] - rays[1, j] * rays[0, k]) / ranges[i]
+    two = (rays[0, i] * rays[1, k] - rays[1, i] * rays[0, k]) / ranges[j]
+    three = (rays[0, i] * rays[1, j] - rays[1, i] * rays[0, j]) / ranges[k]
+    size = (one / ranges[i]) ** 2 + (two / ranges[j]) ** 2 + (three / ranges[k]) ** 2
+    return (one - two + three) / math.sqrt(size) if size > 0.0 else 0.0
+
+
+def _by_range(ranges: Floats, departures: Floats) -> tuple[Floats, Floats, Floats, NDArray[np.int64]]:
+    """edges, sigma, walls, windows: bins that hold equally much."""
+    bins = min(BINS, len(ranges) // LEAST)
+    if not bins:
+        return np.empty(0), np.empty(0), np.empty(0), np.empty(0, np.int64)
+    order = np.argsort(ranges)
+    parts = np.array_split(order, bins)
+    edges = np.append([ranges[part[0]] for part in parts], ranges[order[-1]])
+    fits = [_scale(departures[part], WINDOW_DOF) for part in parts]
+    walls = np.array([share for _, share in fits])
+    sigma = np.where(walls >= TRUSTED, [scale for scale, _ in fits], np.nan)
+    return edges, sigma, walls, np.array([len(part) for part in parts])
+
+
+def _scale(values: Floats, dof: float) -> tuple[float, float]:
+    """The scale of those values (n,) > 0 that lie on walls, and their share.
+
+    A value on a wall is scale·√(χ²/dof) with `dof` degrees of freedom; another may have any size above the scale, each
+    order of magnitude as likely as the next.
+    """
+    half, logs = dof / 2, np.log(values)
+    constant = math.log(2) + half * math.log(half) - math.lgamma(half)
+    log_scale, share, top = float(np.quantile(logs, 0.2)), 0.5, float(logs.max())
+    for _ in range(100):
+        x = logs - log_scale
+        on_wall = share * np.exp(constant + 2 * half * x - half * np.exp(2 * x))
+        elsewhere = (1 - share) * np.where(x > 0, 1 / max(top - log_scale, 1.0), 1e-9)
+        weight = on_wall / (on_wall + elsewhere)
+        share = float(weight.mean())
+        before, log_scale = log_scale, 0.5 * math.log(float(weight @ values**2) / float(weight.sum()))
+        if abs(log_scale - before) < 1e-4:
+            break
+    return math.exp(log_scale), share
+
+
+def _law(edges: Floats, sigma: Floats, windows: NDArray[np.int64]) -> tuple[float, float]:
+    """base and growth: the line through σ² over ρ², by least squares of the relative error, neither of them negative."""
+    told = np.isfinite(sigma)
+    if not told.any():
+        return math.nan, math.nan
+    squares, distances = sigma[told] ** 2, ((edges[:-1] + edges[1:])[told] / 2) ** 2
+    rows = np.column_stack((np.ones(len(squares)), distances)) / squares[:, None] * np.sqrt(windows[told])[:, None]
+    goal = np.sqrt(windows[told])
+    constant, slope = np.linalg.lstsq(rows, goal, rcond=None)[0] if told.sum() > 1 else (squares[0], 0.0)
+    if slope < 0 or constant < 0:
+        only = 0 if slope < 0 else 1
+        value = float(rows[:, only] @ goal / (rows[:, only] @ rows[:, only]))
+        constant, slope = (value, 0.0) if only == 0 else (0.0, value)
+    return math.sqrt(constant), math.sqrt(slope)
+
+
+def _rough(recording: Recording, length: float, base: float, growth: float) -> float:
+    """How far walls depart from straight over a length [m], beyond the white noise."""
+    if not math.isfinite(base):
+        return math.nan
+    found = []
+    for frame in _spread(recording, ROUGH_FRAMES):
+        scan = recording[frame]
+        beams = np.flatnonzero(scan.valid)
+        ranges, rays = scan.ranges[beams].astype(np.float64), np.ascontiguousarray(scan.rays[:, beams])
+        out = np.empty((2, len(beams) // ROUGH_STRIDE + 1))
+        used = departures_over(ranges, rays, length, ROUGH_STRIDE, out)
+        found.append(out[:, :used])
+    ranges, values = np.hstack(found) if found else np.empty((2, 0))
+    values = np.abs(values)[values != 0.0]
+    if len(values) < LEAST:
+        return math.nan
+    scale, share = _scale(values, 1.0)
+    white = float(np.median(np.hypot(base, growth * ranges)))
+    return math.sqrt(max(scale**2 - white**2, 0.0)) if share >= ROUGH_TRUSTED else math.nan
+
+
+@entry_kernel
+def departures_over(ranges, rays, length, stride, out):
+    """(range, e) of points and the two that lie `length` to its sides on a straight way: their number."""
+    used = before = after = 0
+    for k in range(0, len(ranges), stride):
+        while before < k and apart(ranges, rays, before + 1, k) >= length:
+            before += 1
+        after = max(after, k)
+        while after < len(ranges) - 1 and apart(ranges, rays, k, after) < length:
+            after += 1
+        left, right = apart(ranges, rays, before, k), apart(ranges, rays, k, after)
+        around = min(left, right) >= length and max(left, right) < 1.3 * length
+        if around and k - before > 2 and after - k > 2 and apart(ranges, rays, before, after) > 0.95 * (left + right):
+            out[0, used], out[1, used] = ranges[k], departure(ranges, rays, before, k, after)
+            used += 1
+    return used
+
+
+@kernel
+def apart(ranges, rays, i, k):
+    """The distance of two points [m]."""
+    return math.hypot(
+        ranges[i] * rays[0, i] - ranges[k] * rays[0, k], ranges[i] * rays[1, i] - ranges[k] * rays[1, k]
+    )
