@@ -17,6 +17,7 @@ class Knob:
     step: of a slider [unit]; log: whether the slider is logarithmic; extension: not in the paper.
     refuses: what is said of what it refuses, in the fields of `Sentence`: a check of this name is then there for the
     kernels; floor: it refuses what is below it, not what is above. counted: what its histogram counts, if it has one.
+    scatter: of a threshold that follows the noise, how many times as large it is as ε; 0 for all others.
     """
 
     symbol: str
@@ -35,6 +36,7 @@ class Knob:
     refuses: str = ""
     counted: str = ""
     floor: bool = False
+    scatter: float = 0.0
 
 
 def switch(symbol: str, label: str, help: str) -> Knob:

@@ -236,6 +236,4 @@ def departures_over(ranges, rays, length, stride, out):
 @kernel
 def apart(ranges, rays, i, k):
     """The distance of two points [m]."""
-    return math.hypot(
-        ranges[i] * rays[0, i] - ranges[k] * rays[0, k], ranges[i] * rays[1, i] - ranges[k] * rays[1, k]
-    )
+    return math.hypot(ranges[i] * rays[0, i] - ranges[k] * rays[0, k], ranges[i] * rays[1, i] - ranges[k] * rays[1, k])

@@ -12,7 +12,7 @@ from .knobs import Knob, Thresholds
 Epsilon = Annotated[
     float,
     Knob(
-        "ε", 0.005, 0.20, "m", 0.001, log=True, least=1e-6, most=100.0, ros="least_thresh",
+        "ε", 0.005, 0.20, "m", 0.001, log=True, least=1e-6, most=100.0, ros="least_thresh", scatter=1.0,
         label="distance to the line",
         why="a distance of 0 would refuse every measured point",
         help="Farthest a point may lie from its line. Set it to the range precision of the laser.",
@@ -23,7 +23,7 @@ Epsilon = Annotated[
 Delta = Annotated[
     float,
     Knob(
-        "δ", 0.01, 1.0, "m", 0.005, log=True, least=1e-6, most=1000.0, ros="predict_distance",
+        "δ", 0.01, 1.0, "m", 0.005, log=True, least=1e-6, most=1000.0, ros="predict_distance", scatter=1.5,
         label="distance to the predicted point",
         why="a distance of 0 would refuse every measured point",
         help="In a seed: farthest a point may lie from where its beam meets the line. Keeps breaks out of seeds.",

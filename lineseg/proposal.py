@@ -1,0 +1,170 @@
+"""Thresholds that fit a laser, found from its scans alone.
+
+The noise of the recording says between which values ε must lie. Among these one looks for steadiness: where ε is too
+small, walls break at noise, and a somewhat greater one gives other lines; where it is too great, walls become one with what
+stands before them, and again a greater one gives other lines. In between the lines stay as they are. So the lines at ε are
+judged as if those at 1.6 ε were the truth, and the smallest ε among the best is proposed.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from .extractors import EXTRACTORS
+from .knobs import Thresholds
+from .noise import RangeNoise, noise
+from .scan import Floats, Recording, Scan
+from .segment import Extraction
+from .truth import Agreement, match
+from .tuning.objective import Objective
+
+TRUTH = Objective("truth")
+FRAMES = 24
+LEAST_FRAMES = 4
+# From one value to the next; two steps are the factor at which lines are compared.
+STEP = 1.6**0.5
+# ε lies between so many times the white noise and so many times all the scatter.
+LOWEST, HIGHEST = 2.5, 6.0
+# Values that differ by less are equally steady.
+AS_STEADY = 0.01
+# What present values may lack before others are proposed.
+AS_GOOD = 0.02
+
+
+@dataclass(frozen=True, eq=False)
+class Proposal:
+    """Thresholds that fit a recording, or why there are none.
+
+    params: the proposed ones, or the present ones where these are as good or nothing can be said; changed: whether they
+    differ. scatter: how far points lie from their walls [m]. pieces: into how many segments a wall breaks at the present
+    values, on average. tried: (k,) the values of ε, or of what the method has in its place [m]; steady: (k,) how well the
+    lines there agree with those at 1.6 times as much, 0 to 1.
+    text: one sentence, "" where the present values are as good.
+    """
+
+    params: Thresholds
+    changed: bool
+    noise: RangeNoise
+    scatter: float
+    pieces: float
+    tried: Floats
+    steady: Floats
+    text: str
+
+
+def propose(
+    recording: Recording,
+    params: Thresholds | None = None,
+    method: str = "region-growing",
+    wanted: Callable[[], bool] = lambda: True,
+) -> Proposal | None:
+    """Thresholds of a method that fit this laser, beside the present ones; None once it is no longer `wanted`.
+
+    Only those thresholds change that measure how far points scatter, see `Knob.scatter`, and whose value is not 0.
+    """
+    extractor = EXTRACTORS[method]
+    present = params if params is not None else extractor.params_type()
+    search = _Search(recording, params if params is not None else extractor.params_type(), extractor.extract)
+    why = search.why_not()
+    if why:
+        return search.nothing(why)
+    for scale in search.scales:
+        if not wanted():
+            return None
+        search.try_scale(scale)
+    return search.judged()
+
+
+def scaled(params: Thresholds, scale: float) -> Thresholds:
+    """`params` with each threshold that measures scatter as it is where a point may lie `scale` from its line [m]."""
+    values = {}
+    for name, _, knob in params.knobs():
+        if knob.scatter and getattr(params, name):
+            values[name] = float(np.clip(_rounded(knob.scatter * scale), knob.least, knob.most))
+    return params.but(**values)
+
+
+def _rounded(value: float) -> float:
+    """Two digits: more would promise too much."""
+    return float(f"{value:.2g}")
+
+
+class _Search:
+    """One method on some scans of a recording, at one value of ε after the other."""
+
+    def __init__(self, recording: Recording, present: Thresholds, extract: Callable[[Scan, Any], Extraction]) -> None:
+        self.present, self._extract = present, extract
+        self.noise = noise(recording)
+        frames = np.flatnonzero(np.diff(recording.offsets) > 0)
+        spread = np.linspace(0, len(frames) - 1, min(len(frames), FRAMES)).round().astype(int) if len(frames) else []
+        self._scans = [scan for scan in (recording[int(frames[k])] for k in spread) if scan.valid.any()]
+        self._lines: list[list[Extraction]] = []
+        ranges = np.concatenate([scan.ranges[scan.valid] for scan in self._scans]) if self._scans else np.empty(0)
+        self._white = float(self.noise.at(np.median(ranges))) if len(ranges) else math.nan
+        self.scatter = math.hypot(self._white, self.noise.roughness)
+        self.scales = np.empty(0)
+        if math.isfinite(self._white) and self._white > 0:
+            steps = math.ceil(math.log(HIGHEST * self.scatter / (LOWEST * self._white)) / math.log(STEP))
+            self.scales = LOWEST * self._white * STEP ** np.arange(steps + 3)
+
+    def why_not(self) -> str:
+        """Why nothing can be proposed, in a sentence; "" where something may be."""
+        if not scaled(self.present, 1.0) != self.present:
+            return "This method has no threshold that measures how far points scatter."
+        if len(self._scans) < LEAST_FRAMES:
+            return f"{len(self._scans)} scans with a return are too few to tell the noise of the laser; it takes {LEAST_FRAMES}."
+        if not len(self.scales):
+            return "No straight wall was found by which the noise of the laser could be told."
+        return ""
+
+    def try_scale(self, scale: float) -> None:
+        params = scaled(self.present, scale)
+        self._lines.append([self._extract(scan, params) for scan in self._scans])
+
+    def nothing(self, why: str) -> Proposal:
+        return Proposal(self.present, False, self.noise, self.scatter, math.nan, np.empty(0), np.empty(0), why)
+
+    def judged(self) -> Proposal:
+        count = len(self.scales) - 2
+        steady = np.array([_agreement(self._lines[k], self._lines[k + 2]) for k in range(count)])
+        if not steady.max() > 0.0:
+            return self.nothing("No straight wall was found at any ε that this noise allows.")
+        best = int(np.flatnonzero(steady >= steady.max() - AS_STEADY)[0])
+        proposed, judges = scaled(self.present, self.scales[best]), self._lines[best + 1]
+        present = [self._extract(scan, self.present) for scan in self._scans]
+        lacking = _agreement(self._lines[best], judges) - _agreement(present, judges)
+        pieces = _pieces(present, self._lines[best])
+        found = replace(self.nothing(""), pieces=pieces, tried=self.scales[:count], steady=steady)
+        if lacking <= AS_GOOD:
+            return found
+        return replace(found, params=proposed, changed=True, text=self._text(proposed, pieces))
+
+    def _text(self, proposed: Thresholds, pieces: float) -> str:
+        name, _, knob = next(entry for entry in proposed.knobs() if entry[2].scatter)
+        value, before = getattr(proposed, name), getattr(self.present, name)
+        told = f"Points scatter by {1e3 * self.scatter:.0f} mm here. {knob.symbol} = {value:g} fits"
+        if value > before and pieces >= 1.1:
+            return f"{told}; at {before:g} a wall breaks into {pieces:.1f} pieces on average."
+        return f"{told} better than {before:g}."
+
+
+def _agreement(found: list[Extraction], judges: list[Extraction]) -> float:
+    """How well lines agree with others, taken as the truth: the harmonic mean of TR and 1 − FR, times completeness."""
+    total = Agreement.of_all(match(one, other.labels).agreement for one, other in zip(found, judges, strict=True))
+    score = TRUTH.of_rates(total.true_rate, total.false_rate, total.completeness)
+    return score if math.isfinite(score) else 0.0
+
+
+def _pieces(present: list[Extraction], walls: list[Extraction]) -> float:
+    """Segments on a wall, on average over the walls that have any; NaN where none has."""
+    counts = []
+    for one, other in zip(present, walls, strict=True):
+        matching = match(one, other.labels)
+        counts.append((2 * matching.shared > matching.segment_beams).sum(axis=1))
+    numbers = np.concatenate(counts)
+    return float(numbers[numbers > 0].mean()) if (numbers > 0).any() else math.nan
