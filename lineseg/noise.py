@@ -1,18 +1,18 @@
 """The noise of a laser, from its scans alone: how far ranges scatter, and how far walls depart from straight.
 
-Along a straight line 1/ρ is a·cos φ + b·sin φ: linear in the ray u of the beam. Of three beams with the rays u₁, u₂, u₃ on
-one wall therefore, at whatever angle they meet it,
+Along a straight line 1/ρ = a·cos φ + b·sin φ, which is linear in the ray u of the beam. So for three beams with the
+rays u₁, u₂, u₃ on one wall, at whatever angle they meet it,
 
     e = [u₂u₃]/ρ₁ − [u₁u₃]/ρ₂ + [u₁u₂]/ρ₃ = 0,
 
-with [uv] the cross product. Ranges with the standard deviation σ give e the variance σ²·Σ (wᵢ/ρᵢ²)², w the three cross
-products, so that e over the root of that sum scatters by σ itself. Of neighbouring beams this is the white part of the
-noise: what a wall does over some beams cancels. Of beams that are some length apart on the wall it holds how far the wall
-departs from straight over that length as well.
+with [uv] the cross product. If ranges have the standard deviation σ, e has the variance σ²·Σ (wᵢ/ρᵢ²)², where w are the
+three cross products; so e divided by the root of that sum has the standard deviation σ. For neighbouring beams this is
+the white part of the noise, because a wall bends little within three beams. For beams that meet the wall some length
+apart it also holds how far the wall departs from straight over that length.
 
-Edges, corners and clutter are told from walls by a mixture: what is measured on walls has a known distribution with one
-unknown scale, the rest lies above it, anywhere (Dempster, Laird, Rubin: *Maximum likelihood from incomplete data via the
-EM algorithm*, J. Royal Statistical Society B 39(1), 1977).
+Walls are told from edges, corners and clutter by a mixture: what is measured on walls has a known distribution with one
+unknown scale, and everything else lies above that scale (Dempster, Laird, Rubin: *Maximum likelihood from incomplete
+data via the EM algorithm*, J. Royal Statistical Society B 39(1), 1977).
 """
 
 from __future__ import annotations
@@ -30,30 +30,36 @@ from .scan import Floats, Recording
 # Successive triples that are averaged: fewer tell walls from clutter less well, more find no place on short walls.
 WINDOW = 8
 BINS = 8
-# The variance of such a mean, for second differences of white noise have the correlations 1, −2/3 and 1/6, as degrees of
-# freedom (Welch, Satterthwaite).
+# Second differences of white noise have the correlations 1, −2/3 and 1/6. Their mean square varies as one of fewer
+# independent values would (Welch, Satterthwaite): these are its degrees of freedom.
 WINDOW_DOF = WINDOW**2 / (WINDOW + 2 * (WINDOW - 1) * 4 / 9 + 2 * (WINDOW - 2) / 36)
 # Windows in a bin: of fewer the scale is uncertain by more than a tenth.
 LEAST = 40
 # Share of a bin that must lie on walls for its scale to be believed.
 TRUSTED = 0.2
+# No laser scatters by more [m]: such a bin holds no walls.
+MOST = 0.3
 # Over these lengths walls are looked at [m], in so many scans, from every so-manyth beam.
 LENGTHS = (0.3, 0.6, 1.0)
 FRAMES = 300
-ROUGH_FRAMES = 60
+ROUGH_FRAMES = 30
 ROUGH_STRIDE = 3
 ROUGH_TRUSTED = 0.4
+# Width of the cells in which values are counted: a twentieth of the scale.
+GRAIN = 0.05
+# What departs by more [m] is no wall.
+MOST_ROUGH = 0.05
 
 
 @dataclass(frozen=True, eq=False)
 class RangeNoise:
     """How the points of a recording scatter.
 
-    edges: (bins + 1,) of the ranges [m]; sigma: (bins,) standard deviation of a range there [m], NaN where no wall tells;
+    edges: (bins + 1,) of the ranges [m]; sigma: (bins,) standard deviation of a range in each bin [m], NaN if unknown;
     walls: (bins,) share of what was measured there that lies on walls; windows: (bins,) number of measurements.
     base [m], growth: σ² = base² + (growth·ρ)² through these.
-    lengths: (lengths,) [m]; rough: (lengths,) departure of a wall from straight over each [m], beyond the white part,
-    NaN where no wall tells.
+    lengths: (lengths,) [m]; rough: (lengths,) standard deviation of a wall from straight over each length [m], without
+    the white part; NaN if unknown.
     """
 
     edges: Floats
@@ -66,12 +72,12 @@ class RangeNoise:
     rough: Floats
 
     def at(self, ranges: Floats | float) -> Floats:
-        """σ of ranges [m]; NaN everywhere where the recording does not tell."""
+        """σ at these ranges [m]; NaN if the recording does not show its noise."""
         return np.hypot(self.base, self.growth * np.asarray(ranges))
 
     @property
     def known(self) -> bool:
-        """Whether the scans tell the noise at all."""
+        """Whether the scans show their noise at all."""
         return math.isfinite(self.base)
 
     @property
@@ -81,14 +87,14 @@ class RangeNoise:
 
 
 def noise(recording: Recording) -> RangeNoise:
-    """The noise of a recording, from at most 300 of its scans, evenly spread.
+    """The noise of a recording, from up to 300 of its scans, evenly spread.
 
-    What is too little to judge by (a scan of ten beams, none valid, no straight wall) has NaN.
+    Unknown (NaN) where there is too little to judge by: a scan of ten beams, no beam that returned, no straight wall.
     """
     ranges, departures = _neighbouring(recording)
     edges, sigma, walls, windows = _by_range(ranges, departures)
     base, growth = _law(edges, sigma, windows)
-    rough = np.array([_rough(recording, length, base, growth) for length in LENGTHS])
+    rough = _credible(np.array([_rough(recording, length, base, growth) for length in LENGTHS]))
     return RangeNoise(edges, sigma, walls, windows, base, growth, np.array(LENGTHS), rough)
 
 
@@ -153,7 +159,8 @@ def _by_range(ranges: Floats, departures: Floats) -> tuple[Floats, Floats, Float
     edges = np.append([ranges[part[0]] for part in parts], ranges[order[-1]])
     fits = [_scale(departures[part], WINDOW_DOF) for part in parts]
     walls = np.array([share for _, share in fits])
-    sigma = np.where(walls >= TRUSTED, [scale for scale, _ in fits], np.nan)
+    scales = np.array([scale for scale, _ in fits])
+    sigma = np.where((walls >= TRUSTED) & (scales <= MOST), scales, np.nan)
     return edges, sigma, walls, np.array([len(part) for part in parts])
 
 
@@ -163,25 +170,29 @@ def _scale(values: Floats, dof: float) -> tuple[float, float]:
     A value on a wall is scale·√(χ²/dof) with `dof` degrees of freedom; another may have any size above the scale, each
     order of magnitude as likely as the next.
     """
-    half, logs = dof / 2, np.log(values)
-    constant = math.log(2) + half * math.log(half) - math.lgamma(half)
+    logs = np.log(values)
     log_scale, share, top = float(np.quantile(logs, 0.2)), 0.5, float(logs.max())
+    places = np.linspace(float(logs.min()), top, max(math.ceil((top - float(logs.min())) / GRAIN), 1) + 1)
+    counts, _ = np.histogram(logs, places)
+    logs = (places[:-1] + places[1:]) / 2
+    half = dof / 2
+    constant = math.log(2) + half * math.log(half) - math.lgamma(half)
     for _ in range(100):
         x = logs - log_scale
         on_wall = share * np.exp(constant + 2 * half * x - half * np.exp(2 * x))
         elsewhere = (1 - share) * np.where(x > 0, 1 / max(top - log_scale, 1.0), 1e-9)
-        weight = on_wall / (on_wall + elsewhere)
-        share = float(weight.mean())
-        before, log_scale = log_scale, 0.5 * math.log(float(weight @ values**2) / float(weight.sum()))
+        weight = counts * on_wall / (on_wall + elsewhere)
+        share = float(weight.sum() / counts.sum())
+        before, log_scale = log_scale, 0.5 * math.log(float(weight @ np.exp(2 * logs)) / float(weight.sum()))
         if abs(log_scale - before) < 1e-4:
             break
     return math.exp(log_scale), share
 
 
 def _law(edges: Floats, sigma: Floats, windows: NDArray[np.int64]) -> tuple[float, float]:
-    """base and growth: the line through σ² over ρ², by least squares of the relative error, neither of them negative."""
+    """base and growth: least squares of the relative error of σ² as a line over ρ², neither of them negative."""
     told = np.isfinite(sigma)
-    if not told.any():
+    if not told.any() or not sigma[told].any():
         return math.nan, math.nan
     squares, distances = sigma[told] ** 2, ((edges[:-1] + edges[1:])[told] / 2) ** 2
     rows = np.column_stack((np.ones(len(squares)), distances)) / squares[:, None] * np.sqrt(windows[told])[:, None]
@@ -213,6 +224,18 @@ def _rough(recording: Recording, length: float, base: float, growth: float) -> f
     scale, share = _scale(values, 1.0)
     white = float(np.median(np.hypot(base, growth * ranges)))
     return math.sqrt(max(scale**2 - white**2, 0.0)) if share >= ROUGH_TRUSTED else math.nan
+
+
+def _credible(rough: Floats) -> Floats:
+    """(lengths,) without what no wall does: over a greater length it departs by more, but at most in proportion.
+
+    What grows faster is clutter that lies within the white noise of a wall.
+    """
+    kept = rough.copy()
+    for k in range(len(kept)):
+        most = MOST_ROUGH if k == 0 else kept[k - 1] * LENGTHS[k] / LENGTHS[k - 1]
+        kept[k] = min(kept[k], most) if math.isfinite(most) and kept[k] <= MOST_ROUGH else math.nan
+    return kept
 
 
 @entry_kernel

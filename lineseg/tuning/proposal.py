@@ -1,9 +1,9 @@
 """Thresholds that fit a laser, found from its scans alone.
 
-The noise of the recording says between which values ε must lie. Among these one looks for steadiness: where ε is too
-small, walls break at noise, and a somewhat greater one gives other lines; where it is too great, walls become one with what
-stands before them, and again a greater one gives other lines. In between the lines stay as they are. So the lines at ε are
-judged as if those at 1.6 ε were the truth, and the smallest ε among the best is proposed.
+The noise of the recording bounds ε from both sides. Between these bounds the search looks for steadiness. If ε is too
+small, walls break at noisy points, and a larger ε gives other lines. If it is too large, a wall takes in what stands
+before it, and again a larger ε gives other lines. In between, the lines stay the same. So the lines at ε are scored
+as if the lines at 1.6 ε were the truth, and the smallest ε among the best is proposed.
 """
 
 from __future__ import annotations
@@ -15,13 +15,13 @@ from typing import Any
 
 import numpy as np
 
-from .extractors import EXTRACTORS
-from .knobs import Thresholds
-from .noise import RangeNoise, noise
-from .scan import Floats, Recording, Scan
-from .segment import Extraction
-from .truth import Agreement, match
-from .tuning.objective import Objective
+from ..extractors import EXTRACTORS
+from ..knobs import Thresholds
+from ..noise import RangeNoise, noise
+from ..scan import Floats, Recording, Scan
+from ..segment import Extraction
+from ..truth import Agreement, match
+from .objective import Objective
 
 TRUTH = Objective("truth")
 FRAMES = 24
@@ -29,22 +29,22 @@ LEAST_FRAMES = 4
 # From one value to the next; two steps are the factor at which lines are compared.
 STEP = 1.6**0.5
 # ε lies between so many times the white noise and so many times all the scatter.
-LOWEST, HIGHEST = 2.5, 6.0
+LOWEST, HIGHEST = 2.5, 4.5
 # Values that differ by less are equally steady.
-AS_STEADY = 0.01
+AS_STEADY = 0.02
 # What present values may lack before others are proposed.
-AS_GOOD = 0.02
+AS_GOOD = 0.01
 
 
 @dataclass(frozen=True, eq=False)
 class Proposal:
     """Thresholds that fit a recording, or why there are none.
 
-    params: the proposed ones, or the present ones where these are as good or nothing can be said; changed: whether they
-    differ. scatter: how far points lie from their walls [m]. pieces: into how many segments a wall breaks at the present
-    values, on average. tried: (k,) the values of ε, or of what the method has in its place [m]; steady: (k,) how well the
-    lines there agree with those at 1.6 times as much, 0 to 1.
-    text: one sentence, "" where the present values are as good.
+    params: the proposed ones; the present ones if these are as good or if nothing can be proposed. changed: whether
+    they differ. scatter: standard deviation of points from their walls [m]. pieces: number of segments into which a wall
+    breaks at the present values, on average. tried: (k,) values of ε, or of the method's counterpart [m]; steady: (k,)
+    score of the lines there, with the lines at 1.6 times that value as the truth, 0 to 1.
+    text: what is proposed, or why nothing can be; "" if the present values are as good.
     """
 
     params: Thresholds
@@ -63,12 +63,11 @@ def propose(
     method: str = "region-growing",
     wanted: Callable[[], bool] = lambda: True,
 ) -> Proposal | None:
-    """Thresholds of a method that fit this laser, beside the present ones; None once it is no longer `wanted`.
+    """Thresholds of a method that fit this laser, compared with the present ones; None as soon as `wanted` says no.
 
-    Only those thresholds change that measure how far points scatter, see `Knob.scatter`, and whose value is not 0.
+    Only thresholds that depend on the noise change (see `Knob.scatter`), and none that is 0, which means "off".
     """
     extractor = EXTRACTORS[method]
-    present = params if params is not None else extractor.params_type()
     search = _Search(recording, params if params is not None else extractor.params_type(), extractor.extract)
     why = search.why_not()
     if why:
@@ -81,7 +80,7 @@ def propose(
 
 
 def scaled(params: Thresholds, scale: float) -> Thresholds:
-    """`params` with each threshold that measures scatter as it is where a point may lie `scale` from its line [m]."""
+    """`params` with every threshold that depends on the noise set for an ε of `scale` [m]."""
     values = {}
     for name, _, knob in params.knobs():
         if knob.scatter and getattr(params, name):
@@ -114,12 +113,13 @@ class _Search:
 
     def why_not(self) -> str:
         """Why nothing can be proposed, in a sentence; "" where something may be."""
-        if not scaled(self.present, 1.0) != self.present:
+        if scaled(self.present, 1.0) == self.present:
             return "This method has no threshold that measures how far points scatter."
         if len(self._scans) < LEAST_FRAMES:
-            return f"{len(self._scans)} scans with a return are too few to tell the noise of the laser; it takes {LEAST_FRAMES}."
+            few = len(self._scans)
+            return f"The noise of a laser shows in {LEAST_FRAMES} scans or more; {few} of these have a return."
         if not len(self.scales):
-            return "No straight wall was found by which the noise of the laser could be told."
+            return "No straight wall was found, so the noise of the laser is unknown."
         return ""
 
     def try_scale(self, scale: float) -> None:
@@ -133,7 +133,7 @@ class _Search:
         count = len(self.scales) - 2
         steady = np.array([_agreement(self._lines[k], self._lines[k + 2]) for k in range(count)])
         if not steady.max() > 0.0:
-            return self.nothing("No straight wall was found at any ε that this noise allows.")
+            return self.nothing("At no ε that fits this noise do lines stay the same.")
         best = int(np.flatnonzero(steady >= steady.max() - AS_STEADY)[0])
         proposed, judges = scaled(self.present, self.scales[best]), self._lines[best + 1]
         present = [self._extract(scan, self.present) for scan in self._scans]
