@@ -13,7 +13,7 @@ from lineseg.readers import TextOptions
 from lineseg.writers import SEGMENT_WRITERS, write_segments
 
 from .progress import counted, open_with_progress
-from .thresholds import Choice
+from .thresholds import Choice, suggested
 
 
 def extract(
@@ -25,6 +25,7 @@ def extract(
     topic: str | None = None,
     range_noise: float | None = None,
     bearing_noise: float | None = None,
+    suggest: bool = False,
 ) -> None:
     """Write the segments of a recording as JSON lines, CSV or GeoJSON.
 
@@ -37,6 +38,7 @@ def extract(
         range_noise: standard deviation of a range [m]; with it, or with --bearing-noise, every segment is written with
             its (rho, theta) and their covariance.
         bearing_noise: standard deviation of a bearing [rad].
+        suggest: use thresholds that fit the noise of this recording, and say which.
     """
     chosen = choice.thresholds
     noise = None
@@ -47,6 +49,8 @@ def extract(
     if out is not None and not out.absolute().parent.is_dir():
         raise FileNotFoundError(f"{out}: the folder {out.parent} does not exist.")
     recording = open_with_progress(file, topic, text)
+    if suggest:
+        chosen = suggested(recording, chosen, choice.method)
     from lineseg import extract as extract_segments
 
     scans = counted(enumerate(recording), len(recording), "extract")

@@ -8,8 +8,10 @@ from pathlib import Path
 import numpy as np
 from tyro.conf import OmitArgPrefixes, Positional
 
+from lineseg.noise import RangeNoise
 from lineseg.readers import TextOptions
 from lineseg.scan import Recording
+from lineseg.tuning.proposal import propose
 
 from .progress import open_with_progress
 
@@ -44,3 +46,19 @@ def _facts(recording: Recording) -> Iterator[tuple[str, object]]:
     yield "longest range", f"{max(longest, default=0.0):.3f} m"
     if recording.stamps.any():
         yield "duration", f"{np.ptp(recording.stamps):.3f} s"
+    found = propose(recording)
+    yield "noise", _noise(found.noise, [float(ranges) for ranges in longest])
+    yield "thresholds", found.text or "The defaults fit."
+
+
+def _noise(noise: RangeNoise, longest: list[float]) -> str:
+    if not noise.known:
+        return "unknown: no straight wall was found"
+    near, far = noise.at(1.0), noise.at(np.median(longest))
+    text = f"{1e3 * near:.0f} mm"
+    if far > 1.2 * near:
+        text += f" at 1 m, {1e3 * far:.0f} mm at {np.median(longest):.0f} m"
+    if noise.roughness > 0.5 * near:
+        length = noise.lengths[np.nanargmax(noise.rough)]
+        text += f"; walls depart from straight by {1e3 * noise.roughness:.0f} mm over {length:g} m"
+    return text

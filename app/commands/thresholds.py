@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from dataclasses import asdict, dataclass, field, make_dataclass
 from pathlib import Path
 from typing import Annotated, Any, TypeVar
@@ -9,6 +10,8 @@ from typing import Annotated, Any, TypeVar
 from tyro.conf import OmitArgPrefixes, UseAppendAction, arg
 
 from lineseg import EXTRACTORS, Extractor, Knob, Params, Thresholds
+from lineseg.scan import Recording
+from lineseg.tuning.proposal import propose
 from lineseg.writers import read_params
 
 T = TypeVar("T", bound=Thresholds)
@@ -55,6 +58,16 @@ class Choice:
         kind = self.extractor.params_type
         base = kind() if self.params is None else read_file(self.params, kind)
         return changed(base, self.flags, **dict(map(_pair, self.set)))
+
+
+def suggested(recording: Recording, present: Thresholds, method: str) -> Thresholds:
+    """Thresholds that fit the recording; says on stderr which, or why none do."""
+    found = propose(recording, present, method)
+    print(found.text or "The thresholds fit this recording as they are.", file=sys.stderr)
+    if found.changed:
+        names = [name for name in present.names() if getattr(found.params, name) != getattr(present, name)]
+        print("Used: " + ", ".join(f"{name} = {getattr(found.params, name):g}" for name in names), file=sys.stderr)
+    return found.params
 
 
 def changed(base: T, flags: Any, **others: float) -> T:

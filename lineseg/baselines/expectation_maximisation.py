@@ -40,7 +40,7 @@ class EmParams(Thresholds):
     sigma: Annotated[
         float,
         Knob(
-            "σ", 0.002, 0.1, "m", 0.001, log=True, least=1e-5, most=10.0,
+            "σ", 0.002, 0.1, "m", 0.001, log=True, least=1e-5, most=10.0, scatter=0.33,
             label="noise of a point",
             why="without noise no point would belong to a line that moves",
             help="Standard deviation of a point's distance to its line. Points within 3 σ can become its own.",

@@ -45,7 +45,7 @@ class HoughParams(Thresholds):
     rho_step: Annotated[
         float,
         Knob(
-            "Δρ", 0.01, 0.5, "m", 0.01, log=True, least=0.001, most=10.0,
+            "Δρ", 0.01, 0.5, "m", 0.01, log=True, least=0.001, most=10.0, scatter=1.5,
             label="step of the distances",
             why="a grid of finer steps would not fit into memory",
             help="Width of a cell in ρ. Set it to a few times the range precision of the laser.",

@@ -32,7 +32,7 @@ class RegressionParams(Thresholds):
     sigma: Annotated[
         float,
         Knob(
-            "σ_r", 0.002, 0.1, "m", 0.001, log=True, least=1e-5, most=10.0,
+            "σ_r", 0.002, 0.1, "m", 0.001, log=True, least=1e-5, most=10.0, scatter=0.5,
             label="noise of a range",
             why="without noise no two lines agree",
             help="Standard deviation of a range. It says how far the lines of neighbouring windows may differ.",

@@ -41,7 +41,7 @@ class SplitAndMergeParams(Thresholds):
     outlier_distance: Annotated[
         float,
         Knob(
-            "d_out", 0.01, 1.0, "m", 0.005, log=True, least=1e-6, most=1000.0, ros="outlier_dist",
+            "d_out", 0.01, 1.0, "m", 0.005, log=True, least=1e-6, most=1000.0, ros="outlier_dist", scatter=2.0,
             label="range step of an outlier",
             why="a distance of 0 would make an outlier of every point",
             help="A point whose range differs by more from both neighbours, and that is off their line, is left out.",
@@ -50,7 +50,7 @@ class SplitAndMergeParams(Thresholds):
     range_noise: Annotated[
         float,
         Knob(
-            "σ_r", 0.001, 0.1, "m", 0.001, log=True, least=1e-6, most=10.0, ros="range_std_dev",
+            "σ_r", 0.001, 0.1, "m", 0.001, log=True, least=1e-6, most=10.0, ros="range_std_dev", scatter=0.4,
             label="noise of a range",
             why="without noise no line has a covariance",
             help="Standard deviation of a range; weighs the points, and says which lines are one.",

@@ -22,7 +22,7 @@ from .chord import chord, farthest, widest_step
 SplitDistance = Annotated[
     float,
     Knob(
-        "d_split", 0.005, 0.3, "m", 0.001, log=True, least=1e-6, most=100.0, ros="min_split_dist",
+        "d_split", 0.005, 0.3, "m", 0.001, log=True, least=1e-6, most=100.0, ros="min_split_dist", scatter=1.3,
         label="distance that splits",
         why="a distance of 0 would split at every point",
         help="A stretch is split at its farthest point if that lies at least so far from the line through its ends.",

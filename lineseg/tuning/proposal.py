@@ -3,7 +3,7 @@
 The noise of the recording bounds ε from both sides. Between these bounds the search looks for steadiness. If ε is too
 small, walls break at noisy points, and a larger ε gives other lines. If it is too large, a wall takes in what stands
 before it, and again a larger ε gives other lines. In between, the lines stay the same. So the lines at ε are scored
-as if the lines at 1.6 ε were the truth, and the smallest ε among the best is proposed.
+as if the lines at 1.6 ε were the truth. The best ε is proposed; among nearly equal ones, what the noise suggests.
 """
 
 from __future__ import annotations
@@ -18,6 +18,7 @@ import numpy as np
 from ..extractors import EXTRACTORS
 from ..knobs import Thresholds
 from ..noise import RangeNoise, noise
+from ..readers import Cancelled
 from ..scan import Floats, Recording, Scan
 from ..segment import Extraction
 from ..truth import Agreement, match
@@ -30,8 +31,9 @@ LEAST_FRAMES = 4
 STEP = 1.6**0.5
 # ε lies between so many times the white noise and so many times all the scatter.
 LOWEST, HIGHEST = 2.5, 4.5
-# Values that differ by less are equally steady.
-AS_STEADY = 0.02
+# What the noise alone would choose, in times √(white noise · all the scatter); and how much steadier lines must be at a
+# value e times as far from that.
+USUAL, PULL = 3.2, 0.1
 # What present values may lack before others are proposed.
 AS_GOOD = 0.01
 
@@ -41,9 +43,9 @@ class Proposal:
     """Thresholds that fit a recording, or why there are none.
 
     params: the proposed ones; the present ones if these are as good or if nothing can be proposed. changed: whether
-    they differ. scatter: standard deviation of points from their walls [m]. pieces: number of segments into which a wall
-    breaks at the present values, on average. tried: (k,) values of ε, or of the method's counterpart [m]; steady: (k,)
-    score of the lines there, with the lines at 1.6 times that value as the truth, 0 to 1.
+    they differ. scatter: standard deviation of points from their walls [m]. pieces: number of segments into which a
+    wall breaks at the present values, on average. tried: (k,) values of ε, or of the method's counterpart [m]; steady:
+    (k,) score of the lines there, with the lines at 1.6 times that value as the truth, 0 to 1.
     text: what is proposed, or why nothing can be; "" if the present values are as good.
     """
 
@@ -62,10 +64,11 @@ def propose(
     params: Thresholds | None = None,
     method: str = "region-growing",
     wanted: Callable[[], bool] = lambda: True,
-) -> Proposal | None:
-    """Thresholds of a method that fit this laser, compared with the present ones; None as soon as `wanted` says no.
+) -> Proposal:
+    """Thresholds of a method that fit this laser, compared with the present ones.
 
     Only thresholds that depend on the noise change (see `Knob.scatter`), and none that is 0, which means "off".
+    Raises Cancelled as soon as `wanted` says no.
     """
     extractor = EXTRACTORS[method]
     search = _Search(recording, params if params is not None else extractor.params_type(), extractor.extract)
@@ -74,7 +77,7 @@ def propose(
         return search.nothing(why)
     for scale in search.scales:
         if not wanted():
-            return None
+            raise Cancelled
         search.try_scale(scale)
     return search.judged()
 
@@ -134,7 +137,8 @@ class _Search:
         steady = np.array([_agreement(self._lines[k], self._lines[k + 2]) for k in range(count)])
         if not steady.max() > 0.0:
             return self.nothing("At no ε that fits this noise do lines stay the same.")
-        best = int(np.flatnonzero(steady >= steady.max() - AS_STEADY)[0])
+        usual = USUAL * math.sqrt(self._white * self.scatter)
+        best = int(np.argmax(steady - PULL * np.abs(np.log(self.scales[:count] / usual))))
         proposed, judges = scaled(self.present, self.scales[best]), self._lines[best + 1]
         present = [self._extract(scan, self.present) for scan in self._scans]
         lacking = _agreement(self._lines[best], judges) - _agreement(present, judges)

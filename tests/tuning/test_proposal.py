@@ -1,0 +1,121 @@
+"""Thresholds that fit a laser are found without truth; judged here by the truth."""
+
+import os
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from lineseg import EXTRACTORS, Cancelled, Params, extract, open_recording
+from lineseg.scan import Recording, Scan
+from lineseg.simulate.laser import RPLIDAR_A2, UTM_30LX
+from lineseg.simulate.worlds import WORLDS
+from lineseg.truth import Agreement, agreement, true_lines
+from lineseg.tuning import Objective
+from lineseg.tuning.proposal import propose
+
+FRAMES = 20
+EPSILONS = np.geomspace(0.008, 0.5, 19)
+
+
+def some(recording, frames=FRAMES):
+    return recording.only(np.linspace(0, len(recording) - 1, frames).round().astype(int))
+
+
+def score(recording, params):
+    total = Agreement.of_all(
+        agreement(extract(scan, params), true_lines(scan), np.full((99, 2, 2), np.nan)) for scan in recording
+    )
+    return Objective("truth").of_rates(total.true_rate, total.false_rate, total.completeness)
+
+
+def best_score(recording):
+    return max(score(recording, Params(epsilon=epsilon, delta=1.5 * epsilon)) for epsilon in EPSILONS.tolist())
+
+
+def world(name, sigma, laser):
+    return replace(WORLDS[name], laser=replace(laser, sigma=sigma, sigma_far=sigma)).recording(name, FRAMES)
+
+
+@pytest.fixture(scope="module")
+def board_room():
+    reference = os.environ.get("LINESEG_DATA")
+    file = Path(reference or ".").parent / "truth" / "lroom_b.npz"
+    if not reference or not file.exists():
+        pytest.skip("set LINESEG_DATA to the folder of recordings; its sibling `truth` holds rooms with truth")
+    return some(open_recording(file))
+
+
+def test_in_a_room_of_boards_the_proposal_is_as_good_as_any_epsilon(board_room):
+    found = propose(board_room)
+    assert found.changed
+    assert found.params.epsilon > 2 * Params().epsilon
+    assert found.pieces > 1.3
+    assert f"ε = {found.params.epsilon:g} fits; at 0.03 a wall breaks into {found.pieces:.1f} pieces" in found.text
+    assert score(board_room, found.params) > 0.97 * best_score(board_room)
+    assert score(board_room, Params()) < 0.6
+
+
+@pytest.mark.parametrize(
+    ("name", "sigma", "laser"),
+    [
+        ("flat", 0.02, RPLIDAR_A2),
+        ("flat", 0.075, RPLIDAR_A2),
+        ("office", 0.03, UTM_30LX),
+        ("warehouse", 0.02, UTM_30LX),
+    ],
+)
+def test_for_a_coarse_laser_the_proposal_is_as_good_as_any_epsilon(name, sigma, laser):
+    recording = world(name, sigma, laser)
+    assert score(recording, propose(recording).params) > 0.97 * best_score(recording)
+
+
+def test_nothing_is_said_where_the_present_values_are_as_good():
+    recording = world("flat", 0.008, RPLIDAR_A2)
+    found = propose(recording)
+    assert not found.changed
+    assert found.text == ""
+    assert found.params == Params()
+
+
+@pytest.mark.parametrize("method", ["split-and-merge-textbook", "line-tracking", "hough", "ransac"])
+def test_other_methods_get_thresholds_of_their_own(board_room, method):
+    found = propose(board_room, method=method)
+    kind = EXTRACTORS[method].params_type
+    assert type(found.params) is kind
+    assert found.changed
+    for name, _, knob in kind.knobs():
+        assert (getattr(found.params, name) != getattr(kind(), name)) <= (knob.scatter > 0)
+
+
+def test_only_what_depends_on_the_noise_is_changed():
+    present = Params(seed_points=8, min_length=0.4)
+    found = propose(world("flat", 0.075, RPLIDAR_A2), present)
+    assert replace(found.params, epsilon=present.epsilon, delta=present.delta) == present
+
+
+def scans_of(*ranges):
+    return Recording.from_scans([Scan.regular(np.asarray(each, float), -1.0, 0.01) for each in ranges])
+
+
+@pytest.mark.parametrize(
+    ("recording", "why"),
+    [
+        pytest.param(scans_of(), "4 scans or more; 0 of these", id="no scan"),
+        pytest.param(scans_of(np.full(400, 2.0)), "4 scans or more; 1 of these", id="one frame"),
+        pytest.param(scans_of(*[np.full(10, 2.0)] * 9), "No straight wall", id="ten beams"),
+        pytest.param(scans_of(*[np.full(400, np.inf)] * 9), "4 scans or more; 0 of these", id="nothing returns"),
+        pytest.param(scans_of(*np.random.default_rng(1).uniform(0.5, 20, (40, 400))), "No straight wall", id="no wall"),
+    ],
+)
+def test_where_nothing_can_be_proposed_a_sentence_says_why(recording, why):
+    found = propose(recording)
+    assert not found.changed
+    assert found.params == Params()
+    assert why in found.text
+
+
+def test_a_search_that_nobody_wants_any_more_ends():
+    with pytest.raises(Cancelled):
+        propose(world("flat", 0.02, RPLIDAR_A2), wanted=lambda: False)
