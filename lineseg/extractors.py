@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+from .arguments import need_scan, need_thresholds
 from .baselines.authors import AUTHORS, AuthorsParams
 from .baselines.expectation_maximisation import EXPECTATION_MAXIMISATION, EmParams
 from .baselines.found import Method
@@ -49,7 +50,10 @@ def extract(scan: Scan, params: Thresholds | None = None) -> Extraction:
     """The line segments of one scan, by the method whose thresholds these are; by seeded region growing without.
 
     Segments come in scan order: by their first beam. A scan with fewer valid beams than a seed needs gives none.
+    Raises TypeError, which says what to pass, for an array instead of a Scan or a dict instead of thresholds.
     """
+    if type(scan) is not Scan:
+        need_scan(scan)
     if params is None or type(params) is Params:
         return grow(scan, params or Params())
     return method_of(params).extract(scan, params)
@@ -57,13 +61,18 @@ def extract(scan: Scan, params: Thresholds | None = None) -> Extraction:
 
 def trace(scan: Scan, params: Thresholds | None = None) -> Trace:
     """The same run with every decision written down; `.extraction` is what `extract` returns."""
-    params = params or Params()
+    need_scan(scan)
+    params = Params() if params is None else params
     return method_of(params).trace(scan, params)
 
 
 def method_of(params: Thresholds) -> Extractor:
-    """The method whose thresholds these are."""
-    return next(method for method in EXTRACTORS.values() if method.params_type is type(params))
+    """The method whose thresholds these are. Raises TypeError for anything else, and says what to pass."""
+    for method in EXTRACTORS.values():
+        if method.params_type is type(params):
+            return method
+    need_thresholds(params)
+    raise TypeError(f"no method of EXTRACTORS takes {type(params).__name__}; add an Extractor with this params_type")
 
 
 def grow(scan: Scan, params: Params) -> Extraction:

@@ -32,6 +32,9 @@ class Scan:
     wall: NDArray[np.integer] | None = None
 
     def __post_init__(self) -> None:
+        for name, array in (("ranges", self.ranges), ("bearings", self.bearings)):
+            if not isinstance(array, np.ndarray):
+                raise TypeError(f"{name} must be an array, not {type(array).__name__}; numpy.asarray({name}) makes one")
         if self.ranges.ndim != 1 or self.ranges.shape != self.bearings.shape:
             raise ValueError(
                 f"a scan needs one range and one bearing for each beam; ranges have the shape {self.ranges.shape}, "

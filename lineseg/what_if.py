@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from .arguments import need_scan, need_thresholds
 from .extractors import EXTRACTORS
 from .knobs import Knob, Thresholds
 from .scan import Scan
@@ -42,10 +43,12 @@ def what_if(
     that the knob can be set to; near and far are as on its slider, so in the logarithm where that is logarithmic. The
     search goes outward from the present value in ever wider steps, and halves the step that changed the answer.
     """
+    need_scan(scan)
     if not 0 <= beam < len(scan):
         raise ValueError(f"beam {beam}: the scan has the beams 0 to {len(scan) - 1}")
     extractor = EXTRACTORS[method]
-    params = params or extractor.params_type()
+    params = extractor.params_type() if params is None else params
+    need_thresholds(params, extractor.params_type)
     now = extractor.extract(scan, params)
     line = _line_of(beam, now)
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arguments import need_scan, need_thresholds
 from ..extractors import extract, trace_growth
 from ..params import Params
 from ..region_growing.checks import GROWTH_STOPPED, LINE_DROPPED, SEED_REJECTED
@@ -38,7 +39,9 @@ class Miss:
 
 def misses(scan: Scan, params: Params | None = None) -> tuple[Miss, ...]:
     """The probable misses of a scan, in its order: as many as its score "misses" says."""
-    params = params or Params()
+    need_scan(scan)
+    params = Params() if params is None else params
+    need_thresholds(params, Params)
     traced = trace_growth(scan, params)
     looser = params.but(
         epsilon=min(LOOSER * params.epsilon, 100.0), delta=min(LOOSER * params.delta, 1000.0), max_occluder=0.0

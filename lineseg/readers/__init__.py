@@ -9,6 +9,7 @@ import gzip
 import zlib
 from pathlib import Path
 
+from ..arguments import need_path
 from ..scan import Recording
 from .carmen import CarmenLog
 from .npz import Npz, save_npz
@@ -38,6 +39,7 @@ def open_recording(
     text: what a plain text file does not say about itself.
     A file that cannot be read is a ValueError or OSError whose text is one sentence.
     """
+    need_path(path)
     path = Path(path)
     source = Source(path, topic, progress or (lambda done, total: None), text or TextOptions())
     if not path.exists():

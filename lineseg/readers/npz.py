@@ -12,6 +12,7 @@ from typing import Any, BinaryIO
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arguments import need_recording
 from ..scan import Recording, Topic
 from .source import Reader, Source
 
@@ -55,6 +56,7 @@ class Npz(Reader):
 
 def save_npz(recording: Recording, target: str | Path | BinaryIO) -> None:
     """Write `recording` so that `open_recording` gives it back; shorter scans are padded with NaN."""
+    need_recording(recording)
     lengths = np.diff(recording.offsets)
     shape = (len(recording), int(lengths.max(initial=0)))
     inside = np.arange(shape[1]) < lengths[:, None]

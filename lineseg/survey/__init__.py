@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arguments import need_recording, need_thresholds
 from ..doubt import SCORES, Spans, score_frame, spans_of
 from ..doubt.neighbours import VOTES, compare_frames, views_of
 from ..kernel import entry_kernel, kernel
@@ -89,7 +90,9 @@ def survey(
     progress: called in the calling thread with (frames done, frames); what it raises comes through.
     threads: as many as there are cores without.
     """
-    params = params or Params()
+    need_recording(recording)
+    params = Params() if params is None else params
+    need_thresholds(params)
     flag = np.zeros(1, np.bool_) if cancelled is None else cancelled
     job = _Job(recording, params, flag, scores)
     helpers = [

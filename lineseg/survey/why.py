@@ -9,6 +9,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arguments import need_recording
 from ..doubt import LOOSER, NEAR_EPSILON, SCORES, find_splits
 from ..doubt.misses import misses, why_none
 from ..doubt.neighbours import VOTES, mark_frame, moved, views_of
@@ -49,6 +50,7 @@ def why(
     scores: (frames, len(SCORES)) of the whole recording; without, only the frames around are surveyed, and the frame is
     measured against them.
     """
+    need_recording(recording)
     if not 0 <= frame < len(recording):
         raise IndexError(f"frame {frame}: the recording has the frames 0 to {len(recording) - 1}")
     first = max(frame - AROUND, 0)

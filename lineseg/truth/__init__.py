@@ -12,6 +12,7 @@ from typing import Self
 import numpy as np
 from numpy.typing import NDArray
 
+from ..arguments import need_recording, need_scan, need_thresholds
 from ..extractors import EXTRACTORS
 from ..knobs import Thresholds
 from ..params import Params
@@ -29,9 +30,11 @@ def true_lines(scan: Scan, params: Params | None = None, occlusion: float = OCCL
     and their points are more than `occlusion` apart [m]; a thinner chair leg, or a few lost beams, leave it whole.
     On a full circle a run may cross the seam.
     """
+    need_scan(scan)
     if scan.wall is None:
         raise ValueError("this scan has no true walls; `wall` gives the wall of each beam")
-    params = params or Params()
+    params = Params() if params is None else params
+    need_thresholds(params, Params)
     labels = np.full(len(scan), -1, np.int32)
     found = 0
     for wall in np.unique(scan.wall[scan.valid & (scan.wall >= 0)]):
@@ -228,7 +231,9 @@ def agreements(
     L_min as the method has them. ends: the endpoints of a frame's true lines; without, `true_ends`.
     """
     extractor = EXTRACTORS[method]
-    params = params or extractor.params_type()
+    need_recording(recording)
+    params = extractor.params_type() if params is None else params
+    need_thresholds(params, extractor.params_type)
     known = truth or (lambda frame: true_lines(recording[frame], demands_of(params)))
     for frame, scan in enumerate(recording):
         lines = known(frame)

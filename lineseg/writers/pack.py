@@ -12,6 +12,7 @@ from typing import Any, BinaryIO
 
 import numpy as np
 
+from ..arguments import need_recording
 from ..extractors import method_of
 from ..knobs import Thresholds
 from ..params import Params
@@ -38,7 +39,8 @@ def write_pack(
     `open_recording` opens it as a recording of this one frame, `read_params` reads its lineseg.json. A pack of a pack's
     frame tells where that came from.
     """
-    params = params or Params()
+    need_recording(recording)
+    params = Params() if params is None else params
     method = method_of(params)
     alone = recording.only(np.array([frame]))
     scan = alone[0]
