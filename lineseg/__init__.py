@@ -1,4 +1,37 @@
-"""Line segments from 2D laser scans by seeded region growing (Gao, Zhang, Fang, Yuan 2018)."""
+"""Line segments from 2D laser scans by seeded region growing (Gao, Zhang, Fang, Yuan 2018).
+
+    from lineseg import extract, open_recording
+
+    recording = open_recording("corridor.bag")
+    for segment in extract(recording[0]).segments:
+        print(segment.start, segment.end, segment.rms)
+
+Lengths are metres, angles radians, times seconds; frames and beams count from 0. By what one wants to do:
+
+Open a recording
+    `open_recording` a file (`TextOptions` for numbers as text; raise `Cancelled` to stop), a `Recording` of `Scan`s,
+    perhaps one of several a `Topic`; `read_pack`, `PackAbout`: what a failure pack says of itself.
+Extract lines
+    `extract` from a scan, with `Params`, an `Extraction` of `Segment`s, and what was `Dropped`; `survey` a whole
+    recording, a `Survey`; `covariance`, `covariances` of lines, from the `Noise` of the beams.
+Understand a result
+    `trace` it, a `Trace` of `Decision`s with each `TracedLine`, and an `Explanation` of a beam; `what_if`, `WhatIf`:
+    which threshold would change it; `why`, `Remark`: what looks wrong in a frame; `misses`, `Miss`: lines not found.
+Judge results
+    Without truth: `SCORES`, `with_stability`, and by `WEIGHTS` the `doubts`, the `suspicion`, the frames `worst_first`.
+    Against truth: `true_lines`, `true_ends`; `match`, `Matching`; `agreement`, `agreements`, `Agreement`.
+    Against each other: `difference`, `differences`, `Difference`.
+Say what is true
+    `label_file`, `read_labels`, `save_labels`; `FrameLabels` of `TrueLine`s; `ConflictError`.
+Tune, and take the thresholds along
+    `read_params`, `params_text`; many settings at once: `lineseg.sweep`; search: `lineseg.tuning`.
+Write
+    `write_segments`, `figure_svg`, `save_npz`, `write_pack`; into a recording of rerun: `lineseg.rerun`.
+Declare a method of one's own
+    `Extractor` in the table `EXTRACTORS`, with `Thresholds`, each a `Knob`.
+
+`lineseg.examples` has a small program for each of these.
+"""
 
 from .covariance import Noise, covariance, covariances
 from .doubt import SCORES

@@ -60,7 +60,7 @@ def extract(scan: Scan, params: Thresholds | None = None) -> Extraction:
 
 
 def trace(scan: Scan, params: Thresholds | None = None) -> Trace:
-    """The same run with every decision written down; `.extraction` is what `extract` returns."""
+    """The same run with every decision written down; `.extraction` is what `extract` returns. Raises what it raises."""
     need_scan(scan)
     params = Params() if params is None else params
     return method_of(params).trace(scan, params)

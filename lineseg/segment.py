@@ -64,7 +64,11 @@ class Dropped(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Extraction:
-    """Segments in scan order; for each beam its segment, or −1; and the candidates that were dropped."""
+    """What a method finds in one scan.
+
+    segments: in scan order, by their first beam. labels: (n,) int32, for each beam the index of its segment, or −1.
+    dropped: the candidates that were not kept. method: its name in EXTRACTORS; params: its thresholds.
+    """
 
     method: str
     params: Any

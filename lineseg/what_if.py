@@ -42,6 +42,7 @@ def what_if(
     Two segments are the same line if the intersection over union of their beams is more than one half. Values are those
     that the knob can be set to; near and far are as on its slider, so in the logarithm where that is logarithmic. The
     search goes outward from the present value in ever wider steps, and halves the step that changed the answer.
+    Raises ValueError for a beam that the scan does not have.
     """
     need_scan(scan)
     if not 0 <= beam < len(scan):

@@ -89,6 +89,7 @@ def survey(
     cancelled: (1,) bool; set it in another thread and the survey stops after the frame at hand, raising `Cancelled`.
     progress: called in the calling thread with (frames done, frames); what it raises comes through.
     threads: as many as there are cores without.
+    Raises TypeError, which says what to pass, for anything but a Recording and thresholds.
     """
     need_recording(recording)
     params = Params() if params is None else params

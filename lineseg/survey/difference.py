@@ -36,7 +36,7 @@ class Difference(NamedTuple):
 
 
 def difference(a: Extraction, b: Extraction) -> Difference:
-    """What became in B of the lines of A, of one scan."""
+    """What became in B of the lines of A, two extractions of the same scan by other thresholds or methods."""
     spans = [np.array([(s.first, s.last) for s in each.segments], np.int32).reshape(-1, 2) for each in (a, b)]
     found = Difference(np.empty(len(spans[0]), np.int8), np.empty(len(spans[1]), np.int8))
     _compare(*spans, len(a.labels), *found)
@@ -44,7 +44,10 @@ def difference(a: Extraction, b: Extraction) -> Difference:
 
 
 def differences(a: Survey, b: Survey, recording: Recording) -> NDArray[np.int32]:
-    """(frames, 5) the `counts` of every frame of a recording, in the order of FATES."""
+    """(frames, 5) the `counts` of every frame of a recording, in the order of FATES.
+
+    Raises ValueError if the surveys are not of as many frames as the recording has.
+    """
     if not len(a) == len(b) == len(recording):
         raise ValueError(f"surveys of {len(a)} and {len(b)} frames do not belong to a recording of {len(recording)}")
     counts = np.zeros((len(a), len(FATES)), np.int32)

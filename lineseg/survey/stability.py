@@ -50,7 +50,10 @@ def with_stability(
     progress: Callable[[int, int], None] | None = None,
     threads: int | None = None,
 ) -> Survey:
-    """A survey with its last score, "unstable", which takes a survey for each variation; see `survey` for the rest."""
+    """A survey with its last score, "unstable", which takes a survey for each variation; see `survey` for the rest.
+
+    Raises ValueError for a survey without scores, `Cancelled` when it is stopped.
+    """
     if base.scores is None:
         raise ValueError("this survey was made without scores")
     total = sum(1 for _ in variations(base.params))

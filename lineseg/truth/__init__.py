@@ -28,7 +28,7 @@ def true_lines(scan: Scan, params: Params | None = None, occlusion: float = OCCL
     A true line is a visible run of one wall with at least P_min valid beams and at least L_min between its outermost
     points. A run is cut between two of its beams if other beams, of another wall or without a return, lie between them
     and their points are more than `occlusion` apart [m]; a thinner chair leg, or a few lost beams, leave it whole.
-    On a full circle a run may cross the seam.
+    On a full circle a run may cross the seam. Raises ValueError where the walls are not known.
     """
     need_scan(scan)
     if scan.wall is None:
@@ -214,7 +214,10 @@ def match(extraction: Extraction, truth: NDArray[np.integer], ends: NDArray[np.f
 
 
 def agreement(extraction: Extraction, truth: NDArray[np.integer], ends: NDArray[np.float64] | None = None) -> Agreement:
-    """The numbers of `match`."""
+    """How far the segments of one scan agree with its true lines: the numbers of `match`, which says more.
+
+    truth: (n,) int, the true line of each beam or −1; ends: (lines, 2, 2) [m], see `true_ends`.
+    """
     return match(extraction, truth, ends).agreement
 
 

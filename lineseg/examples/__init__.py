@@ -1,0 +1,5 @@
+"""Small programs to read, run and go on from, each about one thing.
+
+In a checkout `python lineseg/examples/01_extract.py`; with a recording of your own, from anywhere,
+`python -m lineseg.examples.01_extract corridor.bag`.
+"""
