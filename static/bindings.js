@@ -8,7 +8,7 @@ import { closePopovers } from "./widgets/menu.js";
 
 /**
  * @param {import("./page.js").Page} page
- * @param {{replay: Steps, learn: {stepper: ReturnType<typeof import("./learn/stepper.js").mountStepper>, zoom: () => void, answer: (yes: boolean) => void},
+ * @param {{replay: Steps, learn: {stepper: import("./learn/stepper.js").Stepper, zoom: () => void, answer: (yes: boolean) => void},
  *          timeline: {toggle: () => void, move: (by: number) => void, doubtful: (by: 1 | -1) => void},
  *          inspect: ReturnType<typeof import("./inspect/inspect.js").createInspect>, labels: ReturnType<typeof import("./label/labels.js").createLabels>,
  *          draw: Editor, panel: {open: (name: string) => void}, camera: {fit: () => void, toggle: () => void},

@@ -1,6 +1,6 @@
 // @ts-check
 // Files that the server makes, fetched so that the page knows how far they are and why they fail.
-import { messageOf } from "../tune/exchange.js";
+import { messageOf } from "../fetch.js";
 
 // A row of segments begins with its frame in CSV; in JSON lines and GeoJSON it is the first field of this name.
 const FRAME = /^(\d+),|"frame": (\d+)/;

@@ -1,6 +1,6 @@
 // @ts-check
 // Which frames are listed: those with a tag, and with some words in their tags, their note, or what looks wrong in them.
-import { fetchText } from "../tune/exchange.js";
+import { fetchText } from "../fetch.js";
 import { h, setText } from "../widgets/dom.js";
 
 /** @typedef {import("../wire.js").State} State */

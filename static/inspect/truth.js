@@ -1,7 +1,7 @@
 // @ts-check
 // The numbers of the paper's Table 4 and more, of the frame and of the recording.
 import { keyOf } from "../view/key.js";
-import { fetchText } from "../tune/exchange.js";
+import { fetchText } from "../fetch.js";
 import { h, setText } from "../widgets/dom.js";
 import { tooltip } from "../widgets/tooltip.js";
 

@@ -1,7 +1,7 @@
 // @ts-check
 // What would change the answer for the selected beam: asked for once things rest.
 import { keyOf } from "../view/key.js";
-import { fetchText } from "../tune/exchange.js";
+import { fetchText } from "../fetch.js";
 
 /** @typedef {import("../wire.js").State} State */
 /** @typedef {import("../wire.js").WhatIf} WhatIf */

@@ -1,12 +1,12 @@
 // @ts-check
 // What looks wrong in the frames that are in view, in words of the server.
 import { keyOf } from "../view/key.js";
-import { fetchText } from "../tune/exchange.js";
+import { fetchText } from "../fetch.js";
 
 /** @typedef {import("../wire.js").State} State */
 
 const REST_MS = 120;
-// As app/routes/inspection.py answers at once.
+// As app/inspection.py answers at once.
 const MOST = 60;
 const PARTS = /** @type {const} */ (["recording", "method", "params"]);
 

@@ -3,7 +3,7 @@
 import { h, setText } from "../widgets/dom.js";
 import { iconButton } from "../widgets/icon.js";
 import { tooltip } from "../widgets/tooltip.js";
-import { fetchText } from "../tune/exchange.js";
+import { fetchText } from "../fetch.js";
 import { createKeep } from "./keep.js";
 import { drawn, merged, moved, seenOf, split, without } from "./lines.js";
 import { createList } from "./list.js";

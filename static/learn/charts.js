@@ -1,9 +1,10 @@
 // @ts-check
 // Three charts that move with the step. A dot is a point of the scan; the dashed line is the threshold.
 import { h } from "../widgets/dom.js";
-import { createChart } from "./chart.js";
 import { onTheme } from "./colours.js";
+import { DotChart } from "./dot_chart.js";
 import { lengthOf } from "./geometry.js";
+import { GrowthChart } from "./growth_chart.js";
 
 /** @typedef {import("./trace.js").Event} Event */
 /** @typedef {import("./trace.js").Trace} Trace */
@@ -18,9 +19,9 @@ const BESIDE = 12;
  */
 export function createCharts(text, onBeam, onRun) {
   const beams = { onBeam, onRun, say: text.sayBeam };
-  const distance = createChart(text.distance, beams);
-  const predicted = createChart(text.predicted, beams);
-  const growth = createChart(text.growth, null);
+  const distance = new DotChart(text.distance, beams);
+  const predicted = new DotChart(text.predicted, beams);
+  const growth = new GrowthChart(text.growth);
   const element = h("div", { class: "charts" }, distance.element, predicted.element, growth.element);
   /** @type {{event: Event, trace: Trace, params: Params} | null} */
   let shown = null;
@@ -56,7 +57,7 @@ export function createCharts(text, onBeam, onRun) {
       predicted.clear(text.noLine);
     }
     const grown = growthOf(event, trace);
-    if (grown.length) growth.set2(grown, params.min_length, params.min_points, text.sayGrowth(grown[grown.length - 1]));
+    if (grown.length) growth.set(grown, params.min_length, params.min_points, text.sayGrowth(grown[grown.length - 1]));
     else growth.clear(text.noGrowth);
   }
   onTheme(draw);

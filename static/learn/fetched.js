@@ -1,6 +1,6 @@
 // @ts-check
 // JSON of the server; where it does not come, the place that waits for it says so and offers to try again.
-import { fetchText } from "../tune/exchange.js";
+import { fetchText } from "../fetch.js";
 import { h } from "../widgets/dom.js";
 
 /**

@@ -2,297 +2,269 @@
 // Mode Learn: one frame, decision by decision, in words, pseudocode, formulas and charts.
 import { h, setText } from "../widgets/dom.js";
 import { createCharts } from "./charts.js";
-import { createFormulas } from "./formulas.js";
-import { createLessons } from "./lesson.js";
 import { fetchInto } from "./fetched.js";
+import { createFormulas } from "./formulas.js";
+import { boxAround } from "./geometry.js";
 import { termAt } from "./hit.js";
-import { createLadder } from "./ladder.js";
-import { createListing } from "./listing.js";
-import { stretch } from "./geometry.js";
+import { Ladder } from "./ladder.js";
+import { Lessons } from "./lessons.js";
+import { Listing } from "./listing.js";
 import { createOverlay, shapeOf } from "./overlay.js";
 import { createPredict } from "./predict.js";
-import { mountStepper } from "./stepper.js";
+import { Stepper } from "./stepper.js";
 import { Trace } from "./trace.js";
+import { trailOf } from "./trail.js";
 import { compared, variables } from "./values.js";
 
 /** @typedef {import("../wire.js").State} State */
 /** @typedef {import("../wire.js").View} View */
-/** @typedef {import("../wire.js").Knob} Knob */
 /** @typedef {import("../view/store.js").Patch} Patch */
-/** @typedef {import("./listing.js").Algorithm} Algorithm */
-
 /** @typedef {import("./trace.js").Event} Event */
 /** @typedef {{project: (x: number, y: number) => [number, number] | null, onMove: (listener: () => void) => void,
  *            onHover: (listener: (at: [number, number] | null) => void) => void, fit: (box: import("../wire.js").Box) => void}} PlanView */
+/** @typedef {{stage: HTMLElement, view: PlanView, dock: HTMLElement, panel: HTMLElement}} Places */
+/** @typedef {{tune: typeof import("../text/page.js").pageText.tune, learn: typeof import("../text/learn.js").learnText}} Words */
+/** @typedef {{onStep: (step: number | null) => void, onChange: (patch: Patch, gesture?: string | null) => void,
+ *            onDraw: () => void, settled: () => boolean, session: () => string}} Handlers */
 
-/**
- * @param {{stage: HTMLElement, view: PlanView, dock: HTMLElement, panel: HTMLElement}} places
- * @param {{tune: typeof import("../text/page.js").pageText.tune, learn: typeof import("../text/learn.js").learnText}} words
- * @param {{onStep: (step: number | null) => void, onChange: (patch: Patch, gesture?: string | null) => void,
- *          onDraw: () => void, settled: () => boolean, session: () => string}} handlers
- */
-export function mountLearn(
-  { stage, view: planView, dock, panel },
-  words,
-  { onStep, onChange, onDraw, settled, session },
-) {
-  const text = words.learn;
-  /** @type {Trace | null} */
-  let trace = null;
-  /** @type {number | null} */
-  let step = null;
-  /** @type {ReturnType<typeof createListing> | null} */
-  let listing = null;
+const VIEWS = /** @type {const} */ (["step", "all"]);
 
-  /** @type {import("../wire.js").Params} */
-  let params = {};
+/** @param {Places} places @param {Words} words @param {Handlers} handlers */
+export function mountLearn(places, words, handlers) {
+  return new Learn(places, words, handlers);
+}
 
-  const overlay = createOverlay(stage, planView);
-  const formulas = createFormulas(text.formulas, (term) => {
-    const event = present();
-    overlay.set("term", term && trace && event ? shapeOf(term, event, trace) : null);
-  });
-  planView.onHover((at) => {
-    const event = own ? present() : null;
-    formulas.light(at && trace && event ? termAt(at, formulas.names, event, trace, planView.project) : null);
-  });
-  const charts = createCharts(text.charts, showBeam, choose);
-  const ladder = createLadder(text.ladder, {
-    session,
-    onGo: (wanted) => stepper.go(wanted),
-    onParams: (next, gesture) => onChange({ params: next }, gesture),
-  });
-  const predict = createPredict(text.predict, { onAnswer: answered, onToggle: () => (stepper.say(null), show()) });
-  const trail = switchButton(text.views.trail, () => show());
-  trail.title = text.views.trailHelp;
-  const views = /** @type {const} */ (["step", "all"]).map((name) =>
-    switchButton(text.views[name], () => choosePage(name)),
-  );
-  const stepper = mountStepper(dock, text, {
-    onStep,
-    onBeam: choose,
-    onZoom: zoom,
-    settled,
-    mayStep,
-    answers: predict.buttons,
-    extras: [
-      h("span", { class: "chips", role: "group", "aria-label": text.views.label }, ...views),
-      trail,
-      predict.toggle,
-      predict.score,
-    ],
-  });
-  const lessons = createLessons(words, { onChange, onDraw, onGo: (wanted) => stepper.go(wanted) });
-  const listingPlace = h("div", { class: "listing-place" });
-  const other = h("p", { class: "hint other-method", hidden: true });
-  /** Whether the method is the one that pseudocode, formulas and charts are of. */
-  let own = true;
-  panel.setAttribute("aria-label", text.panel);
-  panel.append(lessons.element, h("div", { class: "method" }, other, listingPlace, formulas.element));
-  dock.append(charts.element, ladder.element);
-  choosePage("step");
-  fetchInto(
-    listingPlace,
-    new URL("./listing.json", import.meta.url).href,
-    text.listing,
-    (/** @type {{algorithms: Algorithm[]}} */ { algorithms }) => {
-      listing = createListing(algorithms, text.listing);
-      listingPlace.append(listing.element);
-      show();
-    },
-  );
+class Learn {
+  #text;
+  #view;
+  #dock;
+  #handlers;
+  /** @type {Trace | null} */ #trace = null;
+  /** @type {number | null} */ #step = null;
+  /** @type {import("../wire.js").Params} */ #params = {};
+  /** Whether the method is the one that pseudocode, formulas and charts are of. */ #own = true;
+  #overlay;
+  #formulas;
+  #charts;
+  #ladder;
+  #predict;
+  #trail;
+  #views;
+  #lessons;
+  /** @type {Listing | null} */ #listing = null;
+  #listingPlace = h("div", { class: "listing-place" });
+  #other = h("p", { class: "hint other-method", hidden: true });
 
-  /** @param {string} words @param {() => void} onSwitch */
-  function switchButton(words, onSwitch) {
-    const button = h("button", { type: "button", class: "chip", "aria-pressed": "false" }, words);
-    button.addEventListener("click", () => {
-      button.setAttribute("aria-pressed", String(button.getAttribute("aria-pressed") !== "true"));
-      onSwitch();
+  /** @param {Places} places @param {Words} words @param {Handlers} handlers */
+  constructor({ stage, view, dock, panel }, words, handlers) {
+    const text = words.learn;
+    const { onStep, onChange, onDraw, settled, session } = handlers;
+    this.#text = text;
+    this.#view = view;
+    this.#dock = dock;
+    this.#handlers = handlers;
+    this.#overlay = createOverlay(stage, view);
+    this.#formulas = createFormulas(text.formulas, (term) => this.#showTerm(term));
+    view.onHover((at) => this.#lightTerm(at));
+    this.#charts = createCharts(
+      text.charts,
+      (beam) => this.#showBeam(beam),
+      (beam) => this.#choose(beam),
+    );
+    const onGo = (/** @type {number | null} */ step) => this.stepper.go(step);
+    this.#ladder = new Ladder(text.ladder, {
+      session,
+      onGo,
+      onParams: (params, gesture) => onChange({ params }, gesture),
     });
-    return button;
+    this.#predict = createPredict(text.predict, {
+      onAnswer: (event, right) => this.#answered(event, right),
+      onToggle: () => {
+        this.stepper.say(null);
+        this.#show();
+      },
+    });
+    this.#trail = switchButton(text.views.trail, () => this.#show());
+    this.#trail.title = text.views.trailHelp;
+    this.#views = new Map(VIEWS.map((name) => [name, switchButton(text.views[name], () => this.#chooseView(name))]));
+    const views = h("span", { class: "chips", role: "group", "aria-label": text.views.label }, ...this.#views.values());
+    this.stepper = new Stepper(dock, text, {
+      onStep,
+      onBeam: (beam) => this.#choose(beam),
+      onZoom: () => this.zoom(),
+      settled,
+      mayStep: (next) => this.#mayStep(next),
+      answers: this.#predict.buttons,
+      extras: [views, this.#trail, this.#predict.toggle, this.#predict.score],
+    });
+    this.#lessons = new Lessons(words, { onChange, onDraw, onGo });
+    panel.setAttribute("aria-label", text.panel);
+    const method = h("div", { class: "method" }, this.#other, this.#listingPlace, this.#formulas.element);
+    panel.append(this.#lessons.element, method);
+    dock.append(this.#charts.element, this.#ladder.element);
+    this.#chooseView("step");
+    this.#fetchListing();
   }
 
-  /** @param {"step" | "all"} name */
-  function choosePage(name) {
-    views.forEach((button, k) => button.setAttribute("aria-pressed", String((name === "all") === Boolean(k))));
-    charts.element.hidden = !own || name === "all";
-    ladder.show(own && name === "all");
+  #fetchListing() {
+    fetchInto(
+      this.#listingPlace,
+      new URL("./listing.json", import.meta.url).href,
+      this.#text.listing,
+      (/** @type {{algorithms: import("./listing.js").Algorithm[]}} */ { algorithms }) => {
+        this.#listing = new Listing(algorithms, this.#text.listing);
+        this.#listingPlace.append(this.#listing.element);
+        this.#show();
+      },
+    );
+  }
+
+  /** One step, or all of them. @param {"step" | "all"} name */
+  #chooseView(name) {
+    for (const [each, button] of this.#views) button.setAttribute("aria-pressed", String(each === name));
+    this.#charts.element.hidden = !this.#own || name === "all";
+    this.#ladder.show(this.#own && name === "all");
+  }
+
+  /** @returns {Event | null} the decision that is shown */
+  get #event() {
+    return this.#step !== null && this.#trace && this.#step < this.#trace.length ? this.#trace.at(this.#step) : null;
+  }
+
+  /** @param {string | null} term of a formula, shown in the scene */
+  #showTerm(term) {
+    const event = this.#event;
+    this.#overlay.set("term", term && this.#trace && event ? shapeOf(term, event, this.#trace) : null);
+  }
+
+  /** The term that is under the pointer in the scene. @param {[number, number] | null} at */
+  #lightTerm(at) {
+    const event = this.#own ? this.#event : null;
+    const { names } = this.#formulas;
+    const project = (/** @type {number} */ x, /** @type {number} */ y) => this.#view.project(x, y);
+    this.#formulas.light(at && this.#trace && event ? termAt(at, names, event, this.#trace, project) : null);
+  }
+
+  /** @param {number | null} beam */
+  #showBeam(beam) {
+    const at = beam === null ? null : this.#trace?.point(beam);
+    this.#overlay.set("beam", at ? { dots: [at], lines: [[[0, 0], at]] } : null);
   }
 
   /** Holds a step back while there is something to guess about it. @param {number} next */
-  function mayStep(next) {
-    if (!trace || !own || !predict.on) return true;
-    if (predict.asked?.index === next) return false;
+  #mayStep(next) {
+    const trace = this.#trace;
+    if (!trace || !this.#own || !this.#predict.on) return true;
+    if (this.#predict.asked?.index === next) return false;
     const event = trace.at(next);
-    const question = predict.ask(event);
+    const question = this.#predict.ask(event);
     if (!question) return true;
-    stepper.say(question);
-    dock.classList.add("asking");
-    const dots = (
-      event.beam >= 0 && event.phase === "growth" ? [event.beam] : trace.span(event.first, event.last)
-    ).flatMap((beam) => [trace?.point(beam)]);
-    overlay.set("question", { dots: /** @type {[number, number][]} */ (dots.filter(Boolean)) });
+    this.stepper.say(question);
+    this.#dock.classList.add("asking");
+    const onePoint = event.beam >= 0 && event.phase === "growth";
+    const beams = onePoint ? [event.beam] : trace.span(event.first, event.last);
+    this.#overlay.set("question", { dots: beams.map((beam) => trace.point(beam)).filter((point) => point !== null) });
     return false;
   }
 
   /** @param {Event} event @param {boolean} right */
-  function answered(event, right) {
-    stepper.go(event.index);
-    stepper.say(`${right ? text.predict.right : text.predict.wrong} ${event.text}`);
+  #answered(event, right) {
+    const { predict } = this.#text;
+    this.stepper.go(event.index);
+    this.stepper.say(`${right ? predict.right : predict.wrong} ${event.text}`);
   }
 
-  /** Every fit of the growing line up to here. @param {Event | null} event */
-  function trailOf(event) {
-    if (
-      !trace ||
-      !own ||
-      !event ||
-      trail.getAttribute("aria-pressed") !== "true" ||
-      (event.phase !== "growth" && event.kind !== "seed found")
-    )
-      return null;
-    /** @type {[[number, number], [number, number]][]} */
-    const lines = [];
-    for (let k = event.index; k >= 0 && trace.columns.candidate[k] === event.candidate; k--) {
-      const each = trace.at(k);
-      const part =
-        each.line && (each.kind === "seed found" || each.kind === "point added")
-          ? stretch(trace, trace.span(each.first, each.last), each.line)
-          : null;
-      if (part) lines.push(longer(part));
-    }
-    // Beyond some hundred they could not be told apart.
-    const every = Math.ceil(lines.length / 120);
-    return { lines: lines.filter((_, k) => k % every === 0) };
-  }
-
-  const awaited = new Set(["lessons", "knobs"]);
-  let opened = false;
-  fetchInto(
-    lessons.trouble,
-    "/api/lessons",
-    text.lesson,
-    (/** @type {Parameters<typeof lessons.setLessons>[0]} */ told) => {
-      lessons.setLessons(told);
-      awaited.delete("lessons");
-      openFromAddress();
-    },
-  );
-
-  /** A link with ?lesson=… opens it, once thresholds and lessons are there. */
-  function openFromAddress() {
-    const wanted = new URL(location.href).searchParams.get("lesson");
-    if (!wanted || opened || awaited.size) return;
-    opened = true;
-    onChange({ mode: "learn" });
-    lessons.open(wanted);
-  }
-
-  /** @returns {Event | null} */
-  function present() {
-    return step !== null && trace && step < trace.length ? trace.at(step) : null;
-  }
-
-  /** @param {number | null} beam */
-  function showBeam(beam) {
-    const at = beam === null ? null : trace?.point(beam);
-    overlay.set("beam", at ? { dots: [at], lines: [[[0, 0], at]] } : null);
-  }
-
-  /** To the next decision about a beam; behind the last one, to the first. @param {number} beam */
-  function runTo(beam) {
-    if (!trace) return;
-    const next = trace.nextAbout(beam, step ?? -1);
-    const there = next >= 0 ? next : trace.nextAbout(beam, -1);
+  /** To the next decision about a beam; after the last one, to the first. @param {number} beam */
+  #runTo(beam) {
+    if (!this.#trace) return;
+    const next = this.#trace.nextAbout(beam, this.#step ?? -1);
+    const there = next >= 0 ? next : this.#trace.nextAbout(beam, -1);
     if (there < 0) return;
-    stepper.stop();
-    stepper.go(there);
+    this.stepper.stop();
+    this.stepper.go(there);
   }
 
   /** The same as a click on its point in the scene. @param {number} beam */
-  function choose(beam) {
-    onChange({ selected: beam });
-    runTo(beam);
+  #choose(beam) {
+    this.#handlers.onChange({ selected: beam });
+    this.#runTo(beam);
+  }
+
+  #show() {
+    const event = this.#event;
+    const explained = this.#own ? event : null;
+    const trailing = this.#trail.getAttribute("aria-pressed") === "true";
+    const { asked } = this.#predict;
+    this.#overlay.set("term", null);
+    this.#overlay.set("trail", trailing && explained && this.#trace ? trailOf(this.#trace, explained) : null);
+    if (asked && asked.index !== (this.#step ?? -2) + 1) this.#predict.drop();
+    if (!this.#predict.asked) this.#overlay.set("question", null);
+    this.#dock.classList.toggle("asking", this.#predict.asked !== null);
+    this.#formulas.set(explained, this.#trace);
+    this.#charts.set(explained, this.#trace, this.#params);
+    this.#listing?.set(explained, event ? variables(event) : [], event ? compared(event) : "");
   }
 
   /** Shows the points of the decision, with some room around them. */
-  function zoom() {
-    const event = present();
-    if (!event || !trace) return;
-    const inside = trace.span(event.first, event.last);
-    const points = [...inside, event.beam]
-      .flatMap((beam) => [trace?.point(beam) ?? []])
-      .filter((point) => point.length === 2);
-    const [xs, ys] = [0, 1].map((k) => points.map((point) => Number(point[k])));
-    const room = 0.5 + 0.15 * Math.hypot(Math.max(...xs) - Math.min(...xs), Math.max(...ys) - Math.min(...ys));
-    planView.fit([Math.min(...xs) - room, Math.min(...ys) - room, Math.max(...xs) + room, Math.max(...ys) + room]);
+  zoom() {
+    const event = this.#event;
+    if (event && this.#trace) this.#view.fit(boxAround(this.#trace, event));
   }
 
-  function show() {
-    const event = present();
-    overlay.set("term", null);
-    overlay.set("trail", trailOf(event));
-    if (predict.asked && predict.asked.index !== (step ?? -2) + 1) predict.drop();
-    if (!predict.asked) overlay.set("question", null);
-    dock.classList.toggle("asking", predict.asked !== null);
-    const explained = own ? event : null;
-    formulas.set(explained, trace);
-    charts.set(explained, trace, params);
-    listing?.set(explained, event ? variables(event) : [], event ? compared(event) : "");
+  /** @param {boolean} yes */
+  answer(yes) {
+    this.#predict.answer(yes);
   }
 
-  return {
-    stepper,
-    zoom,
-    /** @param {boolean} yes */
-    answer: (yes) => predict.answer(yes),
-    /** @param {import("./trace.js").Columns} columns */
-    setTrace(columns) {
-      trace = new Trace(columns);
-      predict.drop();
-      stepper.setTrace(trace);
-      ladder.setTrace(trace);
-      show();
-    },
-    /** @param {Readonly<View>} view */
-    setView(view) {
-      step = view.step;
-      params = view.params;
-      lessons.setView(view);
-      if (view.mode !== "learn") return stepper.stop();
-      stepper.setStep(step);
-      return show();
-    },
-    /** @param {import("../wire.js").Method} method the chosen one @param {import("../wire.js").Method[]} methods the lessons are about the first */
-    setMethod(method, [{ knobs }]) {
-      own = method.knobs === knobs;
-      listingPlace.hidden = formulas.element.hidden = !own;
-      other.hidden = own;
-      setText(other, text.otherMethod(method.label, method.citation));
-      for (const part of [...views, trail, predict.toggle, predict.score]) part.hidden = !own;
-      stepper.setMethod(method);
-      choosePage("step");
-      lessons.setKnobs(knobs);
-      ladder.setKnobs(knobs);
-      awaited.delete("knobs");
-      openFromAddress();
-    },
-    /** @param {State} state @param {"page" | "scene"} origin */
-    setState(state, origin) {
-      stepper.setLines(state.segments.length);
-      if (state.mode === "learn") ladder.setState(state);
-      if (state.mode === "learn" && origin === "scene" && state.selected !== null) runTo(state.selected);
-      if (state.mode === "learn" && settled() && trace) lessons.settle(state, trace);
-    },
-  };
+  /** @param {import("./trace.js").Columns} columns */
+  setTrace(columns) {
+    this.#trace = new Trace(columns);
+    this.#predict.drop();
+    this.stepper.setTrace(this.#trace);
+    this.#ladder.setTrace(this.#trace);
+    this.#show();
+  }
+
+  /** @param {Readonly<View>} view */
+  setView(view) {
+    this.#step = view.step;
+    this.#params = view.params;
+    this.#lessons.setView(view);
+    if (view.mode !== "learn") return this.stepper.stop();
+    this.stepper.setStep(view.step);
+    return this.#show();
+  }
+
+  /** @param {import("../wire.js").Method} method the chosen one @param {import("../wire.js").Method[]} methods the lessons are about the first */
+  setMethod(method, [{ knobs }]) {
+    this.#own = method.knobs === knobs;
+    this.#listingPlace.hidden = this.#formulas.element.hidden = !this.#own;
+    this.#other.hidden = this.#own;
+    setText(this.#other, this.#text.otherMethod(method.label, method.citation));
+    const { toggle, score } = this.#predict;
+    for (const part of [...this.#views.values(), this.#trail, toggle, score]) part.hidden = !this.#own;
+    this.stepper.setMethod(method);
+    this.#chooseView("step");
+    this.#ladder.setKnobs(knobs);
+    this.#lessons.setKnobs(knobs);
+  }
+
+  /** @param {State} state @param {"page" | "scene"} origin */
+  setState(state, origin) {
+    this.stepper.setLines(state.segments.length);
+    if (state.mode !== "learn") return;
+    this.#ladder.setState(state);
+    if (origin === "scene" && state.selected !== null) this.#runTo(state.selected);
+    if (this.#trace && this.#handlers.settled()) this.#lessons.settle(state, this.#trace);
+  }
 }
 
-/** The part, somewhat longer at both ends, so that its direction shows. @param {[[number, number], [number, number]]} part @returns {[[number, number], [number, number]]} */
-function longer([[x1, y1], [x2, y2]]) {
-  const length = Math.hypot(x2 - x1, y2 - y1) || 1;
-  const reach = Math.max(0.25 * length, 0.2) / length;
-  return [
-    [x1 - reach * (x2 - x1), y1 - reach * (y2 - y1)],
-    [x2 + reach * (x2 - x1), y2 + reach * (y2 - y1)],
-  ];
+/** @param {string} words @param {() => void} onSwitch */
+function switchButton(words, onSwitch) {
+  const button = h("button", { type: "button", class: "chip", "aria-pressed": "false" }, words);
+  button.addEventListener("click", () => {
+    button.setAttribute("aria-pressed", String(button.getAttribute("aria-pressed") !== "true"));
+    onSwitch();
+  });
+  return button;
 }

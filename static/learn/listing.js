@@ -11,114 +11,111 @@ import { eventName } from "./trace.js";
 
 const KEYWORDS = /^(for|each|while|if|else|otherwise|return|stop|repeat|drop|keep|try)$/;
 
-/**
- * @param {Algorithm[]} algorithms
- * @param {typeof import("../text/learn.js").learnText.listing} text
- */
-export function createListing(algorithms, text) {
-  /** @type {Map<string, HTMLElement>} */
-  const lines = new Map();
-  const blocks = algorithms.map((algorithm) => createBlock(algorithm));
-  const values = h("dl", { class: "values", "aria-label": text.values });
-  const buttons = algorithms.map(({ phase }) =>
-    h(
-      "button",
-      { type: "button", class: "chip", "aria-pressed": "false", onclick: () => choose(phase) },
-      text.tabs[phase],
-    ),
-  );
-  const element = h(
-    "section",
-    { class: "listing", "aria-label": text.label },
-    h("div", { class: "chips", role: "group", "aria-label": text.label }, ...buttons),
-    values,
-    ...blocks.map(({ block }) => block),
-  );
-  /** @type {HTMLElement | null} */
-  let lit = null;
-  choose(algorithms[0].phase);
+export class Listing {
+  #text;
+  #algorithms;
+  /** The line of each event. @type {Map<string, HTMLElement>} */ #lines = new Map();
+  #values;
+  #buttons;
+  #blocks;
+  /** @type {HTMLElement | null} */ #lit = null;
+
+  /**
+   * @param {Algorithm[]} algorithms
+   * @param {typeof import("../text/learn.js").learnText.listing} text
+   */
+  constructor(algorithms, text) {
+    this.#text = text;
+    this.#algorithms = algorithms;
+    this.#values = h("dl", { class: "values", "aria-label": text.values });
+    this.#buttons = algorithms.map(({ phase }) =>
+      h(
+        "button",
+        { type: "button", class: "chip", "aria-pressed": "false", onclick: () => this.#choose(phase) },
+        text.tabs[phase],
+      ),
+    );
+    this.#blocks = algorithms.map((algorithm) => this.#createBlock(algorithm));
+    this.element = h(
+      "section",
+      { class: "listing", "aria-label": text.label },
+      h("div", { class: "chips", role: "group", "aria-label": text.label }, ...this.#buttons),
+      this.#values,
+      ...this.#blocks,
+    );
+    this.#choose(algorithms[0].phase);
+  }
 
   /** @param {Algorithm} algorithm */
-  function createBlock({ phase, title, lines: code }) {
-    const notes = code.filter(({ note }) => note);
-    const rows = code.map(({ text: words, indent = 0, events = [], note, extension }, k) => {
-      const mark = note
-        ? noteMark(
-            notes.findIndex((line) => line.note === note),
-            note,
-            phase,
-          )
-        : null;
+  #createBlock({ phase, title, lines }) {
+    const { misprint, extension } = this.#text;
+    const notes = lines.flatMap(({ note }) => note ?? []);
+    const rows = lines.map(({ text: words, indent = 0, events = [], note, extension: extended }, k) => {
       const row = h(
         "li",
         { class: "code-line", "data-line": `${phase} ${k + 1}` },
         h("span", { class: `pc indent-${indent}` }, ...rich(words)),
-        extension ? h("span", { class: "code-tag" }, text.extension) : null,
-        mark,
+        extended ? h("span", { class: "code-tag" }, extension) : null,
+        note ? noteMark(notes.indexOf(note), note, phase, misprint) : null,
         h("span", { class: "code-value" }),
       );
-      for (const event of events) lines.set(event, row);
+      for (const event of events) this.#lines.set(event, row);
       return row;
     });
-    const list = notes.map(({ note = "" }, k) => h("li", { id: `note-${phase}-${k}` }, ...symbols(note)));
-    const block = h(
+    const items = notes.map((note, k) => h("li", { id: `note-${phase}-${k}` }, ...symbols(note)));
+    return h(
       "div",
       { class: "algorithm", "data-phase": phase },
       h("h3", {}, title),
       h("ol", { class: "code-lines" }, ...rows),
-      notes.length ? h("details", { class: "misprints" }, h("summary", {}, text.misprint), h("ol", {}, ...list)) : null,
+      notes.length ? h("details", { class: "misprints" }, h("summary", {}, misprint), h("ol", {}, ...items)) : null,
     );
-    return { phase, block };
-  }
-
-  /** @param {number} k @param {string} note @param {string} phase */
-  function noteMark(k, note, phase) {
-    const letter = "abcdef"[k];
-    const mark = h("button", { type: "button", class: "note-mark", "aria-label": `${text.misprint}: ${note}` }, letter);
-    mark.setAttribute("aria-describedby", `note-${phase}-${k}`);
-    tooltip(mark, note, "left");
-    return mark;
   }
 
   /** @param {string} phase */
-  function choose(phase) {
-    for (const block of blocks) block.block.hidden = block.phase !== phase;
-    buttons.forEach((button, k) => button.setAttribute("aria-pressed", String(algorithms[k].phase === phase)));
+  #choose(phase) {
+    this.#algorithms.forEach((algorithm, k) => {
+      this.#blocks[k].hidden = algorithm.phase !== phase;
+      this.#buttons[k].setAttribute("aria-pressed", String(algorithm.phase === phase));
+    });
   }
 
-  return {
-    element,
-    /**
-     * @param {Event | null} event
-     * @param {[string, string][]} now name and value of each variable
-     * @param {string} compared what the lit line compares, with its numbers
-     */
-    set(event, now, compared) {
-      values.replaceChildren(
-        ...now.map(([name, value]) => h("div", {}, h("dt", {}, ...symbols(name)), h("dd", {}, value))),
-      );
-      values.hidden = now.length === 0;
-      const before = lit;
-      if (lit) {
-        lit.classList.remove("lit");
-        lit.removeAttribute("aria-current");
-        setText(/** @type {Element} */ (lit.querySelector(".code-value")), "");
-      }
-      lit = event ? (lines.get(eventName(event)) ?? null) : null;
-      if (!event) return;
-      choose(event.phase);
-      if (!lit) return;
-      lit.classList.add("lit");
-      lit.setAttribute("aria-current", "step");
-      // It lays the page out, so not at every step.
-      if (lit !== before) lit.scrollIntoView({ block: "nearest" });
-      setText(/** @type {Element} */ (lit.querySelector(".code-value")), compared);
-    },
-    /** Which line is lit, as "phase number"; for tests and lessons. */
-    get lit() {
-      return lit?.dataset.line ?? null;
-    },
-  };
+  /**
+   * @param {Event | null} event
+   * @param {[string, string][]} now name and value of each variable
+   * @param {string} compared what the lit line compares, with its numbers
+   */
+  set(event, now, compared) {
+    this.#values.replaceChildren(
+      ...now.map(([name, value]) => h("div", {}, h("dt", {}, ...symbols(name)), h("dd", {}, value))),
+    );
+    this.#values.hidden = now.length === 0;
+    const before = this.#lit;
+    if (before) darken(before);
+    this.#lit = event ? (this.#lines.get(eventName(event)) ?? null) : null;
+    if (event) this.#choose(event.phase);
+    if (!this.#lit) return;
+    this.#lit.classList.add("lit");
+    this.#lit.setAttribute("aria-current", "step");
+    // It lays the page out, so not at every step.
+    if (this.#lit !== before) this.#lit.scrollIntoView({ block: "nearest" });
+    setText(/** @type {Element} */ (this.#lit.querySelector(".code-value")), compared);
+  }
+}
+
+/** @param {HTMLElement} line */
+function darken(line) {
+  line.classList.remove("lit");
+  line.removeAttribute("aria-current");
+  setText(/** @type {Element} */ (line.querySelector(".code-value")), "");
+}
+
+/** @param {number} k @param {string} note @param {string} phase @param {string} misprint */
+function noteMark(k, note, phase, misprint) {
+  const mark = h("button", { type: "button", class: "note-mark", "aria-label": `${misprint}: ${note}` }, "abcdef"[k]);
+  mark.setAttribute("aria-describedby", `note-${phase}-${k}`);
+  tooltip(mark, note, "left");
+  return mark;
 }
 
 /** Words of a line of code: keywords bold, symbols as the paper sets them. @param {string} words */

@@ -1,5 +1,6 @@
 // @ts-check
 // What happens where in a trace, as a strip under the scrubber: the procedures as bands, events as ticks.
+import { freshCanvas } from "../widgets/canvas.js";
 import { colour, onTheme } from "./colours.js";
 
 /** @typedef {import("./trace.js").Trace} Trace */
@@ -25,12 +26,8 @@ export function createMarks() {
 
   function draw() {
     const width = canvas.clientWidth;
-    const pen = canvas.getContext("2d");
-    if (!pen || !width) return;
-    const dots = devicePixelRatio;
-    canvas.width = Math.round(width * dots);
-    canvas.height = Math.round(HEIGHT * dots);
-    pen.scale(dots, dots);
+    if (!width) return;
+    const { pen } = freshCanvas(canvas, { width, height: HEIGHT });
     if (!trace?.length) return;
     // The thumb of a range input stays within its track.
     const room = width - 14;

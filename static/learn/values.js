@@ -15,6 +15,9 @@ const SYMBOL = /** @type {Record<string, string>} */ ({
   max_gap: "gap_max",
 });
 
+const LEAST = new Set(["min_points", "min_length"]);
+const WITHOUT_BAR = new Set(["lines merged", "lines kept apart", "overlap cut", "endpoints"]);
+
 /** @param {Event} event @returns {[string, string][]} */
 export function variables(event) {
   const { phase, first, last, beam, points, kind, line } = event;
@@ -49,6 +52,15 @@ export function compared(event) {
 /** @param {string} check */
 export function symbolOf(check) {
   return SYMBOL[check] ?? "";
+}
+
+/** What a decision compared, for the bar of value and limit; null where its sentence says it all. @param {Event} event */
+export function comparedOf({ kind, check: refused, value, limit }) {
+  if (WITHOUT_BAR.has(kind)) return null;
+  const check = kind === "line kept" ? "min_length" : refused;
+  if (!symbolOf(check)) return null;
+  const unit = check === "min_points" || check === "max_dropout" ? "" : "m";
+  return { value, limit, symbol: symbolOf(check).replace("_", " "), unit, least: LEAST.has(check) };
 }
 
 /** @param {number} value */

@@ -2,7 +2,7 @@
 // What goes to a robot when somebody asks for it: parameters of a node, and segments of live scans.
 import { openDialog } from "../widgets/dialog.js";
 import { h } from "../widgets/dom.js";
-import { messageOf } from "../tune/exchange.js";
+import { messageOf } from "../fetch.js";
 
 const KEY = "lineseg.robot";
 

@@ -1,7 +1,7 @@
 // @ts-check
 // Files of the user: chosen, dropped, sent to the server.
 import { h } from "../widgets/dom.js";
-import { messageOf } from "../tune/exchange.js";
+import { messageOf } from "../fetch.js";
 
 const PARAMETERS = /\.(ya?ml|launch|xml|json|py)$|flags[^/]*\.txt$/i;
 const RECORDING_INSIDE = /\.(db3|mcap|bag|log|gz|npz|csv|txt|dat)$/i;

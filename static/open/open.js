@@ -1,7 +1,7 @@
 // @ts-check
 // Opens what a person chose or dropped: a recording, a table of a sweep, or parameters.
 import { isSweepTable } from "../tune/sweep_table.js";
-import { fetchText } from "../tune/exchange.js";
+import { fetchText } from "../fetch.js";
 import { toast } from "../widgets/toast.js";
 import { catchDrops, chooseFile, pick, upload } from "./files.js";
 

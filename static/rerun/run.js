@@ -1,6 +1,6 @@
 // @ts-check
 import { rerunText } from "../text/rerun.js";
-import { messageOf } from "../tune/exchange.js";
+import { messageOf } from "../fetch.js";
 
 /** @typedef {{recording: string, bytes: number}} Recorded */
 

@@ -20,30 +20,15 @@ export const learnText = {
   whole: (/** @type {number} */ lines, /** @type {number} */ steps) =>
     `The whole result: ${lines} ${lines === 1 ? "line" : "lines"}, from ${steps.toLocaleString("en")} decisions. Press → to follow them one by one.`,
   nothing: "This frame has no decisions: too few points have a return.",
-  phases: /** @type {Record<string, string>} */ ({
-    seed: "Seed",
-    growth: "Growth",
-    overlap: "Overlap",
-    endpoints: "Endpoints",
-    whole: "Result",
-  }),
   waiting: "Reading the decisions of this frame…",
   truncated: (/** @type {number} */ shown, /** @type {number} */ total) =>
     `This frame has ${total.toLocaleString("en")} decisions; the first ${shown.toLocaleString("en")} can be stepped through.`,
   steps: {
     label: "Steps",
-    first: "First decision (Home)",
-    back: "Step back (←)",
-    play: "Play (Space)",
-    pause: "Pause (Space)",
-    forward: "Step forward (→)",
-    last: "Last decision (End)",
     leave: "Show the whole result (Esc)",
-    start: "Start",
     level: "What → goes on by",
     levels: { decision: "by decision", phase: "by phase", line: "by line" },
     speed: "Steps a second",
-    perSecond: (/** @type {number} */ n) => `${n}/s`,
     jump: "Next",
     jumps: {
       seed: "seed",
@@ -60,10 +45,6 @@ export const learnText = {
     loopClear: "End the loop",
     beam: "Run to beam",
     noBeam: (/** @type {number} */ most) => `Beams are 0 to ${most}.`,
-    scrubber: "Decision",
-    number: "Number of the decision",
-    of: (/** @type {number} */ n) => `of ${n.toLocaleString("en")}`,
-    range: (/** @type {number} */ most) => `Decisions are 1 to ${most.toLocaleString("en")}.`,
     beamHint:
       "Enter runs to the next decision about this beam, and tells why it is in a line or not; so does a click on its point in the scene.",
   },

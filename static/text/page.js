@@ -166,25 +166,10 @@ export const pageText = {
     leave: "Leave the replay (Esc)",
     decisions: (/** @type {number} */ n) => `${n.toLocaleString("en")} decisions`,
     none: "This frame has no decisions to replay.",
-    first: "First decision (Home)",
-    back: "Step back (←)",
-    play: "Play (Space)",
-    pause: "Pause (Space)",
-    forward: "Step forward (→)",
-    last: "Last decision (End)",
     next: (/** @type {string} */ what) => `Next ${what}`,
     nextLine: "Next line",
     nextDrop: "Next drop",
-    scrubber: "Decision",
-    of: (/** @type {number} */ n) => `of ${n.toLocaleString("en")}`,
     speed: "Decisions a second",
-    perSecond: (/** @type {number} */ n) => `${n}/s`,
-    phases: /** @type {Record<string, string>} */ ({
-      seed: "Seed",
-      growth: "Growth",
-      overlap: "Overlap",
-      endpoints: "Endpoints",
-    }),
   },
   timeline: {
     label: "Timeline",
@@ -213,7 +198,6 @@ export const pageText = {
       hint: (/** @type {number} */ frame, /** @type {string} */ words) =>
         `Frame ${frame.toLocaleString("en")}: ${words}`,
     },
-    stepRange: (/** @type {number} */ most) => `Decisions are 1 to ${most.toLocaleString("en")}.`,
   },
   status: {
     label: "Status",

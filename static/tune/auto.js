@@ -1,283 +1,166 @@
 // @ts-check
-// Auto-tuning: what is maximised, the trials as they come, what matters, and whether anything was gained.
-import { h, setText, svg } from "../widgets/dom.js";
-import { placeOf, withUnit } from "../widgets/scale.js";
+// Auto-tuning: the trials as they come, what matters, and whether anything was gained.
+import { h, setText } from "../widgets/dom.js";
+import { withUnit } from "../widgets/scale.js";
 import { toast } from "../widgets/toast.js";
 import { tooltip } from "../widgets/tooltip.js";
+import { AutoChoices } from "./auto_choices.js";
+import { paintBars, TrialPictures } from "./trial_pictures.js";
 
 /** @typedef {import("../wire.js").Knob} Knob */
 /** @typedef {import("../wire.js").Params} Params */
 /** @typedef {import("./workbench.js").Answer} Answer */
 /** @typedef {import("./workbench.js").Trial} Trial */
+/** @typedef {import("./trial_pictures.js").Scored} Scored */
+/** @typedef {{ask: (wish: object) => void, stop: () => void, onAdopt: (params: Params) => void}} Handlers */
 
-const WIDTH = 300;
-const HEIGHT = 90;
-const QUALITY = ["epsilon", "delta", "seed_points"];
-const TRIALS = [50, 100, 200, 500];
+export class Auto {
+  #text;
+  #handlers;
+  /** @type {Knob[]} */ #knobs = [];
+  /** @type {Trial[]} */ #trials = [];
+  /** The thresholds that are tuned. @type {Knob[]} */ #tuned = [];
+  #running = false;
+  /** @type {Params | null} */ #best = null;
+  #painting = 0;
 
-/**
- * @param {typeof import("../text/tuning.js").tuningText.auto} text
- * @param {{ask: (wish: object) => void, stop: () => void, onAdopt: (params: Params) => void}} handlers
- */
-export function createAuto(text, { ask, stop, onAdopt }) {
-  /** @type {Knob[]} */
-  let knobs = [];
-  /** @type {Trial[]} */
-  let trials = [];
-  /** @type {string[]} */
-  let tuned = [];
-  let running = false;
-  /** @type {Params | null} */
-  let best = null;
-  let truth = false;
-  let chosen = false;
+  #choices;
+  #start;
+  #anew;
+  #adopt;
+  #says;
+  #caution = h("p", { class: "auto-caution muted" });
+  #verdict = h("p", { class: "auto-verdict", role: "status", hidden: true });
+  #trouble = h("p", { class: "panel-error", role: "alert", hidden: true });
+  #progress = h("span", { class: "muted" });
+  #bars = h("div", { class: "auto-bars" });
+  #pictures;
 
-  const objective = h(
-    "select",
-    { class: "select", "aria-label": text.objective, onchange: () => ((chosen = true), tickUsual(), clear()) },
-    ...Object.entries(text.objectives).map(([value, label]) => h("option", { value }, label)),
-  );
-  const count = h(
-    "select",
-    { class: "select", "aria-label": text.trials },
-    ...TRIALS.map((n) => h("option", { value: String(n), selected: n === 100 }, String(n))),
-  );
-  const boxes = h("div", { class: "auto-thresholds", role: "group", "aria-label": text.thresholds });
-  const start = h(
-    "button",
-    { type: "button", class: "button primary", onclick: () => (running ? stop() : begin(false)) },
-    text.start,
-  );
-  const anew = h(
-    "button",
-    { type: "button", class: "button quiet", hidden: true, onclick: () => begin(true) },
-    text.anew,
-  );
-  tooltip(anew, text.anewHelp);
-  const adopt = h(
-    "button",
-    { type: "button", class: "button", hidden: true, onclick: () => best && (onAdopt(best), toast(text.adopted)) },
-    text.adopt,
-  );
-  const says = h("p", { class: "auto-text" }, text.intro);
-  const caution = h("p", { class: "auto-caution muted" });
-  const verdict = h("p", { class: "auto-verdict", role: "status", hidden: true });
-  const trouble = h("p", { class: "panel-error", role: "alert", hidden: true });
-  const progress = h("span", { class: "muted" });
-  const history = picture("auto-history", text.history);
-  const parallel = picture("auto-parallel", text.parallel);
-  const axes = h("div", { class: "auto-axes muted" });
-  const bars = h("div", { class: "auto-bars" });
-  tooltip(bars, text.importanceHelp, "left");
-  const pictures = h(
-    "div",
-    { class: "auto-pictures", hidden: true },
-    history,
-    parallel,
-    axes,
-    h("h3", {}, text.importance),
-    bars,
-  );
-  const element = h(
-    "div",
-    { class: "auto-page" },
-    h("div", { class: "auto-choices" }, objective, count, h("span", { class: "muted" }, text.trials)),
-    boxes,
-    h("div", { class: "auto-foot" }, start, anew, progress),
-    trouble,
-    says,
-    caution,
-    verdict,
-    adopt,
-    pictures,
-  );
-
-  /** @returns {HTMLInputElement[]} */
-  const ticks = () => [...boxes.querySelectorAll("input")];
-
-  function tickUsual() {
-    for (const box of ticks()) {
-      const knob = knobs.find(({ name }) => name === box.value);
-      box.checked = objective.value === "truth" ? !knob?.extension : QUALITY.includes(box.value);
-    }
+  /** @param {typeof import("../text/tuning.js").tuningText.auto} text @param {Handlers} handlers */
+  constructor(text, handlers) {
+    this.#text = text;
+    this.#handlers = handlers;
+    this.#choices = new AutoChoices(text, () => this.forget());
+    const button = (/** @type {string} */ kind, /** @type {string} */ label, /** @type {() => void} */ run) =>
+      h("button", { type: "button", class: `button ${kind}`.trim(), onclick: run }, label);
+    this.#start = button("primary", text.start, () => (this.#running ? handlers.stop() : this.#begin(false)));
+    this.#anew = button("quiet", text.anew, () => this.#begin(true));
+    tooltip(this.#anew, text.anewHelp);
+    this.#adopt = button("", text.adopt, () => this.#take());
+    this.#anew.hidden = this.#adopt.hidden = true;
+    this.#says = h("p", { class: "auto-text" }, text.intro);
+    tooltip(this.#bars, text.importanceHelp, "left");
+    this.#pictures = new TrialPictures(text, this.#bars);
+    this.element = h(
+      "div",
+      { class: "auto-page" },
+      ...this.#choices.elements,
+      h("div", { class: "auto-foot" }, this.#start, this.#anew, this.#progress),
+      this.#trouble,
+      this.#says,
+      this.#caution,
+      this.#verdict,
+      this.#adopt,
+      this.#pictures.element,
+    );
   }
 
-  function clear() {
-    if (running) stop();
-    trials = [];
-    best = null;
-    verdict.hidden = adopt.hidden = pictures.hidden = trouble.hidden = anew.hidden = true;
-    setText(progress, "");
-    setText(says, text.intro);
-    setText(caution, "");
-    start.textContent = text.start;
+  #take() {
+    if (!this.#best) return;
+    this.#handlers.onAdopt(this.#best);
+    toast(this.#text.adopted);
   }
 
-  /** @param {boolean} afresh */
-  function begin(afresh) {
-    tuned = ticks()
-      .filter(({ checked }) => checked)
-      .map(({ value }) => value);
-    clear();
-    setRunning(true);
-    ask({ objective: objective.value, thresholds: tuned, trials: Number(count.value), anew: afresh });
+  /** Other trials begin: of another recording, or for another objective. */
+  forget() {
+    if (this.#running) this.#handlers.stop();
+    this.#trials = [];
+    this.#best = null;
+    for (const part of [this.#verdict, this.#adopt, this.#pictures.element, this.#trouble, this.#anew])
+      part.hidden = true;
+    setText(this.#progress, "");
+    setText(this.#says, this.#text.intro);
+    setText(this.#caution, "");
+    setText(this.#start, this.#text.start);
+  }
+
+  /** @param {boolean} anew without the trials of before */
+  #begin(anew) {
+    const { wish } = this.#choices;
+    this.#tuned = this.#knobs.filter(({ name }) => wish.thresholds.includes(name));
+    this.forget();
+    this.#setRunning(true);
+    this.#handlers.ask({ ...wish, anew });
   }
 
   /** @param {boolean} on */
-  function setRunning(on) {
-    running = on;
-    start.textContent = on ? text.stop : trials.length ? text.goOn : text.start;
-    for (const control of [objective, count, ...ticks()]) control.disabled = on;
-    anew.hidden = on || !trials.length;
+  #setRunning(on) {
+    const { stop, goOn, start } = this.#text;
+    this.#running = on;
+    setText(this.#start, on ? stop : this.#trials.length ? goOn : start);
+    this.#choices.lock(on);
+    this.#anew.hidden = on || !this.#trials.length;
   }
 
-  function paint() {
-    const scored = trials.filter(({ score }) => score !== null);
-    pictures.hidden = !scored.length;
-    setText(progress, text.progress(trials.length));
+  #paintSoon() {
+    this.#painting ||= requestAnimationFrame(() => {
+      this.#painting = 0;
+      this.#paint();
+    });
+  }
+
+  #paint() {
+    const scored = /** @type {Scored[]} */ (this.#trials.filter(({ score }) => score !== null));
+    const progress = this.#text.progress(this.#trials.length);
+    this.#pictures.element.hidden = !scored.length;
+    setText(this.#progress, progress);
     if (!scored.length) return;
-    paintHistory(history, scored);
-    paintParallel(
-      parallel,
-      scored,
-      tuned.map((name) => /** @type {Knob} */ (knobs.find((knob) => knob.name === name))),
-    );
-    const top = scored.reduce((one, other) => (Number(other.score) > Number(one.score) ? other : one));
-    best = top.params;
-    adopt.hidden = false;
-    const values = tuned
-      .map((name) => knobs.find((knob) => knob.name === name))
-      .map((knob) => knob && `${knob.symbol} ${withUnit(knob, top.params[knob.name])}`);
-    setText(progress, `${text.progress(trials.length)}, ${text.best(Number(top.score).toFixed(3))}`);
-    adopt.textContent = `${text.adopt}: ${values.join(", ")}`;
-    axes.replaceChildren(
-      ...tuned.map((name) => h("span", {}, knobs.find((knob) => knob.name === name)?.symbol ?? name)),
-    );
+    this.#pictures.paint(scored, this.#tuned);
+    const top = scored.reduce((one, other) => (other.score > one.score ? other : one));
+    const values = this.#tuned.map((knob) => `${knob.symbol} ${withUnit(knob, top.params[knob.name])}`);
+    this.#best = top.params;
+    this.#adopt.hidden = false;
+    setText(this.#progress, `${progress}, ${this.#text.best(top.score.toFixed(3))}`);
+    setText(this.#adopt, `${this.#text.adopt}: ${values.join(", ")}`);
   }
 
-  let painting = 0;
-  const paintSoon = () => (painting ||= requestAnimationFrame(() => ((painting = 0), paint())));
+  /** @param {Knob[]} knobs */
+  setKnobs(knobs) {
+    this.#knobs = knobs;
+    this.#choices.setKnobs(knobs);
+  }
 
-  return {
-    element,
-    /** @param {Knob[]} next */
-    setKnobs(next) {
-      knobs = next;
-      boxes.replaceChildren(
-        ...next.map(({ name, symbol }) => h("label", {}, h("input", { type: "checkbox", value: name }), symbol)),
-      );
-      tickUsual();
-    },
-    /** @param {boolean} next */
-    setTruth(next) {
-      truth = next;
-      for (const option of objective.options) option.disabled = option.value === "truth" && !truth;
-      if (running || (chosen && (truth || objective.value !== "truth"))) return;
-      const usual = truth ? "truth" : "label-free";
-      if (objective.value === usual) return;
-      objective.value = usual;
-      tickUsual();
-    },
-    /** Another recording has other trials. */
-    forget: clear,
-    /** @param {Answer} answer */
-    receive(answer) {
-      if (answer.text) setText(says, answer.text);
-      if (answer.caution) setText(caution, answer.caution);
-      if (answer.trials) {
-        trials.push(...answer.trials);
-        paintSoon();
-      }
-      if (answer.importance) paintBars(bars, answer.importance, knobs);
-      if (answer.verdict) {
-        verdict.hidden = false;
-        verdict.classList.toggle("gained", answer.verdict.gained);
-        setText(verdict, answer.verdict.text);
-      }
-      if (!answer.done) return;
-      setRunning(false);
-      trouble.hidden = !answer.message;
-      setText(trouble, answer.message ?? "");
-    },
-    get current() {
-      return { trials: trials.length, running, best, verdict: verdict.textContent };
-    },
-  };
-}
+  /** @param {boolean} truth whether the recording has truth */
+  setTruth(truth) {
+    this.#choices.setTruth(truth, this.#running);
+  }
 
-/** @param {string} className @param {string} label */
-function picture(className, label) {
-  const element = svg("svg", {
-    class: className,
-    viewBox: `0 0 ${WIDTH} ${HEIGHT}`,
-    preserveAspectRatio: "none",
-    role: "img",
-    "aria-label": label,
-  });
-  const title = svg("title");
-  title.textContent = label;
-  element.append(title);
-  return element;
-}
+  /** @param {Answer} answer */
+  receive({ text, caution, trials, importance, verdict, done, message }) {
+    if (text) setText(this.#says, text);
+    if (caution) setText(this.#caution, caution);
+    if (trials) {
+      this.#trials.push(...trials);
+      this.#paintSoon();
+    }
+    if (importance) paintBars(this.#bars, importance, this.#knobs);
+    if (verdict) {
+      this.#verdict.hidden = false;
+      this.#verdict.classList.toggle("gained", verdict.gained);
+      setText(this.#verdict, verdict.text);
+    }
+    if (!done) return;
+    this.#setRunning(false);
+    this.#trouble.hidden = !message;
+    setText(this.#trouble, message ?? "");
+  }
 
-/** @param {Element} element @param {Element[]} marks */
-function show(element, marks) {
-  element.replaceChildren(/** @type {Element} */ (element.firstElementChild), ...marks);
-}
-
-/** @param {Element} element @param {Trial[]} scored */
-function paintHistory(element, scored) {
-  const scores = scored.map(({ score }) => Number(score));
-  const [low, high] = [Math.min(...scores), Math.max(...scores)];
-  const x = (/** @type {number} */ k) => 4 + (k / Math.max(1, scores.length - 1)) * (WIDTH - 8);
-  const y = (/** @type {number} */ score) => 6 + (1 - (high > low ? (score - low) / (high - low) : 1)) * (HEIGHT - 12);
-  let top = -Infinity;
-  const steps = scores
-    .map((score, k) => ((top = Math.max(top, score)), `${k ? "L" : "M"}${x(k).toFixed(1)} ${y(top).toFixed(1)}`))
-    .join("");
-  const dots = scores.map((score, k) => `M${x(k).toFixed(1)} ${y(score).toFixed(1)}h0`).join("");
-  const stay = { "vector-effect": "non-scaling-stroke" };
-  show(element, [
-    svg("path", { class: "dots", d: dots, ...stay }),
-    svg("path", { class: "default", d: `M0 ${y(scores[0])}H${WIDTH}`, ...stay }),
-    svg("path", { class: "best", d: steps, ...stay }),
-  ]);
-}
-
-/** The better a trial, the stronger its line, and the later it is drawn. @param {Element} element @param {Trial[]} scored @param {Knob[]} axes */
-function paintParallel(element, scored, axes) {
-  const sorted = [...scored].sort((one, other) => Number(one.score) - Number(other.score));
-  const x = (/** @type {number} */ k) => ((k + 0.5) / axes.length) * WIDTH;
-  const y = (/** @type {Knob} */ knob, /** @type {Trial} */ trial) =>
-    4 + (1 - placeOf(knob, trial.params[knob.name])) * (HEIGHT - 8);
-  const stay = { "vector-effect": "non-scaling-stroke" };
-  show(element, [
-    ...axes.map((_, k) => svg("path", { class: "axis", d: `M${x(k)} 0V${HEIGHT}`, ...stay })),
-    ...sorted.map((trial, rank) =>
-      svg("path", {
-        class: rank === sorted.length - 1 ? "trial best" : "trial",
-        d: axes.map((knob, k) => `${k ? "L" : "M"}${x(k).toFixed(1)} ${y(knob, trial).toFixed(1)}`).join(""),
-        opacity: (0.06 + 0.5 * (rank / sorted.length) ** 3).toFixed(2),
-        ...stay,
-      }),
-    ),
-  ]);
-}
-
-/** @param {HTMLElement} element @param {Record<string, number>} importance @param {Knob[]} knobs */
-function paintBars(element, importance, knobs) {
-  element.replaceChildren(
-    ...Object.entries(importance).map(([name, share]) => {
-      const bar = h("span", { class: "auto-bar" });
-      bar.style.width = `${Math.round(100 * share)}%`;
-      const symbol = knobs.find((knob) => knob.name === name)?.symbol ?? name;
-      return h(
-        "div",
-        { class: "auto-row" },
-        h("span", {}, symbol),
-        h("span", { class: "auto-track" }, bar),
-        h("span", { class: "muted" }, `${Math.round(100 * share)} %`),
-      );
-    }),
-  );
+  get current() {
+    return {
+      trials: this.#trials.length,
+      running: this.#running,
+      best: this.#best,
+      verdict: this.#verdict.textContent,
+    };
+  }
 }

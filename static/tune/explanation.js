@@ -5,7 +5,7 @@ import { withUnit } from "../widgets/scale.js";
 import { tooltip } from "../widgets/tooltip.js";
 import { createVersus } from "../widgets/versus.js";
 import { comparison } from "./comparison.js";
-import { symbol } from "./sliders.js";
+import { symbol } from "./symbol.js";
 
 /** @typedef {import("../wire.js").Explanation} Explanation */
 /** @typedef {import("../wire.js").Knob} Knob */

@@ -1,5 +1,6 @@
 // @ts-check
-import { h, setText } from "../widgets/dom.js";
+import { h } from "../widgets/dom.js";
+import { LineTable } from "./line_table.js";
 
 /** @typedef {import("../wire.js").State} State */
 /** @typedef {import("../wire.js").Segment} Segment */
@@ -12,8 +13,9 @@ import { h, setText } from "../widgets/dom.js";
  */
 export function createLines(text, onSelect) {
   const { beams, points, length, rms, by } = text.columns;
-  const kept = createTable(text.segments, [beams, points, length, rms], text.none);
-  const dropped = createTable(text.dropped, [beams, points, length, by], text.noneDropped);
+  const rows = { onSelect, ask: text.ask };
+  const kept = new LineTable(text.segments, [beams, points, length, rms], text.none, rows);
+  const dropped = new LineTable(text.dropped, [beams, points, length, by], text.noneDropped, rows);
   const element = h("div", { class: "lines" }, kept.element, dropped.element);
   /** @type {State | null} */
   let state = null;
@@ -48,45 +50,6 @@ export function createLines(text, onSelect) {
   }
 
   new MutationObserver(show).observe(element, { attributeFilter: ["hidden"] });
-
-  /** @param {string} title @param {string[]} columns @param {string} none */
-  function createTable(title, columns, none) {
-    const body = h("tbody");
-    const count = h("span", { class: "count" });
-    const empty = h("p", { class: "hint" }, none);
-    const heads = columns.map((column) => h("th", { scope: "col" }, column));
-    const table = h("table", { class: "table" }, h("thead", {}, h("tr", {}, ...heads)), body);
-    return {
-      element: h("section", {}, h("h3", {}, title, count), table, empty),
-      /** @param {{cells: string[], current: boolean, beam: number, note: string}[]} rows */
-      set(rows) {
-        setText(count, String(rows.length));
-        empty.hidden = rows.length > 0;
-        table.hidden = rows.length === 0;
-        while (body.rows.length > rows.length) body.deleteRow(-1);
-        while (body.rows.length < rows.length) body.append(emptyRow());
-        rows.forEach((row, k) => fill(body.rows[k], row));
-      },
-    };
-  }
-
-  function emptyRow() {
-    const ask = h("button", { type: "button", class: "row-button" });
-    const row = h("tr", {}, h("td", {}, ask), h("td"), h("td"), h("td"));
-    row.addEventListener("click", () => onSelect(Number(row.dataset.beam)));
-    return row;
-  }
-
-  /** @param {HTMLTableRowElement} row @param {{cells: string[], current: boolean, beam: number, note: string}} content */
-  function fill(row, { cells, current, beam, note }) {
-    row.dataset.beam = String(beam);
-    row.classList.toggle("current", current);
-    row.title = note;
-    const ask = /** @type {HTMLElement} */ (row.cells[0].firstElementChild);
-    setText(ask, cells[0]);
-    ask.setAttribute("aria-label", `${cells[0]}. ${note || text.ask(beam)}`);
-    for (let k = 1; k < cells.length; k++) setText(row.cells[k], cells[k]);
-  }
 
   return {
     element,

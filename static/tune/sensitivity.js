@@ -1,180 +1,108 @@
 // @ts-check
-// Under each slider a small curve of what the recording gives over its range.
-import { h, setText, svg } from "../widgets/dom.js";
-import { placeOf, valueAt, withUnit } from "../widgets/scale.js";
+// Under each slider a small curve of what the recording gives over its range, and the legend in which lines are switched.
+import { h, setText } from "../widgets/dom.js";
 import { tooltip } from "../widgets/tooltip.js";
+import { createCurve, LINES } from "./curve.js";
 
 /** @typedef {import("../wire.js").Knob} Knob */
-/** @typedef {import("./workbench.js").Curve} Curve */
+/** @typedef {typeof import("../text/tuning.js").tuningText.curves} Text */
 
-const WIDTH = 1000;
-const HEIGHT = 100;
-const LINES = ["coverage", "segments", "true_rate", "false_rate", "completeness"];
 const KEY = "lineseg.curves";
+// Without truth only the first lines are known.
+const WITHOUT_TRUTH = 2;
 
-/**
- * The legend, in which lines are switched, and a curve for each threshold.
- * @param {typeof import("../text/tuning.js").tuningText.curves} text
- * @param {{onSet: (name: string, value: number) => void, onShow: (shown: boolean) => void}} handlers
- */
-export function createSensitivity(text, { onSet, onShow }) {
-  const hidden = new Set(JSON.parse(localStorage.getItem(KEY) ?? "[]"));
-  const note = h("span", { class: "curves-note muted", role: "status" });
-  const all = h("button", { type: "button", class: "curve-key all", onclick: () => toggle("all") }, text.show);
-  tooltip(all, text.help, "left");
-  const keys = new Map(
-    LINES.map((line) => [
-      line,
-      h(
-        "button",
-        { type: "button", class: "curve-key", "data-line": line, onclick: () => toggle(line) },
-        h("span", { class: "swatch" }),
-        text.short[line],
-      ),
-    ]),
-  );
-  const legend = h(
-    "div",
-    { class: "curves-legend", role: "group", "aria-label": text.label },
-    all,
-    ...keys.values(),
-    note,
-  );
-  /** @type {Map<string, ReturnType<typeof createCurve>>} */
-  let curves = new Map();
-  let truth = false;
+export class Sensitivity {
+  #text;
+  #onSet;
+  #onShow;
+  /** Lines that are not drawn; "all": none is. @type {Set<string>} */ #hidden;
+  #note = h("span", { class: "curves-note muted", role: "status" });
+  #all;
+  #keys;
+  /** @type {Map<string, ReturnType<typeof createCurve>>} */ #curves = new Map();
+  /** Whether the recording has truth. */ hasTruth = false;
+
+  /** @param {Text} text @param {{onSet: (name: string, value: number) => void, onShow: () => void}} handlers */
+  constructor(text, { onSet, onShow }) {
+    this.#text = text;
+    this.#onSet = onSet;
+    this.#onShow = onShow;
+    this.#hidden = new Set(JSON.parse(localStorage.getItem(KEY) ?? "[]"));
+    this.#all = h("button", { type: "button", class: "curve-key all", onclick: () => this.#toggle("all") }, text.show);
+    tooltip(this.#all, text.help, "left");
+    this.#keys = new Map(LINES.map((line) => [line, this.#createKey(line)]));
+    this.legend = h(
+      "div",
+      { class: "curves-legend", role: "group", "aria-label": text.label },
+      this.#all,
+      ...this.#keys.values(),
+      this.#note,
+    );
+    this.#show();
+  }
 
   /** @param {string} line */
-  function toggle(line) {
-    if (!hidden.delete(line)) hidden.add(line);
-    localStorage.setItem(KEY, JSON.stringify([...hidden]));
-    show();
-    if (line === "all") onShow(shown());
+  #createKey(line) {
+    return h(
+      "button",
+      { type: "button", class: "curve-key", "data-line": line, onclick: () => this.#toggle(line) },
+      h("span", { class: "swatch" }),
+      this.#text.short[line],
+    );
   }
 
-  const shown = () => !hidden.has("all");
+  /** @param {string} line */
+  #toggle(line) {
+    if (!this.#hidden.delete(line)) this.#hidden.add(line);
+    localStorage.setItem(KEY, JSON.stringify([...this.#hidden]));
+    this.#show();
+    if (line === "all") this.#onShow();
+  }
 
-  function show() {
-    all.setAttribute("aria-pressed", String(shown()));
-    for (const [line, key] of keys) {
-      key.setAttribute("aria-pressed", String(!hidden.has(line)));
-      key.hidden = !shown() || (!truth && LINES.indexOf(line) > 1);
+  /** Whether there are curves at all. */
+  get shown() {
+    return !this.#hidden.has("all");
+  }
+
+  #show() {
+    const { shown } = this;
+    this.#all.setAttribute("aria-pressed", String(shown));
+    for (const [line, key] of this.#keys) {
+      key.setAttribute("aria-pressed", String(!this.#hidden.has(line)));
+      key.hidden = !shown || (!this.hasTruth && LINES.indexOf(line) >= WITHOUT_TRUTH);
     }
-    note.hidden = !shown();
-    for (const curve of curves.values()) {
-      curve.element.hidden = !shown();
-      curve.showOnly(hidden);
+    this.#note.hidden = !shown;
+    for (const curve of this.#curves.values()) {
+      curve.element.hidden = !shown;
+      curve.showOnly(this.#hidden);
     }
   }
-  show();
 
-  return {
-    legend,
-    shown,
-    /** @param {Knob[]} knobs @param {(name: string) => HTMLElement | null} holder */
-    setKnobs(knobs, holder) {
-      curves = new Map(knobs.map((knob) => [knob.name, createCurve(knob, text, (value) => onSet(knob.name, value))]));
-      for (const [name, curve] of curves) holder(name)?.append(curve.element);
-      show();
-    },
-    /** @param {import("../wire.js").Params} params */
-    setParams(params) {
-      for (const [name, value] of Object.entries(params)) curves.get(name)?.mark(value);
-    },
-    pending() {
-      setText(note, text.pending);
-    },
-    /** @param {import("./workbench.js").Answer} answer */
-    receive({ curves: found, frames, of, message, done }) {
-      if (message) setText(note, message);
-      if (done || !found) return;
-      setText(note, text.sample(frames ?? 0, of ?? 0));
-      truth = Object.values(found).some((curve) => "true_rate" in curve);
-      for (const [name, curve] of Object.entries(found)) curves.get(name)?.set(curve);
-      show();
-    },
-    get hasTruth() {
-      return truth;
-    },
-  };
-}
+  /** @param {Knob[]} knobs @param {(name: string) => HTMLElement | null} holder */
+  setKnobs(knobs, holder) {
+    this.#curves = new Map(
+      knobs.map((knob) => [knob.name, createCurve(knob, this.#text, (value) => this.#onSet(knob.name, value))]),
+    );
+    for (const [name, curve] of this.#curves) holder(name)?.append(curve.element);
+    this.#show();
+  }
 
-/**
- * @param {Knob} knob
- * @param {typeof import("../text/tuning.js").tuningText.curves} text
- * @param {(value: number) => void} onSet
- */
-function createCurve(knob, text, onSet) {
-  const picture = svg("svg", {
-    class: "curve-picture",
-    viewBox: `0 0 ${WIDTH} ${HEIGHT}`,
-    preserveAspectRatio: "none",
-    "aria-hidden": "true",
-  });
-  const paths = new Map(
-    LINES.map((line) => [
-      line,
-      svg("path", { class: "curve-line", "data-line": line, "vector-effect": "non-scaling-stroke" }),
-    ]),
-  );
-  const mark = svg("line", { class: "curve-mark", y1: 0, y2: HEIGHT, "vector-effect": "non-scaling-stroke" });
-  picture.append(...paths.values(), mark);
-  const element = h("div", { class: "curve", role: "img", "aria-label": text.picture(knob.symbol) });
-  element.append(picture);
-  /** @type {Curve | null} */
-  let curve = null;
-  const placeAt = (/** @type {MouseEvent} */ event) => {
-    const { left, width } = picture.getBoundingClientRect();
-    return Math.min(1, Math.max(0, (event.clientX - left) / width));
-  };
-  element.addEventListener("click", (event) => onSet(valueAt(knob, placeAt(event))));
-  element.addEventListener("pointermove", (event) => {
-    element.title = curve ? words(knob, curve, placeAt(event), text) : "";
-  });
-  return {
-    element,
-    /** @param {Curve} next */
-    set(next) {
-      curve = next;
-      const most = Math.max(1e-9, ...next.segments.map((value) => value ?? 0));
-      for (const [line, path] of paths) {
-        path.setAttribute("d", next[line] ? pathOf(knob, next.values, next[line], line === "segments" ? most : 1) : "");
-      }
-    },
-    /** @param {Set<string>} hidden */
-    showOnly(hidden) {
-      for (const [line, path] of paths) path.style.display = hidden.has(line) ? "none" : "";
-    },
-    /** @param {number} value */
-    mark(value) {
-      const x = String(placeOf(knob, value) * WIDTH);
-      mark.setAttribute("x1", x);
-      mark.setAttribute("x2", x);
-    },
-  };
-}
+  /** @param {import("../wire.js").Params} params */
+  setParams(params) {
+    for (const [name, value] of Object.entries(params)) this.#curves.get(name)?.mark(value);
+  }
 
-/** @param {Knob} knob @param {number[]} values @param {(number | null)[]} heights @param {number} most */
-function pathOf(knob, values, heights, most) {
-  let path = "";
-  let pen = "M";
-  heights.forEach((height, k) => {
-    if (height === null) {
-      pen = "M";
-      return;
-    }
-    path += `${pen}${(placeOf(knob, values[k]) * WIDTH).toFixed(1)} ${((1 - (0.94 * height) / most) * HEIGHT - 3).toFixed(1)}`;
-    pen = "L";
-  });
-  return path;
-}
+  pending() {
+    setText(this.#note, this.#text.pending);
+  }
 
-/** @param {Knob} knob @param {Curve} curve @param {number} place @param {typeof import("../text/tuning.js").tuningText.curves} text */
-function words(knob, curve, place, text) {
-  const distances = curve.values.map((value) => Math.abs(placeOf(knob, value) - place));
-  const k = distances.indexOf(Math.min(...distances));
-  const parts = LINES.filter((line) => curve[line] && curve[line][k] !== null).map(
-    (line) => `${text.short[line]} ${Number(curve[line][k]).toFixed(2)}`,
-  );
-  return `${knob.symbol} ${withUnit(knob, curve.values[k])}: ${parts.join(", ")}`;
+  /** @param {import("./workbench.js").Answer} answer */
+  receive({ curves, frames, of, message, done }) {
+    if (message) setText(this.#note, message);
+    if (done || !curves) return;
+    setText(this.#note, this.#text.sample(frames ?? 0, of ?? 0));
+    this.hasTruth = Object.values(curves).some((curve) => "true_rate" in curve);
+    for (const [name, curve] of Object.entries(curves)) this.#curves.get(name)?.set(curve);
+    this.#show();
+  }
 }

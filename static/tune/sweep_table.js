@@ -1,6 +1,6 @@
 // @ts-check
 // The table of a sweep (`lineseg sweep`), read by the server: any two of its thresholds as a map.
-import { messageOf } from "./exchange.js";
+import { messageOf } from "../fetch.js";
 
 /** @typedef {import("../wire.js").Params} Params */
 /** @typedef {(number | null)[]} Column */

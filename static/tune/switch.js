@@ -2,12 +2,12 @@
 // A threshold that is on or off.
 import { h } from "../widgets/dom.js";
 import { tooltip } from "../widgets/tooltip.js";
-import { symbol } from "./sliders.js";
+import { symbol } from "./symbol.js";
 
 /** @typedef {import("../wire.js").Knob} Knob */
 
 /**
- * The same as createThreshold, as a checkbox.
+ * The same as Threshold, as a checkbox.
  * @param {Knob} knob
  * @param {typeof import("../text/page.js").pageText.tune} text
  * @param {(name: string, value: number) => void} onChange 1 for on, 0 for off

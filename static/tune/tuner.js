@@ -1,13 +1,15 @@
 // @ts-check
 // Sensitivity, map and auto-tuning, and the socket that serves them.
-import { createAuto } from "./auto.js";
-import { createMap } from "./map.js";
-import { createSensitivity } from "./sensitivity.js";
+import { Auto } from "./auto.js";
+import { TuningMap } from "./map.js";
+import { Sensitivity } from "./sensitivity.js";
 import { Workbench } from "./workbench.js";
 
 /** @typedef {import("../wire.js").Method} Method */
 /** @typedef {import("../wire.js").Params} Params */
 /** @typedef {import("../wire.js").State} State */
+/** @typedef {import("./workbench.js").Answer} Answer */
+/** row: of a threshold's slider. @typedef {{session: () => string | null, onParams: (params: Params) => void, row: (name: string) => HTMLElement | null}} Handlers */
 
 // A hand that moves a slider pauses for less.
 const PAUSE_MS = 120;
@@ -16,95 +18,119 @@ const METHOD = "region-growing";
 
 /**
  * @param {typeof import("../text/tuning.js").tuningText} text
- * @param {{session: () => string | null, onParams: (params: Params) => void, row: (name: string) => HTMLElement | null}} handlers row: of a threshold's slider
+ * @param {Handlers} handlers
  */
-export function createTuner(text, { session, onParams, row }) {
-  const address = () => {
-    const id = session();
-    return (
-      id &&
-      `${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/api/tuning?session=${encodeURIComponent(id)}`
-    );
-  };
-  const bench = new Workbench(address, {
-    onAnswer(answer) {
-      ({ curves: sensitivity, map, auto })[answer.type].receive(answer);
-      if (answer.type === "curves" && answer.curves) setTruth();
-    },
-    onMeasures: (measures) => (map.setMeasures(measures), setTruth()),
-  });
-  const sensitivity = createSensitivity(text.curves, {
-    onSet: (name, value) => onParams({ [name]: value }),
-    onShow: () => ask(),
-  });
-  const map = createMap(text.map, {
-    ask: (x, y, measure) => bench.ask("map", { params, x, y, measure }),
-    stop: () => bench.stop("map"),
-    onSet: onParams,
-  });
-  const auto = createAuto(text.auto, {
-    ask: (wish) => bench.ask("auto", { params, ...wish }),
-    stop: () => bench.stop("auto"),
-    onAdopt: onParams,
-  });
-  /** @type {Params} */
-  let params = {};
-  let place = "";
-  let asked = "";
-  let timer = 0;
-  let able = true;
+export function createTuner(text, handlers) {
+  return new Tuner(text, handlers);
+}
 
-  function setTruth() {
-    map.setTruth(sensitivity.hasTruth);
-    auto.setTruth(sensitivity.hasTruth);
+class Tuner {
+  #row;
+  #bench;
+  #sensitivity;
+  #map;
+  #auto;
+  /** @type {Params} */ #params = {};
+  /** Of the recording that is drawn. */ #place = "";
+  /** What the curves were asked for. */ #asked = "";
+  #timer = 0;
+  /** Whether the chosen method is the one that is measured. */ #able = true;
+
+  /** @param {typeof import("../text/tuning.js").tuningText} text @param {Handlers} handlers */
+  constructor(text, { session, onParams, row }) {
+    this.#row = row;
+    this.#bench = new Workbench(() => addressFor(session()), {
+      onAnswer: (answer) => this.#receive(answer),
+      onMeasures: (measures) => {
+        this.#map.setMeasures(measures);
+        this.#tellTruth();
+      },
+    });
+    this.#sensitivity = new Sensitivity(text.curves, {
+      onSet: (name, value) => onParams({ [name]: value }),
+      onShow: () => this.#ask(),
+    });
+    this.#map = new TuningMap(text.map, {
+      ask: (x, y, measure) => this.#bench.ask("map", { params: this.#params, x, y, measure }),
+      stop: () => this.#bench.stop("map"),
+      onSet: onParams,
+    });
+    this.#auto = new Auto(text.auto, {
+      ask: (wish) => this.#bench.ask("auto", { params: this.#params, ...wish }),
+      stop: () => this.#bench.stop("auto"),
+      onAdopt: onParams,
+    });
+    this.legend = this.#sensitivity.legend;
+    this.pages = [
+      { name: "map", label: text.pages.map, content: this.#map.element },
+      { name: "auto", label: text.pages.auto, content: this.#auto.element },
+    ];
   }
 
-  function ask() {
-    timer = 0;
-    const wanted = JSON.stringify([place, params]);
-    if (!place || wanted === asked || !sensitivity.shown()) return;
-    asked = wanted;
-    sensitivity.pending();
-    bench.ask("curves", { params });
+  /** @param {Answer} answer */
+  #receive(answer) {
+    ({ curves: this.#sensitivity, map: this.#map, auto: this.#auto })[answer.type].receive(answer);
+    if (answer.type === "curves" && answer.curves) this.#tellTruth();
   }
 
-  return {
-    legend: sensitivity.legend,
-    pages: [
-      { name: "map", label: text.pages.map, content: map.element },
-      { name: "auto", label: text.pages.auto, content: auto.element },
-    ],
-    /** Shows the table of a sweep in the map. @param {File} file */
-    openSweep: (file) => map.open(file),
-    /** @param {Method} method */
-    setMethod({ name, knobs }) {
-      able = name === METHOD;
-      sensitivity.legend.hidden = !able;
-      sensitivity.setKnobs(able ? knobs : [], row);
-      asked = "";
-      if (!able) return;
-      map.setKnobs(knobs);
-      auto.setKnobs(knobs);
-    },
-    /** @param {Readonly<import("../wire.js").View>} view */
-    setView: (view) => able && sensitivity.setParams(view.params),
-    /** @param {State} state */
-    setState(state) {
-      if (!able || state.method !== METHOD) return;
-      const here = `${state.recording} ${state.topic}`;
-      params = state.params;
-      if (here !== place) {
-        place = here;
-        map.forget();
-        auto.forget();
-      }
-      map.setParams(params);
-      clearTimeout(timer);
-      timer = setTimeout(ask, PAUSE_MS);
-    },
-    /** For scripts and tests. */
-    get current() {
-      return { map: map.current, auto: auto.current };
-    },
-  };
+  #tellTruth() {
+    this.#map.setTruth(this.#sensitivity.hasTruth);
+    this.#auto.setTruth(this.#sensitivity.hasTruth);
+  }
+
+  /** Asks for the curves. */
+  #ask() {
+    const wanted = JSON.stringify([this.#place, this.#params]);
+    if (!this.#place || wanted === this.#asked || !this.#sensitivity.shown) return;
+    this.#asked = wanted;
+    this.#sensitivity.pending();
+    this.#bench.ask("curves", { params: this.#params });
+  }
+
+  /** Shows the table of a sweep in the map. @param {File} file */
+  openSweep(file) {
+    this.#map.open(file);
+  }
+
+  /** @param {Method} method */
+  setMethod({ name, knobs }) {
+    this.#able = name === METHOD;
+    this.legend.hidden = !this.#able;
+    this.#sensitivity.setKnobs(this.#able ? knobs : [], this.#row);
+    this.#asked = "";
+    if (!this.#able) return;
+    this.#map.setKnobs(knobs);
+    this.#auto.setKnobs(knobs);
+  }
+
+  /** @param {Readonly<import("../wire.js").View>} view */
+  setView({ params }) {
+    if (this.#able) this.#sensitivity.setParams(params);
+  }
+
+  /** @param {State} state */
+  setState(state) {
+    if (!this.#able || state.method !== METHOD) return;
+    const here = `${state.recording} ${state.topic}`;
+    this.#params = state.params;
+    if (here !== this.#place) {
+      this.#place = here;
+      this.#map.forget();
+      this.#auto.forget();
+    }
+    this.#map.setParams(state.params);
+    clearTimeout(this.#timer);
+    this.#timer = setTimeout(() => this.#ask(), PAUSE_MS);
+  }
+
+  /** For scripts and tests. */
+  get current() {
+    return { map: this.#map.current, auto: this.#auto.current };
+  }
+}
+
+/** @param {string | null} session @returns {string | null} */
+function addressFor(session) {
+  const scheme = location.protocol === "https:" ? "wss" : "ws";
+  return session && `${scheme}://${location.host}/api/tuning?session=${encodeURIComponent(session)}`;
 }

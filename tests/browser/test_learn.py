@@ -151,7 +151,7 @@ def test_a_merge_that_would_fit_badly_says_by_how_much(new_tab):
     tab = learn(new_tab, "lesson:5_shallow_corner", step=apart)
     tab.eventually(lambda: f"{value:.3f}>{limit:.3f}" in text_of(tab, ".formulas"), "no formula")
     assert f"{value:.3f}\u00a0m from it (rms), more than {limit:.3f}\u00a0m: they stay two" in text_of(
-        tab, ".decision[aria-atomic]"
+        tab, "#stepper .decision"
     )
     assert "γmerge" in text_of(tab, ".code-line.lit")
 

@@ -1,0 +1,57 @@
+// @ts-check
+// Length and count of a growing line, each in units of what is asked for, so that one dashed line stands for both.
+import { colour } from "./colours.js";
+import { Plot } from "./plot.js";
+
+/** @typedef {{points: number, length: number}} Grown */
+
+export class GrowthChart {
+  #symbol;
+  #plot;
+
+  /** @param {{title: string, y: string}} text y: words at the dashed line */
+  constructor({ title, y }) {
+    this.#symbol = y;
+    this.#plot = new Plot(title, false);
+    this.element = this.#plot.element;
+  }
+
+  measure() {
+    this.#plot.measure();
+  }
+
+  /** @param {string} why */
+  clear(why) {
+    this.#plot.blank(why);
+  }
+
+  /** @param {Grown[]} steps @param {number} minLength @param {number} minPoints @param {string} words */
+  set(steps, minLength, minPoints, words) {
+    this.#plot.say(words);
+    const { pen, box } = this.#plot.begin();
+    const lengths = steps.map(({ length }) => length / Math.max(minLength, 1e-9));
+    const counts = steps.map(({ points }) => points / Math.max(minPoints, 1));
+    const top = Math.max(1.6, Math.min(1.1 * Math.max(...lengths, ...counts), 12));
+    const x = (/** @type {number} */ k) =>
+      box.left + 6 + (k / Math.max(steps.length - 1, 20)) * (box.right - box.left - 12);
+    const y = (/** @type {number} */ value) => box.bottom - (Math.min(value, top) / top) * (box.bottom - box.top);
+    this.#plot.threshold(pen, y(1), this.#symbol);
+    const last = steps[steps.length - 1];
+    const curves = /** @type {const} */ ([
+      [lengths, "--accent", `L ${last.length.toFixed(2)} m`],
+      [counts, "--good", `P ${last.points}`],
+    ]);
+    curves.forEach(([values, tone, label], k) => {
+      pen.strokeStyle = pen.fillStyle = colour(tone);
+      pen.lineWidth = 1.6;
+      pen.beginPath();
+      for (const [place, value] of values.entries()) pen.lineTo(x(place), y(value));
+      pen.stroke();
+      pen.beginPath();
+      pen.arc(x(values.length - 1), y(values[values.length - 1]), 2.5, 0, 7);
+      pen.fill();
+      pen.textAlign = "left";
+      pen.fillText(label, box.left + 8 + k * 62, box.bottom + 12);
+    });
+  }
+}

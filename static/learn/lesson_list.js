@@ -1,0 +1,89 @@
+// @ts-check
+// The list of lessons, with a mark at those that are done.
+import { drawText } from "../text/draw.js";
+import { h } from "../widgets/dom.js";
+import { icon } from "../widgets/icon.js";
+import { symbols } from "./symbols.js";
+
+/** @typedef {import("./lessons.js").Lesson} Lesson */
+
+const DONE_KEY = "lineseg.lessons";
+
+export class LessonList {
+  /** @type {Lesson[]} */ lessons = [];
+  /** Where it says that there are no lessons. */
+  trouble = h("div");
+  #done = new Set(load());
+  #text;
+  #onOpen;
+  #broken = h("div", { class: "panel-error", role: "alert" });
+  #items = h("ol", { class: "lesson-list" });
+
+  /**
+   * @param {typeof import("../text/learn.js").learnText.lesson} text
+   * @param {{onOpen: (id: string) => void, onDraw: () => void}} handlers onDraw: a world of one's own is wanted
+   */
+  constructor(text, { onOpen, onDraw }) {
+    this.#text = text;
+    this.#onOpen = onOpen;
+    const drawing = h(
+      "button",
+      { type: "button", class: "lesson-item", onclick: onDraw },
+      h("span", { class: "lesson-item-title" }, drawText.open),
+      h("span", { class: "muted" }, drawText.openHint),
+    );
+    this.element = h(
+      "div",
+      { class: "lesson-overview" },
+      h("h2", {}, text.overview),
+      h("p", { class: "hint" }, text.overviewHint),
+      this.trouble,
+      this.#broken,
+      this.#items,
+      drawing,
+    );
+  }
+
+  /** @param {Lesson[]} lessons @param {string[]} broken why other files are no lessons */
+  set(lessons, broken) {
+    this.lessons = lessons;
+    this.#broken.replaceChildren(...broken.map((why) => h("p", {}, why)));
+    this.show();
+  }
+
+  /** @param {string} why */
+  complain(why) {
+    this.#broken.append(h("p", {}, why));
+  }
+
+  show() {
+    this.#items.replaceChildren(...this.lessons.map((lesson) => h("li", {}, this.#itemOf(lesson))));
+  }
+
+  /** @param {Lesson} lesson */
+  #itemOf({ id, title, about }) {
+    const done = this.#done.has(id);
+    const mark = done ? [icon("check"), h("span", { class: "off-screen" }, this.#text.doneMark)] : [];
+    return h(
+      "button",
+      { type: "button", class: "lesson-item", "data-lesson": id, onclick: () => this.#onOpen(id) },
+      h("span", { class: "lesson-item-title" }, ...symbols(title), ...mark),
+      h("span", { class: "muted" }, ...symbols(about)),
+    );
+  }
+
+  /** @param {string} id */
+  markDone(id) {
+    this.#done.add(id);
+    localStorage.setItem(DONE_KEY, JSON.stringify([...this.#done]));
+  }
+}
+
+/** @returns {string[]} */
+function load() {
+  try {
+    return JSON.parse(localStorage.getItem(DONE_KEY) ?? "[]");
+  } catch {
+    return [];
+  }
+}

@@ -1,0 +1,239 @@
+// @ts-check
+// Lessons: texts that drive the page, and one task that the page checks. They are data, from /api/lessons.
+import { Threshold } from "../tune/threshold.js";
+import { h } from "../widgets/dom.js";
+import { gestureCount } from "../widgets/slider.js";
+import { fetchInto } from "./fetched.js";
+import { find, missing } from "./goals.js";
+import { LessonList } from "./lesson_list.js";
+import { Reader } from "./reader.js";
+
+/** @typedef {import("../wire.js").State} State */
+/** @typedef {import("../wire.js").View} View */
+/** @typedef {import("../wire.js").Knob} Knob */
+/** @typedef {import("../wire.js").Params} Params */
+/** @typedef {import("../view/store.js").Patch} Patch */
+/** @typedef {import("./trace.js").Trace} Trace */
+/** @typedef {import("./goals.js").Find} Find */
+/** @typedef {{text: string, find: Find | null, method: string | null, params: Params, selected: number | null}} LessonStep */
+/** @typedef {{text: string, hint: string, done: string, goal: import("./goals.js").Goal, params: Params}} Task */
+/**
+ * @typedef {object} Lesson
+ * @property {string} id
+ * @property {string} title
+ * @property {string} about
+ * @property {string} recording
+ * @property {number} frame
+ * @property {Params} params
+ * @property {string[]} knobs
+ * @property {LessonStep[]} steps
+ * @property {Task} task
+ */
+/** @typedef {{lessons: Lesson[], broken: string[]}} Told */
+/** @typedef {{onChange: (patch: Patch, gesture?: string | null) => void, onGo: (step: number | null) => void, onDraw: () => void}} Handlers */
+
+// Every lesson is about this one; a step may show another beside it.
+const METHOD = "region-growing";
+
+export class Lessons {
+  #words;
+  #handlers;
+  /** @type {Lesson | null} */ #lesson = null;
+  /** Which text is shown; lesson.steps.length: the task. */
+  #at = 0;
+  /** What is to be shown once the lesson's frame and thresholds are drawn. @type {{find: Find | null} | null} */
+  #pending = null;
+  #solved = false;
+  /** @type {Readonly<View> | null} */ #view = null;
+  /** @type {Knob[]} */ #knobs = [];
+  /** @type {Map<string, Threshold>} */ #sliders = new Map();
+  /** What a link with ?lesson=… waits for before it is opened. */
+  #awaited = new Set(["lessons", "knobs"]);
+  #list;
+  #reader;
+
+  /** @param {import("./learn.js").Words} words @param {Handlers} handlers */
+  constructor(words, handlers) {
+    this.#words = words;
+    this.#handlers = handlers;
+    const text = words.learn.lesson;
+    this.#list = new LessonList(text, { onOpen: (id) => this.open(id), onDraw: handlers.onDraw });
+    this.#reader = new Reader(text, {
+      onLeave: () => this.#leave(),
+      onBack: () => this.#turn(this.#at - 1),
+      onNext: () => this.#forward(),
+      onHint: () => this.#lesson && this.#reader.hint(this.#lesson.task.hint),
+    });
+    this.element = h(
+      "section",
+      { class: "lesson", "aria-label": text.label },
+      this.#list.element,
+      this.#reader.element,
+    );
+    fetchInto(this.#list.trouble, "/api/lessons", text, (/** @type {Told} */ told) => {
+      this.#list.set(told.lessons, told.broken);
+      this.#come("lessons");
+    });
+  }
+
+  /** @param {string} what */
+  #come(what) {
+    if (!this.#awaited.delete(what) || this.#awaited.size) return;
+    const wanted = new URL(location.href).searchParams.get("lesson");
+    if (!wanted) return;
+    this.#handlers.onChange({ mode: "learn" });
+    this.open(wanted);
+  }
+
+  /** @param {string} id */
+  open(id) {
+    const chosen = this.#list.lessons.find((each) => each.id === id);
+    if (!chosen) return this.#list.complain(this.#words.learn.lesson.unknown(id));
+    this.#lesson = chosen;
+    this.#list.element.hidden = true;
+    this.#sliders = new Map(
+      this.#knobs
+        .filter(({ name }) => chosen.knobs.includes(name))
+        .map((knob) => [knob.name, this.#createSlider(knob)]),
+    );
+    const number = this.#list.lessons.indexOf(chosen) + 1;
+    this.#reader.open(
+      `${number} · ${chosen.title}`,
+      [...this.#sliders.values()].map((slider) => slider.element),
+    );
+    putInAddress(id);
+    this.#turn(0);
+    return this.#reader.focus();
+  }
+
+  /** @param {Knob} knob */
+  #createSlider(knob) {
+    return new Threshold(knob, this.#words.tune, (name, value) =>
+      this.#handlers.onChange({ params: { [name]: value } }, `${name} ${gestureCount()}`),
+    );
+  }
+
+  #leave() {
+    this.#lesson = null;
+    this.#pending = null;
+    this.#reader.close();
+    this.element.dataset.page = "";
+    putInAddress(null);
+    this.#list.element.hidden = false;
+    this.#list.show();
+  }
+
+  #forward() {
+    if (!this.#lesson) return;
+    if (this.#at < this.#lesson.steps.length) return this.#turn(this.#at + 1);
+    const following = this.#following(this.#lesson);
+    if (following) this.open(following.id);
+    else this.#leave();
+  }
+
+  /** @param {Lesson} lesson @returns {Lesson | undefined} */
+  #following(lesson) {
+    return this.#list.lessons[this.#list.lessons.indexOf(lesson) + 1];
+  }
+
+  /** @param {number} to */
+  #turn(to) {
+    if (!this.#lesson || !this.#view) return;
+    const { steps, task } = this.#lesson;
+    this.#at = Math.min(Math.max(to, 0), steps.length);
+    const step = steps.at(this.#at) ?? null;
+    this.#solved = false;
+    this.element.dataset.page = step ? "step" : "task";
+    this.#reader.show({
+      words: step?.text ?? task.text,
+      isTask: !step,
+      // Elsewhere the sliders would only take room.
+      sliders: !step || Object.keys(step.params).length > 0,
+      at: this.#at,
+      count: steps.length + 1,
+      next: this.#nextWords(this.#lesson),
+    });
+    this.#pending = { find: step?.find ?? null };
+    // Without a change nothing would be drawn, and so nothing be shown.
+    this.#handlers.onChange(this.#patchFor(this.#lesson, step, this.#view));
+  }
+
+  /** @param {Lesson} lesson @param {LessonStep | null} step @param {Readonly<View>} view @returns {Patch} */
+  #patchFor({ recording, frame }, step, view) {
+    const { method, params } = this.#wanted();
+    const elsewhere =
+      view.recording !== recording || view.frame !== frame || view.method !== method || !same(params, view.params);
+    return {
+      method,
+      selected: step?.selected ?? null,
+      ...(method === METHOD ? { params } : {}),
+      ...(view.recording !== recording ? { recording } : {}),
+      ...(elsewhere ? { frame, step: null } : {}),
+    };
+  }
+
+  /** @param {Lesson} lesson */
+  #nextWords(lesson) {
+    const text = this.#words.learn.lesson;
+    if (this.#at < lesson.steps.length) return this.#at === lesson.steps.length - 1 ? text.toTask : text.next;
+    return this.#following(lesson) ? text.nextLesson : text.finish;
+  }
+
+  /** Method and thresholds of the present text. @returns {{method: string, params: Params}} */
+  #wanted() {
+    const usual = Object.fromEntries(this.#knobs.map((knob) => [knob.name, knob.default]));
+    const page = this.#lesson?.steps[this.#at] ?? this.#lesson?.task;
+    const other = page && "method" in page ? page.method : null;
+    return other
+      ? { method: other, params: {} }
+      : { method: METHOD, params: { ...usual, ...this.#lesson?.params, ...page?.params } };
+  }
+
+  /** @param {Knob[]} knobs */
+  setKnobs(knobs) {
+    this.#knobs = knobs;
+    this.#come("knobs");
+  }
+
+  /** @param {Readonly<View>} view */
+  setView(view) {
+    this.#view = view;
+    for (const [name, slider] of this.#sliders) if (view.params[name] !== undefined) slider.set(view.params[name]);
+  }
+
+  /** @param {State} state drawn, and nothing else under way @param {Trace} trace of it */
+  settle(state, trace) {
+    const lesson = this.#lesson;
+    if (!lesson || state.recording !== lesson.recording || state.frame !== lesson.frame) return;
+    const { method, params } = this.#wanted();
+    if (this.#pending && state.method === method && same(params, state.params)) {
+      const target = this.#pending.find;
+      this.#pending = null;
+      const index = target ? find(trace, target) : -1;
+      this.#handlers.onGo(index >= 0 ? index : null);
+    }
+    if (!this.#pending && this.#at === lesson.steps.length && !this.#solved) this.#check(lesson, state, trace, params);
+  }
+
+  /** Whether the task is done. @param {Lesson} lesson @param {State} state @param {Trace} trace @param {Params} start */
+  #check({ id, task }, state, trace, start) {
+    const { lesson: text, goals } = this.#words.learn;
+    const lacks = missing(task.goal, state, trace, start, state.step, goals);
+    this.#solved = lacks.length === 0;
+    this.#reader.judge(this.#solved, this.#solved ? `${text.right} ${task.done}` : `${text.notYet} ${lacks[0]}`);
+    if (this.#solved) this.#list.markDone(id);
+  }
+}
+
+/** The lesson in the address, so that a link opens it. @param {string | null} id */
+function putInAddress(id) {
+  const url = new URL(location.href);
+  if (id) url.searchParams.set("lesson", id);
+  else url.searchParams.delete("lesson");
+  history.replaceState(null, "", url);
+}
+
+/** @param {Params} one @param {Params} other */
+function same(one, other) {
+  return Object.entries(one).every(([name, value]) => other[name] === value);
+}

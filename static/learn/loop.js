@@ -1,0 +1,35 @@
+// @ts-check
+// A stretch of decisions that is played over and over: begun, closed, ended.
+
+/** to null: begun, not closed. @typedef {{from: number, to: number | null}} Range */
+
+export class Loop {
+  /** @type {Range | null} */ range = null;
+
+  /** The next of begun, closed, ended. @param {number | null} at the present decision */
+  toggle(at) {
+    if (!this.range) this.range = { from: at ?? 0, to: null };
+    else if (this.range.to === null) this.range = ordered(this.range.from, at ?? this.range.from);
+    else this.range = null;
+  }
+
+  end() {
+    this.range = null;
+  }
+
+  /** Where playing begins; null while there is no closed loop. */
+  get start() {
+    return this.range && this.range.to !== null ? this.range.from : null;
+  }
+
+  /** The same decision, or the beginning of the loop instead of one outside of it. @param {number} next */
+  inside(next) {
+    if (!this.range || this.range.to === null) return next;
+    return next > this.range.to || next < this.range.from ? this.range.from : next;
+  }
+}
+
+/** @param {number} one @param {number} other */
+function ordered(one, other) {
+  return { from: Math.min(one, other), to: Math.max(one, other) };
+}

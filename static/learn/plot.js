@@ -1,0 +1,76 @@
+// @ts-check
+// The canvas of a chart: its size, its axes, the dashed line of a threshold, and words where there is nothing to draw.
+import { freshCanvas } from "../widgets/canvas.js";
+import { h, setText } from "../widgets/dom.js";
+import { colour } from "./colours.js";
+
+/** @typedef {{left: number, right: number, top: number, bottom: number}} Box */
+
+const PAD = { left: 34, right: 8, top: 6, bottom: 15 };
+
+export class Plot {
+  #size = { width: 0, height: 0 };
+  #said = h("span", { class: "off-screen" });
+  #note = h("p", { class: "chart-note muted" });
+
+  /** @param {string} title @param {boolean} spoken whether the canvas itself speaks */
+  constructor(title, spoken) {
+    this.canvas = h("canvas", { class: "chart-canvas", "aria-hidden": spoken ? null : "true" });
+    this.element = h("figure", { class: "chart" }, h("figcaption", {}, title), this.canvas, this.#note, this.#said);
+  }
+
+  /** The size is kept: asking for it after the text has changed would lay the page out once more. */
+  measure() {
+    this.#size = { width: this.canvas.clientWidth, height: this.canvas.clientHeight };
+  }
+
+  /** Where the curves are. @returns {Box} */
+  get box() {
+    const { width, height } = this.#size;
+    return { left: PAD.left, right: width - PAD.right, top: PAD.top, bottom: height - PAD.bottom };
+  }
+
+  /** Nothing is drawn. @param {string} why */
+  blank(why) {
+    this.canvas.classList.add("blank");
+    setText(this.#note, why);
+    setText(this.#said, "");
+  }
+
+  /** @param {string} words what the chart shows, for those who listen */
+  say(words) {
+    this.canvas.classList.remove("blank");
+    setText(this.#note, "");
+    setText(this.#said, words);
+  }
+
+  /** A pen over fresh axes. */
+  begin() {
+    const { pen } = freshCanvas(this.canvas, this.#size);
+    const { box } = this;
+    pen.font = "10.5px system-ui, sans-serif";
+    pen.strokeStyle = colour("--line-strong");
+    pen.lineWidth = 1;
+    pen.beginPath();
+    pen.moveTo(box.left, box.top);
+    pen.lineTo(box.left, box.bottom + 0.5);
+    pen.lineTo(box.right, box.bottom + 0.5);
+    pen.stroke();
+    return { pen, box };
+  }
+
+  /** @param {CanvasRenderingContext2D} pen @param {number} y @param {string} words */
+  threshold(pen, y, words) {
+    const { left, right } = this.box;
+    pen.strokeStyle = colour("--ink");
+    pen.setLineDash([4, 3]);
+    pen.beginPath();
+    pen.moveTo(left, y);
+    pen.lineTo(right, y);
+    pen.stroke();
+    pen.setLineDash([]);
+    pen.fillStyle = colour("--ink");
+    pen.textAlign = "right";
+    pen.fillText(words, left - 4, y + 3.5);
+  }
+}

@@ -1,0 +1,96 @@
+// @ts-check
+// The page of a lesson that is read: a text or the task, sliders, and the way on.
+import { h, setText } from "../widgets/dom.js";
+import { iconButton } from "../widgets/icon.js";
+import { symbols } from "./symbols.js";
+
+/**
+ * @typedef {object} Page
+ * @property {string} words
+ * @property {boolean} isTask
+ * @property {boolean} sliders whether they are shown
+ * @property {number} at from 0
+ * @property {number} count
+ * @property {string} next words of the way on
+ */
+
+export class Reader {
+  #text;
+  #title = h("h2", { class: "lesson-title", tabIndex: -1 });
+  #body = h("div", { class: "lesson-body", "aria-live": "polite" });
+  #sliders = h("div", { class: "thresholds lesson-knobs" });
+  #verdict = h("p", { class: "lesson-verdict", role: "status" });
+  #hintWords = h("p", { class: "lesson-hint", role: "status", hidden: true });
+  #task = h("div", { class: "lesson-task" }, this.#verdict, this.#hintWords);
+  #scroll = h("div", { class: "lesson-scroll" }, this.#body, this.#sliders, this.#task);
+  #count = h("span", { class: "muted" });
+  #hint;
+  #back;
+  #next;
+
+  /**
+   * @param {typeof import("../text/learn.js").learnText.lesson} text
+   * @param {{onLeave: () => void, onBack: () => void, onNext: () => void, onHint: () => void}} handlers
+   */
+  constructor(text, { onLeave, onBack, onNext, onHint }) {
+    this.#text = text;
+    this.#hint = h("button", { type: "button", class: "button quiet", onclick: onHint }, text.hint);
+    this.#back = h("button", { type: "button", class: "button", onclick: onBack }, text.back);
+    this.#next = h("button", { type: "button", class: "button primary", onclick: onNext }, text.next);
+    const spacer = h("span", { class: "spacer" });
+    this.element = h(
+      "div",
+      { class: "lesson-reader", hidden: true },
+      h("div", { class: "lesson-head" }, this.#title, iconButton("close", text.close, onLeave)),
+      this.#scroll,
+      h("div", { class: "lesson-foot" }, this.#back, this.#count, spacer, this.#hint, this.#next),
+    );
+  }
+
+  /** @param {string} title @param {HTMLElement[]} sliders */
+  open(title, sliders) {
+    this.element.hidden = false;
+    this.#title.replaceChildren(...symbols(title));
+    this.#sliders.replaceChildren(...sliders);
+  }
+
+  close() {
+    this.element.hidden = true;
+  }
+
+  focus() {
+    this.#title.focus();
+  }
+
+  /** @param {Page} page */
+  show({ words, isTask, sliders, at, count, next }) {
+    this.#body.replaceChildren(
+      ...(isTask ? [h("h3", {}, this.#text.task)] : []),
+      ...words.split("\n\n").map((paragraph) => h("p", {}, ...symbols(paragraph))),
+    );
+    this.#task.hidden = this.#hint.hidden = !isTask;
+    this.#sliders.hidden = !sliders;
+    this.#hintWords.hidden = true;
+    this.#verdict.className = "lesson-verdict";
+    setText(this.#verdict, "");
+    setText(this.#count, this.#text.place(at + 1, count));
+    this.#back.disabled = at === 0;
+    setText(this.#next, next);
+    this.#next.classList.toggle("primary", !isTask);
+    this.#scroll.scrollTo(0, 0);
+  }
+
+  /** @param {string} words */
+  hint(words) {
+    this.#hintWords.replaceChildren(...symbols(words));
+    this.#hintWords.hidden = false;
+    this.#hintWords.scrollIntoView({ block: "nearest" });
+  }
+
+  /** Whether the task is done, and what is missing. @param {boolean} solved @param {string} words */
+  judge(solved, words) {
+    this.#verdict.classList.toggle("solved", solved);
+    this.#verdict.replaceChildren(...symbols(words));
+    this.#next.classList.toggle("primary", solved);
+  }
+}

@@ -1,0 +1,39 @@
+// @ts-check
+import { createMenu } from "../widgets/menu.js";
+import { format } from "../widgets/scale.js";
+import { tooltip } from "../widgets/tooltip.js";
+import { PRESETS } from "./presets.js";
+
+/** @typedef {import("../wire.js").Knob} Knob */
+/** @typedef {import("../wire.js").Params} Params */
+
+/**
+ * The menu of the paper's thresholds and of lasers whose ε is known.
+ * @param {typeof import("../text/page.js").pageText.tune} text
+ * @param {{knobs: () => Knob[], onParams: (params: Params) => void}} handlers
+ */
+export function createPresetMenu(text, { knobs, onParams }) {
+  const menu = createMenu({ label: text.presetChoose, name: text.preset, groups });
+  tooltip(menu.button, text.presetHelp, "left");
+
+  function groups() {
+    const epsilon = knobs().find((knob) => knob.name === "epsilon");
+    const lasers = PRESETS.map(({ laser, range, params }) => ({
+      label: laser,
+      note: text.presetHint(range, epsilon ? format(epsilon, params.epsilon) : String(params.epsilon)),
+      run: () => onParams(params),
+    }));
+    const paper = { label: text.presetPaper, note: "", run: () => onParams(defaultsOf(knobs())) };
+    return [
+      { title: "", items: [paper] },
+      { title: text.presetHelp, items: lasers },
+    ];
+  }
+
+  return menu.element;
+}
+
+/** @param {Knob[]} knobs @returns {Params} */
+export function defaultsOf(knobs) {
+  return Object.fromEntries(knobs.map((knob) => [knob.name, knob.default]));
+}

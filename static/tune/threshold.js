@@ -1,0 +1,167 @@
+// @ts-check
+import { h } from "../widgets/dom.js";
+import { createHistogram } from "../widgets/histogram.js";
+import { createNumberField } from "../widgets/number.js";
+import { clamp, format, placeOf, snap, valueAt, withUnit } from "../widgets/scale.js";
+import { createSlider } from "../widgets/slider.js";
+import { hideTooltip, tooltip } from "../widgets/tooltip.js";
+import { allowedRange, refused } from "./allowed.js";
+import { symbol } from "./symbol.js";
+
+/** @typedef {import("../wire.js").Knob} Knob */
+/** @typedef {import("../wire.js").Histogram} Histogram */
+/** @typedef {typeof import("../text/page.js").pageText.tune} Text */
+
+const WITH_HISTOGRAM = new Set(["epsilon", "delta", "min_points", "min_length"]);
+const PAGE = 10;
+
+/** @param {Knob} knob */
+export function hasHistogram(knob) {
+  return WITH_HISTOGRAM.has(knob.name);
+}
+
+/** One threshold: symbol, typed value, slider and, where it cuts something that is measured, its histogram. */
+export class Threshold {
+  #knob;
+  #text;
+  #onChange;
+  #value;
+  /** The value at which the answer for the selected beam changes. */ #marked;
+  #field;
+  #slider;
+  #reset;
+  #mark;
+  #histogram;
+
+  /**
+   * @param {Knob} knob
+   * @param {Text} text
+   * @param {(name: string, value: number) => void} onChange
+   */
+  constructor(knob, text, onChange) {
+    this.#knob = knob;
+    this.#text = text;
+    this.#onChange = onChange;
+    this.#value = this.#marked = knob.default;
+    this.#field = createNumberField({
+      label: `${knob.symbol}, ${knob.label}${knob.unit ? ` [${knob.unit}]` : ""}`,
+      accept: (typed) => {
+        const refusal = refused(knob, typed, text);
+        if (!refusal) this.#change(Number(typed));
+        return refusal;
+      },
+    });
+    this.#slider = createSlider({
+      label: `${knob.symbol}, ${knob.label}`,
+      onPlace: (place) => this.#change(valueAt(knob, place)),
+      onSteps: (steps) => this.#change(this.#stepped(steps)),
+    });
+    this.#slider.element.title = "";
+    this.#slider.element.setAttribute("aria-description", knob.help);
+    this.#reset = button("reset-dot", () => this.#change(knob.default));
+    this.#reset.setAttribute("aria-label", `${knob.symbol}: ${text.reset(withUnit(knob, knob.default))}`);
+    tooltip(this.#reset, text.reset(withUnit(knob, knob.default)));
+    this.#mark = button("what-if-mark", () => this.#change(this.#marked));
+    this.#mark.hidden = true;
+    tooltip(this.#mark, () => this.#mark.getAttribute("aria-label") ?? "");
+    this.#histogram = hasHistogram(knob) ? createHistogram(knob) : null;
+    this.element = this.#createRow();
+    this.set(this.#value);
+  }
+
+  #createRow() {
+    const knob = this.#knob;
+    const name = h(
+      "span",
+      { class: "threshold-name" },
+      symbol(knob.symbol),
+      h("span", { class: "threshold-label" }, knob.label),
+    );
+    tooltip(name, [knob.help, this.#text.allowed(allowedRange(knob, this.#text), "")].join("\n"), "left");
+    const unit = h("span", { class: "unit" }, knob.unit);
+    return h(
+      "div",
+      { class: "threshold", "data-knob": knob.name },
+      h("div", { class: "threshold-head" }, name, this.#reset, this.#field.element, unit),
+      h("div", { class: "slider-holder" }, this.#slider.element, this.#mark),
+      this.#field.error,
+      this.#holdHistogram(),
+    );
+  }
+
+  #holdHistogram() {
+    const picture = this.#histogram?.element;
+    if (!picture) return null;
+    const holder = h("div", { class: "histogram-holder" }, picture);
+    const counts = this.#text.counts[this.#knob.name];
+    tooltip(holder, () => `${counts}\n${picture.getAttribute("aria-label")}`, "left");
+    return holder;
+  }
+
+  /** @param {number} next */
+  #change(next) {
+    this.#field.clear();
+    if (next === this.#value) return;
+    this.set(next);
+    this.#onChange(this.#knob.name, next);
+  }
+
+  /** @param {number} steps */
+  #stepped(steps) {
+    const { low, high, step } = this.#knob;
+    if (!Number.isFinite(steps)) return steps < 0 ? low : high;
+    const wanted = this.#value + (Math.abs(steps) === 1 ? steps : Math.sign(steps) * PAGE) * step;
+    const next = snap(this.#knob, clamp(wanted, low, high));
+    // A typed value beyond the slider's ends must not jump back over the key's direction.
+    return Math.sign(next - this.#value) === Math.sign(steps) ? next : this.#value;
+  }
+
+  /** @param {number} next */
+  set(next) {
+    const knob = this.#knob;
+    this.#value = next;
+    this.#field.set(format(knob, next));
+    this.#slider.set(placeOf(knob, next), withUnit(knob, next));
+    this.#histogram?.cutAt(next);
+    this.#reset.classList.toggle("shown", next !== knob.default);
+    this.#reset.tabIndex = next === knob.default ? -1 : 0;
+  }
+
+  /** @param {string} message */
+  refuse(message) {
+    this.#field.refuse(message);
+  }
+
+  /** The value at which the answer for the selected beam changes. @param {{value: number | null, text: string} | undefined} change */
+  setMark(change) {
+    this.#mark.hidden = change === undefined || change.value === null;
+    if (change === undefined || change.value === null) return;
+    this.#marked = change.value;
+    this.#mark.style.setProperty("--place", String(placeOf(this.#knob, this.#marked)));
+    this.#mark.setAttribute("aria-label", change.text);
+  }
+
+  /** @param {Histogram | undefined} shown */
+  setHistogram(shown) {
+    if (!this.#histogram) return;
+    const { histogram, histogramEmpty } = this.#text;
+    /** @type {HTMLElement} */ (this.#histogram.element.parentElement).hidden = !shown;
+    const [passed, failed] = [sum(shown?.passed), sum(shown?.failed)];
+    this.#histogram.set(shown, passed + failed ? histogram(this.#knob.symbol, passed, failed) : histogramEmpty);
+  }
+}
+
+/** @param {string} className @param {() => void} run */
+function button(className, run) {
+  const onclick = () => {
+    hideTooltip(made);
+    run();
+  };
+  const made = h("button", { type: "button", class: className, onclick });
+  return made;
+}
+
+/** @param {number[] | undefined} counts */
+function sum(counts) {
+  return (counts ?? []).reduce((total, count) => total + count, 0);
+}

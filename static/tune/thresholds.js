@@ -1,0 +1,127 @@
+// @ts-check
+// The page of thresholds: presets, undo, a row for each, the extensions folded away.
+import { h, setText } from "../widgets/dom.js";
+import { iconButton } from "../widgets/icon.js";
+import { gestureCount } from "../widgets/slider.js";
+import { tooltip } from "../widgets/tooltip.js";
+import { createPresetMenu, defaultsOf } from "./preset_menu.js";
+import { createSwitch } from "./switch.js";
+import { hasHistogram, Threshold } from "./threshold.js";
+
+/** @typedef {import("../wire.js").Knob} Knob */
+/** @typedef {import("../wire.js").Params} Params */
+/** @typedef {typeof import("../text/page.js").pageText.tune} Text */
+/** @typedef {{onParams: (params: Params, gesture: string | null) => void, onUndo: () => void, onRedo: () => void}} Handlers */
+
+export class Thresholds {
+  #text;
+  #onParams;
+  /** @type {Knob[]} */ #knobs = [];
+  /** @type {Map<string, Threshold | ReturnType<typeof createSwitch>>} */ #rows = new Map();
+  #undo;
+  #redo;
+  #resetAll;
+  #presets;
+  #legend;
+  #main = h("div", { class: "thresholds" });
+  #more = h("div", { class: "thresholds" });
+  #extensions;
+  #message = h("p", { class: "panel-error", role: "alert", hidden: true });
+
+  /** @param {Text} text @param {Handlers} handlers @param {HTMLElement} curves the legend of what stands below each row */
+  constructor(text, { onParams, onUndo, onRedo }, curves) {
+    this.#text = text;
+    this.#onParams = onParams;
+    this.#undo = iconButton("undo", text.undo, onUndo);
+    this.#redo = iconButton("redo", text.redo, onRedo);
+    this.#presets = createPresetMenu(text, {
+      knobs: () => this.#knobs,
+      onParams: (params) => onParams(params, null),
+    });
+    this.#resetAll = h(
+      "button",
+      { type: "button", class: "button", onclick: () => onParams(defaultsOf(this.#knobs), null) },
+      text.resetAll,
+    );
+    tooltip(this.#resetAll, text.resetAllHelp);
+    this.#legend = h(
+      "p",
+      { class: "histogram-legend" },
+      h("span", { class: "key passed" }),
+      text.passed,
+      h("span", { class: "key failed" }),
+      text.failed,
+    );
+    const [mark, dot] = [h("span", { class: "tag" }, text.extensionMark), h("span", { class: "changed-dot" })];
+    this.#extensions = h("details", { class: "extensions" }, h("summary", {}, text.extensions, mark, dot), this.#more);
+    const spacer = h("span", { class: "spacer" });
+    this.element = h(
+      "div",
+      {},
+      h("div", { class: "panel-toolbar" }, this.#presets, spacer, this.#undo, this.#redo, this.#resetAll),
+      this.#message,
+      curves,
+      this.#main,
+      this.#legend,
+      this.#extensions,
+    );
+  }
+
+  /** @param {Knob[]} knobs of the chosen method */
+  setKnobs(knobs) {
+    this.#knobs = knobs;
+    this.#rows = new Map(knobs.map((knob) => [knob.name, this.#createRow(knob)]));
+    const rows = (/** @type {boolean} */ extension) =>
+      knobs.filter((knob) => knob.extension === extension).map((knob) => this.#rows.get(knob.name)?.element ?? "");
+    this.#main.replaceChildren(...rows(false));
+    this.#more.replaceChildren(...rows(true));
+    this.#extensions.hidden = !knobs.some((knob) => knob.extension);
+    this.#legend.hidden = !knobs.some(hasHistogram);
+    // They are the authors' and set ε for lasers; others' thresholds are other numbers.
+    this.#presets.hidden = !["epsilon", "delta"].every((name) => knobs.some((knob) => knob.name === name));
+  }
+
+  /** @param {Knob} knob */
+  #createRow(knob) {
+    const onChange = (/** @type {string} */ name, /** @type {number} */ value) =>
+      this.#onParams({ [name]: value }, `${name} ${gestureCount()}`);
+    return knob.kind === "bool" ? createSwitch(knob, this.#text, onChange) : new Threshold(knob, this.#text, onChange);
+  }
+
+  /** @param {Params} params of the View @param {boolean} canUndo @param {boolean} canRedo */
+  setParams(params, canUndo, canRedo) {
+    const changed = this.#knobs.filter((knob) => params[knob.name] !== knob.default);
+    for (const [name, value] of Object.entries(params)) this.#rows.get(name)?.set(value);
+    this.#extensions.classList.toggle(
+      "changed",
+      changed.some((knob) => knob.extension),
+    );
+    this.#undo.disabled = !canUndo;
+    this.#redo.disabled = !canRedo;
+    this.#resetAll.disabled = !changed.length;
+    this.#message.hidden = true;
+  }
+
+  /** The row of a threshold, for what else stands there. @param {string} name */
+  row(name) {
+    return this.#rows.get(name)?.element ?? null;
+  }
+
+  /** @param {import("../wire.js").State["histograms"]} histograms */
+  setHistograms(histograms) {
+    for (const [name, row] of this.#rows) row.setHistogram(histograms?.[name]);
+  }
+
+  /** Marks on the sliders. @param {import("../wire.js").WhatIf[]} changes */
+  setMarks(changes) {
+    for (const [name, row] of this.#rows) row.setMark(changes.find((change) => change.name === name));
+  }
+
+  /** Shows why the server refused thresholds: at the field it names, else above them. @param {string} why */
+  refuse(why) {
+    const row = this.#rows.get(why.split(" ")[0]);
+    if (row) return row.refuse(why);
+    this.#message.hidden = false;
+    return setText(this.#message, why);
+  }
+}
