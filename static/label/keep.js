@@ -1,184 +1,165 @@
 // @ts-check
 // What is said of frames: its undo, and its way into the file, one edit after the other, none lost.
+import { Book, same } from "./book.js";
 
-/** @typedef {import("./lines.js").Line} Line */
-/** Everything said of a frame; lines null: nobody has said which are true. @typedef {{lines: Line[] | null, tags: string[], note: string}} Said */
+/** @typedef {import("./book.js").Said} Said */
+/** @typedef {import("./book.js").Answer} Answer */
 /** @typedef {{frame: number, before: Said, after: Said, gesture: string | null}} Edit */
 /** refused: the server says why; away: it does not answer. @typedef {"saved" | "saving" | "refused" | "away"} Status */
 
 const RETRY_MS = 1500;
 const LONGEST_PAST = 500;
-// Browsers take no more along when the page is left.
-const KEPT_ALIVE = 60_000;
 
-/** @param {Said} one @param {Said} other */
-const same = (one, other) => wordsOf(one) === wordsOf(other);
-/** @param {Said} said */
-const wordsOf = ({ lines, tags, note }) => JSON.stringify([lines?.map(({ first, last }) => [first, last]), tags, note]);
-
-/** @param {{onChange: () => void}} handlers onChange: what is said, or its way into the file, has changed */
-export function createKeep({ onChange }) {
-  let book = emptyBook("", null);
+export class Keep {
+  #onChange;
+  #book = new Book("", null);
   /** Of every recording that was looked at: what could not be saved waits, whatever is looked at meanwhile. @type {Map<string, Book>} */
-  const books = new Map();
-  /** @type {Edit[]} */
-  let past = [];
-  /** @type {Edit[]} */
-  let future = [];
-  /** @type {Status} */
-  let status = "saved";
-  let message = "";
+  #books = new Map();
+  /** @type {Edit[]} */ #past = [];
+  /** @type {Edit[]} */ #future = [];
+  /** @type {Status} */ #status = "saved";
+  #message = "";
   /** What was not saved, because another has changed the frame. @type {{frame: number, mine: Said} | null} */
-  let conflict = null;
-  let busy = false;
-  let timer = 0;
-  const unsaved = () => [...books.values()].find(({ wanted }) => wanted.size);
-  addEventListener("beforeunload", (event) => unsaved() && event.preventDefault());
+  #conflict = null;
+  #busy = false;
+  #timer = 0;
+
+  /** @param {{onChange: () => void}} handlers onChange: what is said, or its way into the file, has changed */
+  constructor({ onChange }) {
+    this.#onChange = onChange;
+    addEventListener("beforeunload", (event) => this.#unsaved && event.preventDefault());
+  }
+
+  get #unsaved() {
+    return [...this.#books.values()].find(({ wanted }) => wanted.size);
+  }
 
   /** @param {number} frame @returns {Said} */
-  function of(frame) {
-    return book.wanted.get(frame) ?? book.known.get(frame) ?? { lines: null, tags: [], note: "" };
+  of(frame) {
+    return this.#book.of(frame);
   }
 
   /** @param {number} frame @param {Said} said */
-  function want(frame, said) {
-    book.wanted.set(frame, said);
-    if (conflict?.frame === frame) conflict = null;
-    run();
+  #want(frame, said) {
+    this.#book.wanted.set(frame, said);
+    if (this.#conflict?.frame === frame) this.#conflict = null;
+    this.#run();
   }
 
-  async function run() {
-    clearTimeout(timer);
-    if (busy) return onChange();
-    busy = true;
-    status = "saving";
-    onChange();
-    for (let of = unsaved(); of && status === "saving"; of = unsaved()) {
-      const [frame, said] = /** @type {[number, Said]} */ (of.wanted.entries().next().value);
-      status = take(of, frame, said, await put(of, frame, said));
+  /** Saves one frame after the other, until all are or one cannot be. */
+  async #run() {
+    clearTimeout(this.#timer);
+    if (this.#busy) return this.#onChange();
+    this.#busy = true;
+    this.#status = "saving";
+    this.#onChange();
+    for (let book = this.#unsaved; book && this.#status === "saving"; book = this.#unsaved) {
+      const [frame, said] = /** @type {[number, Said]} */ (book.wanted.entries().next().value);
+      this.#status = this.#take(book, frame, said, await book.put(frame, said));
     }
-    busy = false;
-    if (status === "saving") status = "saved";
-    if (status === "away") timer = setTimeout(run, RETRY_MS);
-    return onChange();
+    this.#busy = false;
+    if (this.#status === "saving") this.#status = "saved";
+    if (this.#status === "away") this.#timer = setTimeout(() => this.#run(), RETRY_MS);
+    return this.#onChange();
   }
 
-  /** @param {Book} of @param {number} frame @param {Said} said @param {{code: number, body: any}} answer @returns {Status} */
-  function take(of, frame, said, { code, body }) {
-    const { known, unseen, wanted } = of;
+  /** @param {Book} book @param {number} frame @param {Said} said @param {Answer} answer @returns {Status} */
+  #take(book, frame, said, { code, body }) {
     const theirs = code === 409 ? body.theirs : null;
     if (code !== 200 && !theirs) {
-      message = body.message ?? "";
+      this.#message = body.message ?? "";
       return code ? "refused" : "away";
     }
-    const mine = /** @type {Said} */ (wanted.get(frame));
-    known.set(frame, theirs ?? body);
-    unseen.set(frame, (theirs ?? body).revision);
-    // An answer that was lost: it had been saved.
-    if (!theirs || same(theirs, said)) {
-      if (mine === said) wanted.delete(frame);
-      return "saving";
-    }
-    wanted.delete(frame);
-    if (of !== book) return "saving";
-    conflict = { frame, mine };
-    past = past.filter((edit) => edit.frame !== frame);
-    future = future.filter((edit) => edit.frame !== frame);
+    const mine = /** @type {Said} */ (book.wanted.get(frame));
+    const now = theirs ?? body;
+    book.known.set(frame, now);
+    book.unseen.set(frame, now.revision);
+    // If theirs is the same, it had been saved and the answer was lost.
+    const clash = theirs && !same(theirs, said);
+    if (clash || mine === said) book.wanted.delete(frame);
+    if (clash && book === this.#book) this.#clashed(frame, mine);
     return "saving";
   }
 
+  /** @param {number} frame @param {Said} mine */
+  #clashed(frame, mine) {
+    this.#conflict = { frame, mine };
+    this.#past = this.#past.filter((edit) => edit.frame !== frame);
+    this.#future = this.#future.filter((edit) => edit.frame !== frame);
+  }
+
   /** @param {Edit[]} from @param {Edit[]} to @param {"before" | "after"} back @returns {number | null} the frame that it belongs to */
-  function travel(from, to, back) {
+  #travel(from, to, back) {
     const edit = from.pop();
     if (!edit) return null;
     // What another has changed since is not undone.
-    if (same(of(edit.frame), edit[back === "before" ? "after" : "before"])) {
+    if (same(this.of(edit.frame), edit[back === "before" ? "after" : "before"])) {
       to.push(edit);
-      want(edit.frame, edit[back]);
+      this.#want(edit.frame, edit[back]);
     }
     return edit.frame;
   }
 
-  return {
-    of,
-    /** @param {number} frame @param {Said} after @param {string | null} [gesture] edits of one gesture are undone together */
-    edit(frame, after, gesture = null) {
-      const before = of(frame);
-      if (same(before, after)) return;
-      const last = past.at(-1);
-      if (gesture !== null && last?.gesture === gesture && last.frame === frame) last.after = after;
-      else past = [...past.slice(-LONGEST_PAST), { frame, before, after, gesture }];
-      future = [];
-      want(frame, after);
-    },
-    undo: () => travel(past, future, "before"),
-    redo: () => travel(future, past, "after"),
-    /** Another has changed the frame meanwhile: it stays, and mine waits for a word. @param {number} frame @param {Said} mine */
-    clash(frame, mine) {
-      conflict = { frame, mine };
-      onChange();
-    },
-    /** Mine instead of what another has saved. */
-    insist() {
-      if (conflict) this.edit(conflict.frame, conflict.mine);
-    },
-    /** Saves what could not be saved. */
-    retry() {
-      if (unsaved() && !busy) run();
-    },
-    get status() {
-      return {
-        status,
-        message,
-        conflict: conflict?.frame ?? null,
-        canUndo: past.length > 0,
-        canRedo: future.length > 0,
-      };
-    },
-    /** @param {import("../wire.js").State} state @returns {boolean} whether another has changed what is said of the frame */
-    setState({ recording, topics, topic, frame, labels }) {
-      const stream = topics.length > 1 ? topic : null;
-      if (book.recording !== recording || book.topic !== stream) {
-        const key = `${recording} ${stream}`;
-        book = books.get(key) ?? emptyBook(recording, stream);
-        books.set(key, book);
-        [past, future, conflict] = [[], [], null];
-      }
-      if (!labels || labels.revision < (book.unseen.get(frame) ?? 0)) return false;
-      const before = of(frame);
-      book.unseen.delete(frame);
-      book.known.set(frame, labels);
-      return !same(before, of(frame));
-    },
-  };
-}
+  /** @param {number} frame @param {Said} after @param {string | null} [gesture] edits of one gesture are undone together */
+  edit(frame, after, gesture = null) {
+    const before = this.of(frame);
+    if (same(before, after)) return;
+    const last = this.#past.at(-1);
+    if (gesture !== null && last?.gesture === gesture && last.frame === frame) last.after = after;
+    else this.#past = [...this.#past.slice(-LONGEST_PAST), { frame, before, after, gesture }];
+    this.#future = [];
+    this.#want(frame, after);
+  }
 
-/**
- * What is said of one recording. known: as its file has it; wanted: to be saved; unseen: revisions that are saved and
- * were not in a picture yet, for older pictures under way must not bring back what was.
- * @typedef {{recording: string, topic: string | null, known: Map<number, Said & {revision: number}>, wanted: Map<number, Said>, unseen: Map<number, number>}} Book
- */
+  undo() {
+    return this.#travel(this.#past, this.#future, "before");
+  }
 
-/** @param {string} recording @param {string | null} topic @returns {Book} */
-function emptyBook(recording, topic) {
-  return { recording, topic, known: new Map(), wanted: new Map(), unseen: new Map() };
-}
+  redo() {
+    return this.#travel(this.#future, this.#past, "after");
+  }
 
-/** @param {Book} book @param {number} frame @param {Said} said @returns {Promise<{code: number, body: any}>} code 0: no answer */
-async function put({ recording, topic, known }, frame, { lines, tags, note }) {
-  const body = JSON.stringify({
-    recording,
-    topic,
-    frame,
-    revision: known.get(frame)?.revision ?? 0,
-    lines,
-    tags,
-    note,
-  });
-  try {
-    const response = await fetch("/api/labels", { method: "PUT", body, keepalive: body.length < KEPT_ALIVE });
-    return { code: response.status, body: await response.json() };
-  } catch {
-    return { code: 0, body: {} };
+  /** Another has changed the frame meanwhile: it stays, and mine waits for a word. @param {number} frame @param {Said} mine */
+  clash(frame, mine) {
+    this.#conflict = { frame, mine };
+    this.#onChange();
+  }
+
+  /** Mine instead of what another has saved. */
+  insist() {
+    if (this.#conflict) this.edit(this.#conflict.frame, this.#conflict.mine);
+  }
+
+  /** Saves what could not be saved. */
+  retry() {
+    if (this.#unsaved && !this.#busy) this.#run();
+  }
+
+  get status() {
+    return {
+      status: this.#status,
+      message: this.#message,
+      conflict: this.#conflict?.frame ?? null,
+      canUndo: this.#past.length > 0,
+      canRedo: this.#future.length > 0,
+    };
+  }
+
+  /** @param {import("../wire.js").State} state @returns {boolean} whether another has changed what is said of the frame */
+  setState({ recording, topics, topic, frame, labels }) {
+    this.#open(recording, topics.length > 1 ? topic : null);
+    if (!labels) return false;
+    const before = this.of(frame);
+    this.#book.see(frame, labels);
+    return !same(before, this.of(frame));
+  }
+
+  /** @param {string} recording @param {string | null} topic */
+  #open(recording, topic) {
+    if (this.#book.recording === recording && this.#book.topic === topic) return;
+    const key = `${recording} ${topic}`;
+    this.#book = this.#books.get(key) ?? new Book(recording, topic);
+    this.#books.set(key, this.#book);
+    [this.#past, this.#future, this.#conflict] = [[], [], null];
   }
 }

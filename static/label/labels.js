@@ -1,267 +1,291 @@
 // @ts-check
 // The page "Labels" of the mode Inspect: what people say of the frame, and the tool that edits its true lines.
 import { h, setText } from "../widgets/dom.js";
-import { iconButton } from "../widgets/icon.js";
-import { tooltip } from "../widgets/tooltip.js";
-import { fetchText } from "../fetch.js";
-import { createKeep } from "./keep.js";
+import { Keep } from "./keep.js";
 import { drawn, merged, moved, seenOf, split, without } from "./lines.js";
 import { createList } from "./list.js";
-import { createOverlay } from "./overlay.js";
+import { Overlay } from "./overlay.js";
 import { createStatus } from "./status.js";
-import { createTags } from "./tags.js";
+import { FrameSweep } from "./sweep.js";
+import { Tags } from "./tags.js";
+import { Tools } from "./tools.js";
 
 /** @typedef {import("../wire.js").State} State */
 /** @typedef {import("./lines.js").Line} Line */
-/** @typedef {import("./lines.js").Sweep} Sweep */
+/** @typedef {import("./book.js").Said} Said */
+/** @typedef {typeof import("../text/label.js").labelText} Text */
+/** number: what a frame is called. @typedef {{onFrame: (frame: number) => void, number: (frame: number) => number}} Handlers */
 
 /**
  * @param {HTMLElement} stage
- * @param {import("../stage/stage.js").Stage} view
- * @param {typeof import("../text/label.js").labelText} text
- * @param {{onFrame: (frame: number) => void, number: (frame: number) => number}} handlers number: what a frame is called
+ * @param {import("./overlay.js").PlanView} view
+ * @param {Text} text
+ * @param {Handlers} handlers
  */
-export function createLabels(stage, view, text, { onFrame, number }) {
-  /** @type {State | null} */
-  let state = null;
-  /** Of the frame, once it is known. @type {Sweep | null} */
-  let sweep = null;
-  let sweepOf = "";
-  let chosen = -1;
-  let cut = 0;
-  let drawing = false;
-  /** Lines under the hand, not yet said. @type {Line[] | null} */
-  let dragged = null;
+export function createLabels(stage, view, text, handlers) {
+  return new Labels(stage, view, text, handlers);
+}
 
-  const keep = createKeep({ onChange: show });
-  const overlay = createOverlay(stage, view, text.handle, { onChoose: choose, onGrip, onDrawn });
-  const tags = createTags(text, {
-    onTags: (next) => say({ tags: next }),
-    onNote(note, from, gesture) {
-      const now = keep.of(frame());
-      if (now.note === from) say({ note }, gesture);
-      else keep.clash(frame(), { ...now, note });
-    },
-  });
-  const list = createList(text, choose);
-  const status = createStatus(text.status, { onRetry: () => keep.retry(), onMine: () => keep.insist(), number });
-  const button = (/** @type {string} */ label, /** @type {string} */ help, /** @type {() => void} */ run) => {
-    const made = h("button", { type: "button", class: "button", onclick: run }, label);
-    tooltip(made, help);
-    return made;
-  };
-  const undoButton = iconButton("undo", text.undo, () => undo());
-  const redoButton = iconButton("redo", text.redo, () => redo());
-  const drawButton = button(text.draw, text.drawHelp, () => draw(!drawing));
-  const onLine = [
-    button(text.split, text.splitHelp, splitLine),
-    button(text.merge, text.mergeHelp, () => mergeLine(1)),
-    button(text.remove, text.removeHelp, removeLine),
-  ];
-  const accept = button(text.accept, text.acceptHelp, () => commit(lines(), chosen));
-  const restart = button(text.restart, text.restartHelp, () => commit(proposal(), -1));
-  const forget = button(text.forget, text.forgetHelp, () => say({ lines: null }));
-  const message = h("p", { class: "hint", role: "status" });
-  const element = h(
-    "div",
-    { class: "labels" },
-    status.trouble,
-    ...tags.elements,
-    h("div", { class: "labels-head" }, h("h3", {}, text.lines), h("span", { class: "spacer" }), undoButton, redoButton),
-    h("div", { class: "labels-actions" }, drawButton, ...onLine),
-    message,
-    list.element,
-    h("div", { class: "labels-actions" }, accept, restart, forget),
-    status.element,
-  );
-  new MutationObserver(() => (draw(false), show())).observe(element, { attributeFilter: ["hidden"] });
+class Labels {
+  #text;
+  #onFrame;
+  /** @type {State | null} */ #state = null;
+  #sweep = new FrameSweep(() => this.choose(this.#chosen));
+  /** The chosen line; −1: none. */ #chosen = -1;
+  /** The beam at which it would be split. */ #cut = 0;
+  #drawing = false;
+  /** Lines under the hand, not yet said. @type {Line[] | null} */ #dragged = null;
+  #keep = new Keep({ onChange: () => this.#show() });
+  #overlay;
+  #tags;
+  #list;
+  #status;
+  #tools;
+  #message = h("p", { class: "hint", role: "status" });
 
-  const frame = () => state?.frame ?? 0;
-  const active = () => !element.hidden && state?.mode === "inspect";
-  const editable = () => state?.labels !== null && !state?.labels?.trouble;
-  const proposal = () => state?.segments.map(({ first, last, start, end }) => ({ first, last, start, end })) ?? [];
-  const lines = () => dragged ?? keep.of(frame()).lines ?? proposal();
-
-  /** @param {Partial<import("./keep.js").Said>} part @param {string | null} [gesture] */
-  function say(part, gesture = null) {
-    if (editable()) keep.edit(frame(), { ...keep.of(frame()), ...part }, gesture);
-    show();
+  /**
+   * @param {HTMLElement} stage
+   * @param {import("./overlay.js").PlanView} view
+   * @param {Text} text
+   * @param {Handlers} handlers
+   */
+  constructor(stage, view, text, { onFrame, number }) {
+    this.#text = text;
+    this.#onFrame = onFrame;
+    this.#overlay = new Overlay(stage, view, text.handle, {
+      onChoose: (line, beam) => this.choose(line, beam),
+      onGrip: (grip, beam, done) => this.#grip(grip, beam, done),
+      onDrawn: (run) => this.#drawn(run),
+    });
+    this.#tags = new Tags(text, {
+      onTags: (tags) => this.#say({ tags }),
+      onNote: (note, from, gesture) => this.#note(note, from, gesture),
+    });
+    this.#list = createList(text, (line) => this.choose(line));
+    this.#status = createStatus(text.status, {
+      onRetry: () => this.#keep.retry(),
+      onMine: () => this.#keep.insist(),
+      number,
+    });
+    this.#tools = new Tools(text, {
+      undo: () => this.undo(),
+      redo: () => this.redo(),
+      draw: () => this.draw(),
+      split: () => this.split(),
+      merge: () => this.merge(1),
+      remove: () => this.remove(),
+      accept: () => this.#commit(this.#lines, this.#chosen),
+      restart: () => this.#commit(this.#proposal, -1),
+      forget: () => this.#say({ lines: null }),
+    });
+    this.element = h(
+      "div",
+      { class: "labels" },
+      this.#status.trouble,
+      ...this.#tags.elements,
+      this.#tools.head,
+      this.#tools.lines,
+      this.#message,
+      this.#list.element,
+      this.#tools.whole,
+      this.#status.element,
+    );
+    new MutationObserver(() => this.#setDrawing(false)).observe(this.element, { attributeFilter: ["hidden"] });
   }
 
-  /** @param {Line[]} next @param {number} then the line that is chosen afterwards @param {string | null} [gesture] */
-  function commit(next, then, gesture = null) {
-    dragged = null;
-    [chosen, cut] = [then, middle(next[then])];
-    say({ lines: next }, gesture);
+  get #frame() {
+    return this.#state?.frame ?? 0;
   }
 
-  /** The edited lines, or why they cannot be. @param {{lines: Line[], chosen: number} | null} next @param {string} why */
-  function take(next, why) {
-    if (next) commit(next.lines, next.chosen);
-    else setText(message, why);
+  get #editable() {
+    return this.#state?.labels !== null && !this.#state?.labels?.trouble;
   }
 
-  /** @param {Line | undefined} line */
-  function middle(line) {
-    if (!line || !sweep) return 0;
-    const beams = seenOf(line, sweep);
+  /** The present result. @returns {Line[]} */
+  get #proposal() {
+    return this.#state?.segments.map(({ first, last, start, end }) => ({ first, last, start, end })) ?? [];
+  }
+
+  get #lines() {
+    return this.#dragged ?? this.#keep.of(this.#frame).lines ?? this.#proposal;
+  }
+
+  /** Whether the tool is in use. */
+  get active() {
+    return !this.element.hidden && this.#state?.mode === "inspect";
+  }
+
+  /** @param {Partial<Said>} part @param {string | null} [gesture] */
+  #say(part, gesture = null) {
+    if (this.#editable) this.#keep.edit(this.#frame, { ...this.#keep.of(this.#frame), ...part }, gesture);
+    this.#show();
+  }
+
+  /** @param {string} note @param {string} from the note that was typed in @param {string} gesture */
+  #note(note, from, gesture) {
+    const now = this.#keep.of(this.#frame);
+    if (now.note === from) this.#say({ note }, gesture);
+    else this.#keep.clash(this.#frame, { ...now, note });
+  }
+
+  /** @param {Line[]} lines @param {number} then the line that is chosen afterwards @param {string | null} [gesture] */
+  #commit(lines, then, gesture = null) {
+    this.#dragged = null;
+    this.#chosen = then;
+    this.#cut = this.#middle(lines[then]);
+    this.#say({ lines }, gesture);
+  }
+
+  /** The edited lines, or why they cannot be. @param {{lines: Line[], chosen: number} | null} edited @param {string} why */
+  #take(edited, why) {
+    if (edited) this.#commit(edited.lines, edited.chosen);
+    else setText(this.#message, why);
+  }
+
+  /** The beam in the middle. @param {Line | undefined} line */
+  #middle(line) {
+    if (!line || !this.#sweep.now) return 0;
+    const beams = seenOf(line, this.#sweep.now);
     return beams[Math.floor((beams.length - 1) / 2)] ?? line.first;
   }
 
-  /** @param {number} k @param {number | null} [beam] */
-  function choose(k, beam = null) {
-    chosen = k;
-    const line = lines()[k];
-    cut = beam !== null && beam !== line?.last ? beam : middle(line);
-    show();
+  /** @param {number} k @param {number | null} [beam] at which it would be split */
+  choose(k, beam = null) {
+    const line = this.#lines[k];
+    this.#chosen = k;
+    this.#cut = beam !== null && beam !== line?.last ? beam : this.#middle(line);
+    this.#show();
   }
 
   /** @param {import("./overlay.js").Grip} grip @param {number} beam @param {boolean} done */
-  function onGrip(grip, beam, done) {
+  #grip(grip, beam, done) {
     // Another may have changed the lines under the hand.
-    if (!editable() || !lines()[chosen]) return;
+    if (!this.#editable || !this.#lines[this.#chosen]) return;
     if (grip === "cut") {
-      cut = beam;
-      return show();
+      this.#cut = beam;
+      return this.#show();
     }
-    const next = moved(lines(), chosen, grip, beam);
-    dragged = next.lines;
-    chosen = next.chosen;
-    if (done) commit(next.lines, chosen, `${grip} of ${next.lines[chosen][grip === "first" ? "last" : "first"]}`);
-    else show();
+    const { lines, chosen } = moved(this.#lines, this.#chosen, grip, beam);
+    this.#dragged = lines;
+    this.#chosen = chosen;
+    if (done) this.#commit(lines, chosen, `${grip} of ${lines[chosen][grip === "first" ? "last" : "first"]}`);
+    else this.#show();
   }
 
-  /** @param {number[]} run */
-  function onDrawn(run) {
-    draw(false);
-    take(sweep && drawn(lines(), run, sweep), text.tooShort);
+  /** @param {number[]} run of beams */
+  #drawn(run) {
+    this.#setDrawing(false);
+    this.#take(this.#sweep.now && drawn(this.#lines, run, this.#sweep.now), this.#text.tooShort);
   }
 
   /** @param {boolean} on */
-  function draw(on) {
-    drawing = on && editable();
-    if (drawing) chosen = -1;
-    show();
+  #setDrawing(on) {
+    this.#drawing = on && this.#editable;
+    if (this.#drawing) this.#chosen = -1;
+    this.#show();
   }
 
-  function splitLine() {
-    if (!sweep || !lines()[chosen]) return setText(message, text.choose);
-    return take(split(lines(), chosen, cut, sweep), text.tooShort);
+  /** Begins, or ends, drawing a new line. */
+  draw() {
+    this.#setDrawing(!this.#drawing);
   }
 
-  /** @param {1 | -1} by */
-  function mergeLine(by) {
-    if (!sweep || !lines()[chosen]) return setText(message, text.choose);
-    // The last of them has its neighbour before it.
-    return take(merged(lines(), chosen, by, sweep) ?? merged(lines(), chosen, by === 1 ? -1 : 1, sweep), text.alone);
+  /** Edits the chosen line, if there is one. @param {(lines: Line[], chosen: number, sweep: import("./lines.js").Sweep) => {lines: Line[], chosen: number} | null} edit @param {string} why it cannot be */
+  #edit(edit, why) {
+    const { now } = this.#sweep;
+    if (now && this.#lines[this.#chosen]) this.#take(edit(this.#lines, this.#chosen, now), why);
+    else setText(this.#message, this.#text.choose);
   }
 
-  function removeLine() {
-    if (!lines()[chosen]) return setText(message, text.choose);
-    return take(without(lines(), chosen), "");
+  split() {
+    this.#edit((lines, chosen, sweep) => split(lines, chosen, this.#cut, sweep), this.#text.tooShort);
   }
 
-  const undo = () => arrive(keep.undo());
-  const redo = () => arrive(keep.redo());
+  /** With the next (1) or the previous (−1); the last line has a neighbour before it only. @param {1 | -1} by */
+  merge(by) {
+    const other = by === 1 ? -1 : 1;
+    this.#edit(
+      (lines, chosen, sweep) => merged(lines, chosen, by, sweep) ?? merged(lines, chosen, other, sweep),
+      this.#text.alone,
+    );
+  }
+
+  remove() {
+    if (this.#lines[this.#chosen]) this.#take(without(this.#lines, this.#chosen), "");
+    else setText(this.#message, this.#text.choose);
+  }
+
+  undo() {
+    this.#arrive(this.#keep.undo());
+  }
+
+  redo() {
+    this.#arrive(this.#keep.redo());
+  }
 
   /** To the frame whose edit was undone. @param {number | null} there */
-  function arrive(there) {
+  #arrive(there) {
     if (there === null) return;
-    if (there !== frame()) onFrame(there);
-    chosen = -1;
-    show();
+    if (there !== this.#frame) this.#onFrame(there);
+    this.#chosen = -1;
+    this.#show();
   }
 
-  function show() {
-    if (!active() || !state) return overlay.set(null);
-    const said = keep.of(frame());
-    const can = editable();
-    const { canUndo, canRedo } = keep.status;
-    status.set(keep.status, state.labels, said.lines !== null || said.tags.length > 0 || said.note !== "");
-    tags.set(said, can);
-    undoButton.disabled = !canUndo;
-    redoButton.disabled = !canRedo;
-    const shown = lines();
-    if (!shown[chosen]) chosen = -1;
-    for (const each of [...onLine, drawButton, accept, restart, forget]) each.disabled = !can;
-    for (const each of onLine) each.disabled ||= chosen < 0 || !sweep;
-    drawButton.setAttribute("aria-pressed", String(drawing));
-    accept.hidden = said.lines !== null;
-    restart.hidden = forget.hidden = said.lines === null;
-    setText(
-      message,
-      !can
-        ? ""
-        : state.camera === "free"
-          ? text.plan
-          : drawing
-            ? text.drawing
-            : said.lines === null
-              ? text.proposed(shown.length)
-              : shown.length
-                ? text.hint
-                : text.none,
-    );
-    list.set(shown, chosen, sweep);
-    overlay.set({ lines: shown, chosen, cut, proposed: said.lines === null && dragged === null, sweep, drawing });
-    return void need();
+  /** Leaves the innermost thing. @returns {boolean} false if there was nothing to leave */
+  leave() {
+    if (!this.active || (!this.#drawing && this.#chosen < 0)) return false;
+    this.#chosen = -1;
+    this.#setDrawing(false);
+    return true;
   }
 
-  /** Asks for the points of the frame. */
-  async function need() {
-    if (!state || state.labels === null) return;
-    const { recording, topics, topic } = state;
-    const query = new URLSearchParams({
-      recording,
-      frame: String(frame()),
-      ...(topics.length > 1 && topic ? { topic } : {}),
-    });
-    const key = String(query);
-    if (key === sweepOf) return;
-    [sweepOf, sweep] = [key, null];
-    const { words, trouble } = await fetchText(`/api/labels/points?${key}`);
-    if (sweepOf !== key) return;
-    if (trouble) sweepOf = "";
-    else sweep = JSON.parse(words);
-    cut = middle(lines()[chosen]);
-    show();
+  /** The server is there, perhaps again. */
+  setWelcome() {
+    this.#keep.retry();
   }
 
-  return {
-    element,
-    undo,
-    redo,
-    split: splitLine,
-    merge: mergeLine,
-    remove: removeLine,
-    /** Begins, or ends, drawing a new line. */
-    draw: () => draw(!drawing),
-    /** Whether the tool is in use. */
-    get active() {
-      return active();
-    },
-    /** Leaves the innermost thing. @returns {boolean} false if there was nothing to leave */
-    leave() {
-      if (!active() || (!drawing && chosen < 0)) return false;
-      chosen = -1;
-      draw(false);
-      return true;
-    },
-    /** The server is there, perhaps again. */
-    setWelcome: () => keep.retry(),
-    /** Tags of all frames. @param {string[]} names */
-    suggest: (names) => tags.suggest(names),
-    /** @param {State} next */
-    setState(next) {
-      const other =
-        !state || next.frame !== state.frame || next.recording !== state.recording || next.topic !== state.topic;
-      if (other) {
-        tags.commit();
-        [dragged, chosen] = [null, -1];
-      }
-      if (keep.setState(next)) [dragged, chosen] = [null, -1];
-      state = next;
-      show();
-    },
-  };
+  /** Tags of all frames. @param {string[]} names */
+  suggest(names) {
+    this.#tags.suggest(names);
+  }
+
+  #show() {
+    if (!this.active || !this.#state) return this.#overlay.set(null);
+    const said = this.#keep.of(this.#frame);
+    const [lines, editable, proposed] = [this.#lines, this.#editable, said.lines === null];
+    const { status } = this.#keep;
+    if (!lines[this.#chosen]) this.#chosen = -1;
+    const [chosen, cut, drawing, sweep] = [this.#chosen, this.#cut, this.#drawing, this.#sweep.now];
+    this.#status.set(status, this.#state.labels, !proposed || said.tags.length > 0 || said.note !== "");
+    this.#tags.set(said, editable);
+    this.#tools.setPast(status.canUndo, status.canRedo);
+    this.#tools.set(editable, chosen >= 0 && sweep !== null, proposed, drawing);
+    setText(this.#message, editable ? this.#hint(lines.length, proposed, this.#state.camera) : "");
+    this.#list.set(lines, chosen, sweep);
+    this.#overlay.set({ lines, chosen, cut, proposed: proposed && this.#dragged === null, sweep, drawing });
+    if (this.#state.labels !== null) this.#sweep.need(this.#state);
+    return undefined;
+  }
+
+  /** @param {number} lines @param {boolean} proposed @param {"plan" | "free"} camera */
+  #hint(lines, proposed, camera) {
+    const { plan, drawing, proposed: proposes, hint, none } = this.#text;
+    if (camera === "free") return plan;
+    if (this.#drawing) return drawing;
+    if (proposed) return proposes(lines);
+    return lines ? hint : none;
+  }
+
+  /** @param {State} state */
+  setState(state) {
+    const before = this.#state;
+    const { frame, recording, topic } = state;
+    const other = !before || frame !== before.frame || recording !== before.recording || topic !== before.topic;
+    // What is typed belongs to the frame that was shown then.
+    if (other) this.#tags.commit();
+    const changed = this.#keep.setState(state);
+    if (other || changed) [this.#dragged, this.#chosen] = [null, -1];
+    this.#state = state;
+    this.#show();
+  }
 }

@@ -5,96 +5,115 @@ import { iconButton } from "../widgets/icon.js";
 
 const REST_MS = 600;
 const LONGEST_TAG = 60;
+const LONGEST_NOTE = 20_000;
 
 /**
- * @param {typeof import("../text/label.js").labelText} text
- * @param {{onTags: (tags: string[]) => void, onNote: (note: string, from: string, gesture: string) => void}} handlers
+ * @typedef {object} Handlers
+ * @property {(tags: string[]) => void} onTags
+ * @property {(note: string, from: string, gesture: string) => void} onNote
  *   from: the note that was typed in; gesture: what is typed while the field is in use is one
  */
-export function createTags(text, { onTags, onNote }) {
-  /** @type {string[]} */
-  let tags = [];
-  /** The note before what is being typed. */
-  let from = "";
-  let gesture = 0;
-  let timer = 0;
-  const known = h("datalist", { id: "known-tags" });
-  const add = h("input", {
-    type: "text",
-    class: "labels-add",
-    placeholder: text.addTag,
-    "aria-label": text.addTag,
-    maxLength: LONGEST_TAG,
-    list: known.id,
-    autocomplete: "off",
-  });
-  const chips = h("div", { class: "labels-tags" }, add, known);
-  const note = h("textarea", {
-    class: "labels-note",
-    rows: 2,
-    "aria-label": text.note,
-    placeholder: text.notePlaceholder,
-    maxLength: 20_000,
-  });
-  add.addEventListener("keydown", (event) => {
+
+export class Tags {
+  #text;
+  #handlers;
+  /** @type {string[]} */ #tags = [];
+  /** The note before what is being typed. */ #from = "";
+  #gesture = 0;
+  #timer = 0;
+  #known = h("datalist", { id: "known-tags" });
+  #add;
+  #chips;
+  #note;
+
+  /** @param {typeof import("../text/label.js").labelText} text @param {Handlers} handlers */
+  constructor(text, handlers) {
+    this.#text = text;
+    this.#handlers = handlers;
+    this.#add = h("input", {
+      type: "text",
+      class: "labels-add",
+      placeholder: text.addTag,
+      "aria-label": text.addTag,
+      maxLength: LONGEST_TAG,
+      list: this.#known.id,
+      autocomplete: "off",
+    });
+    this.#add.addEventListener("keydown", (event) => this.#type(event));
+    this.#add.addEventListener("change", () => this.#take());
+    this.#chips = h("div", { class: "labels-tags" }, this.#add, this.#known);
+    this.#note = this.#createNote();
+    this.elements = [this.#chips, this.#note];
+  }
+
+  #createNote() {
+    const note = h("textarea", {
+      class: "labels-note",
+      rows: 2,
+      "aria-label": this.#text.note,
+      placeholder: this.#text.notePlaceholder,
+      maxLength: LONGEST_NOTE,
+    });
+    note.addEventListener("focus", () => {
+      this.#gesture += 1;
+    });
+    note.addEventListener("input", () => {
+      clearTimeout(this.#timer);
+      this.#timer = setTimeout(() => this.commit(), REST_MS);
+    });
+    note.addEventListener("blur", () => this.commit());
+    note.addEventListener("keydown", (event) => event.key === "Escape" && note.blur());
+    addEventListener("pagehide", () => this.commit());
+    return note;
+  }
+
+  /** @param {KeyboardEvent} event */
+  #type(event) {
     event.stopPropagation();
     if (event.key === "Enter" || event.key === ",") {
       event.preventDefault();
-      take();
-    } else if (event.key === "Backspace" && !add.value && tags.length) onTags(tags.slice(0, -1));
-    else if (event.key === "Escape") add.blur();
-  });
-  add.addEventListener("change", take);
-  note.addEventListener("focus", () => (gesture += 1));
-  note.addEventListener("input", () => {
-    clearTimeout(timer);
-    timer = setTimeout(commit, REST_MS);
-  });
-  note.addEventListener("blur", commit);
-  note.addEventListener("keydown", (event) => event.key === "Escape" && note.blur());
-  addEventListener("pagehide", commit);
-
-  function take() {
-    const tag = add.value.trim();
-    add.value = "";
-    if (tag && !tags.includes(tag)) onTags([...tags, tag]);
+      this.#take();
+    } else if (event.key === "Backspace" && !this.#add.value && this.#tags.length)
+      this.#handlers.onTags(this.#tags.slice(0, -1));
+    else if (event.key === "Escape") this.#add.blur();
   }
 
-  function commit() {
-    clearTimeout(timer);
-    if (note.value === from) return;
-    const before = from;
-    from = note.value;
-    onNote(note.value, before, `note ${gesture}`);
+  /** The tag that is typed. */
+  #take() {
+    const tag = this.#add.value.trim();
+    this.#add.value = "";
+    if (tag && !this.#tags.includes(tag)) this.#handlers.onTags([...this.#tags, tag]);
   }
 
-  return {
-    elements: [chips, note],
-    /** What is typed belongs to the frame that was shown then. */
-    commit,
-    /** @param {{tags: string[], note: string}} said @param {boolean} editable */
-    set(said, editable) {
-      add.disabled = note.disabled = !editable;
-      if (tags.join("\n") !== said.tags.join("\n") || chips.children.length !== said.tags.length + 2) {
-        tags = said.tags;
-        for (const chip of chips.querySelectorAll(".labels-tag")) chip.remove();
-        chips.prepend(
-          ...tags.map((tag) =>
-            h(
-              "span",
-              { class: "labels-tag" },
-              tag,
-              iconButton("close", text.removeTag(tag), () => onTags(tags.filter((other) => other !== tag))),
-            ),
-          ),
-        );
-      }
-      if (note.value === from && from !== said.note) note.value = from = said.note;
-    },
-    /** Tags of other frames, to choose from. @param {string[]} names */
-    suggest(names) {
-      if (known.children.length !== names.length)
-        known.replaceChildren(...names.map((value) => h("option", { value })));
-    },
-  };
+  /** What is typed of the note is said. */
+  commit() {
+    clearTimeout(this.#timer);
+    if (this.#note.value === this.#from) return;
+    const before = this.#from;
+    this.#from = this.#note.value;
+    this.#handlers.onNote(this.#note.value, before, `note ${this.#gesture}`);
+  }
+
+  /** @param {{tags: string[], note: string}} said @param {boolean} editable */
+  set({ tags, note }, editable) {
+    this.#add.disabled = this.#note.disabled = !editable;
+    if (this.#tags.join("\n") !== tags.join("\n") || this.#chips.children.length !== tags.length + 2) {
+      this.#tags = tags;
+      for (const chip of this.#chips.querySelectorAll(".labels-tag")) chip.remove();
+      this.#chips.prepend(...tags.map((tag) => this.#chip(tag)));
+    }
+    if (this.#note.value === this.#from && this.#from !== note) this.#note.value = this.#from = note;
+  }
+
+  /** @param {string} tag */
+  #chip(tag) {
+    const remove = () => this.#handlers.onTags(this.#tags.filter((other) => other !== tag));
+    return h("span", { class: "labels-tag" }, tag, iconButton("close", this.#text.removeTag(tag), remove));
+  }
+
+  /** Tags of other frames, to choose from. @param {string[]} names */
+  suggest(names) {
+    if (this.#known.children.length !== names.length)
+      this.#known.replaceChildren(...names.map((value) => h("option", { value })));
+  }
 }

@@ -1,0 +1,30 @@
+// @ts-check
+// The points of the frame that is labelled, asked for when it is.
+import { fetchText } from "../fetch.js";
+
+/** @typedef {import("./lines.js").Sweep} Sweep */
+
+export class FrameSweep {
+  /** Of the frame, once it is known. @type {Sweep | null} */ now = null;
+  #onCome;
+  #asked = "";
+
+  /** @param {() => void} onCome */
+  constructor(onCome) {
+    this.#onCome = onCome;
+  }
+
+  /** @param {import("../wire.js").State} state of the frame */
+  async need({ recording, topics, topic, frame }) {
+    const query = new URLSearchParams({ recording, frame: String(frame) });
+    if (topics.length > 1 && topic) query.set("topic", topic);
+    const key = String(query);
+    if (key === this.#asked) return;
+    [this.#asked, this.now] = [key, null];
+    const { words, trouble } = await fetchText(`/api/labels/points?${key}`);
+    if (this.#asked !== key) return;
+    if (trouble) this.#asked = "";
+    else this.now = JSON.parse(words);
+    this.#onCome();
+  }
+}
