@@ -5,128 +5,150 @@ import { h, setText } from "../widgets/dom.js";
 
 /** @typedef {import("../wire.js").State} State */
 /** @typedef {{revision: number, lines: number | null, tags: string[], note: string}} Brief */
+/** @typedef {typeof import("../text/inspect.js").inspectText.filter} Text */
+/**
+ * @typedef {object} Handlers
+ * @property {(frame: number) => string[] | undefined} words what looks wrong in a frame; undefined while it is not known
+ * @property {() => void} onChange
+ * @property {(tags: string[]) => void} onTags all that there are
+ */
 
 const REST_MS = 200;
 const ANY = "";
 // A tag may have any name; these are no tags.
-const KINDS = /** @type {const} */ (["kind:lines", "kind:note"]);
+const LABELLED = "kind:lines";
+const NOTED = "kind:note";
 
-/**
- * @param {typeof import("../text/inspect.js").inspectText.filter} text
- * @param {{words: (frame: number) => string[] | undefined, onChange: () => void, onTags: (tags: string[]) => void}} handlers
- *   words: what looks wrong in a frame, undefined while it is not known; onTags: all that there are
- */
-export function createFilter(text, { words, onChange, onTags }) {
-  const field = h("input", {
-    type: "search",
-    class: "frames-search",
-    placeholder: text.placeholder,
-    "aria-label": text.label,
-  });
-  const select = h("select", { class: "select", "aria-label": text.tag });
-  const searching = h("p", { class: "hint", role: "status", hidden: true });
-  const element = h("div", {}, h("div", { class: "frames-head" }, field, select), searching);
-  /** @type {Record<string, Brief>} */
-  let said = {};
-  let key = "";
-  let frames = 0;
-  let timer = 0;
-  field.addEventListener("input", () => (clearTimeout(timer), (timer = setTimeout(onChange, REST_MS))));
-  field.addEventListener("keydown", (event) => {
-    event.stopPropagation();
-    if (event.key !== "Escape") return;
-    field.value = "";
-    field.blur();
-    onChange();
-  });
-  select.addEventListener("change", onChange);
-  offer();
+/** @param {Text} text @param {Handlers} handlers */
+export function createFilter(text, handlers) {
+  return new Filter(text, handlers);
+}
 
-  const wanted = () => field.value.trim().toLowerCase();
+class Filter {
+  #text;
+  #handlers;
+  /** What people have said, by frame. @type {Record<string, Brief>} */ #said = {};
+  #key = "";
+  #frames = 0;
+  #timer = 0;
+  #field;
+  #select;
+  #searching = h("p", { class: "hint", role: "status", hidden: true });
+
+  /** @param {Text} text @param {Handlers} handlers */
+  constructor(text, handlers) {
+    this.#text = text;
+    this.#handlers = handlers;
+    this.#field = h("input", {
+      type: "search",
+      class: "frames-search",
+      placeholder: text.placeholder,
+      "aria-label": text.label,
+    });
+    this.#select = h("select", { class: "select", "aria-label": text.tag, onchange: handlers.onChange });
+    this.element = h("div", {}, h("div", { class: "frames-head" }, this.#field, this.#select), this.#searching);
+    this.#field.addEventListener("input", () => {
+      clearTimeout(this.#timer);
+      this.#timer = setTimeout(handlers.onChange, REST_MS);
+    });
+    this.#field.addEventListener("keydown", (event) => {
+      event.stopPropagation();
+      if (event.key !== "Escape") return;
+      this.#field.value = "";
+      this.#field.blur();
+      handlers.onChange();
+    });
+    this.#offer();
+  }
+
+  get #wanted() {
+    return this.#field.value.trim().toLowerCase();
+  }
+
+  /** Words are looked for. */
+  get searching() {
+    return this.#wanted !== "";
+  }
 
   /** @param {Brief | undefined} brief */
-  function chosen(brief) {
-    if (select.value === ANY) return true;
-    if (select.value === KINDS[0]) return brief !== undefined && brief.lines !== null;
-    if (select.value === KINDS[1]) return Boolean(brief?.note);
-    return brief?.tags.includes(select.value.slice(1)) ?? false;
+  #chosen(brief) {
+    const { value } = this.#select;
+    if (value === ANY) return true;
+    if (value === LABELLED) return brief !== undefined && brief.lines !== null;
+    if (value === NOTED) return Boolean(brief?.note);
+    return brief?.tags.includes(value.slice(1)) ?? false;
   }
 
   /** What people have said of a frame, in one line. @param {number} frame */
-  function line(frame) {
-    const { tags = [], note = "" } = said[frame] ?? {};
+  line(frame) {
+    const { tags = [], note = "" } = this.#said[frame] ?? {};
     return [...tags.map((tag) => `#${tag}`), note.replace(/\s+/g, " ")].filter(Boolean).join(" ");
   }
 
   /** Frames whose words are not known and could be looked for. */
-  function unknown() {
-    if (!wanted()) return [];
-    return [...Array(frames).keys()].filter((frame) => words(frame) === undefined && chosen(said[frame]));
+  unknown() {
+    if (!this.searching) return [];
+    return [...Array(this.#frames).keys()].filter(
+      (frame) => this.#handlers.words(frame) === undefined && this.#chosen(this.#said[frame]),
+    );
+  }
+
+  /** @param {number} frame */
+  passes(frame) {
+    if (!this.#chosen(this.#said[frame])) return false;
+    const words = this.#handlers.words(frame)?.join(" ") ?? "";
+    return !this.searching || `${this.line(frame)} ${words}`.toLowerCase().includes(this.#wanted);
+  }
+
+  /** Says how far the search has come. */
+  tell() {
+    const missing = this.unknown().length;
+    this.#searching.hidden = missing === 0;
+    setText(this.#searching, this.#text.searching(this.#frames - missing, this.#frames));
   }
 
   /** Tags and kinds of frames, with their number. */
-  function offer() {
-    const briefs = Object.values(said);
+  #offer() {
+    const { any, labelled, noted, tagged } = this.#text;
+    const briefs = Object.values(this.#said);
+    /** @type {Map<string, number>} */
     const counts = new Map();
-    for (const { tags } of briefs) for (const tag of tags) counts.set(tag, (counts.get(tag) ?? 0) + 1);
-    const tags = [...counts.keys()].sort((one, other) => one.localeCompare(other));
-    const before = select.value;
-    select.replaceChildren(
-      h("option", { value: ANY }, text.any),
-      h("option", { value: KINDS[0] }, text.labelled(briefs.filter(({ lines }) => lines !== null).length)),
-      h("option", { value: KINDS[1] }, text.noted(briefs.filter(({ note }) => note).length)),
-      ...tags.map((tag) => h("option", { value: `#${tag}` }, text.tagged(tag, counts.get(tag)))),
+    for (const tag of briefs.flatMap(({ tags }) => tags)) counts.set(tag, (counts.get(tag) ?? 0) + 1);
+    const tags = [...counts].sort(([one], [other]) => one.localeCompare(other));
+    const before = this.#select.value;
+    this.#select.replaceChildren(
+      h("option", { value: ANY }, any),
+      h("option", { value: LABELLED }, labelled(briefs.filter(({ lines }) => lines !== null).length)),
+      h("option", { value: NOTED }, noted(briefs.filter(({ note }) => note).length)),
+      ...tags.map(([tag, count]) => h("option", { value: `#${tag}` }, tagged(tag, count))),
     );
-    select.value = [...select.options].some(({ value }) => value === before) ? before : ANY;
-    onTags(tags);
+    this.#select.value = [...this.#select.options].some(({ value }) => value === before) ? before : ANY;
+    this.#handlers.onTags(tags.map(([tag]) => tag));
   }
 
-  /** @param {string} query */
-  async function ask(query) {
-    const asked = key;
-    const { words: answer, trouble } = await fetchText(`/api/labels?${query}`);
-    if (asked !== key) return;
-    said = trouble ? {} : JSON.parse(answer).frames;
-    offer();
-    onChange();
+  /** @param {Record<string, Brief>} said */
+  #take(said) {
+    this.#said = said;
+    this.#offer();
+    this.#handlers.onChange();
   }
 
-  return {
-    element,
-    line,
-    unknown,
-    /** Words are looked for. */
-    get searching() {
-      return wanted() !== "";
-    },
-    /** @param {number} frame */
-    passes(frame) {
-      const sought = wanted();
-      return (
-        chosen(said[frame]) &&
-        (!sought || `${line(frame)} ${words(frame)?.join(" ") ?? ""}`.toLowerCase().includes(sought))
-      );
-    },
-    /** Says how far the search has come. */
-    tell() {
-      const missing = unknown().length;
-      searching.hidden = missing === 0;
-      setText(searching, text.searching(frames - missing, frames));
-    },
-    /** @param {State} state */
-    setState(state) {
-      frames = state.frames;
-      const { recording, topics, topic, labels } = state;
-      const next = `${recording} ${topic} ${labels?.stamp}`;
-      if (state.mode !== "inspect" || next === key) return;
-      key = next;
-      if (labels?.stamp)
-        ask(String(new URLSearchParams({ recording, ...(topics.length > 1 && topic ? { topic } : {}) })));
-      else {
-        said = {};
-        offer();
-        onChange();
-      }
-    },
-  };
+  /** @param {URLSearchParams} query */
+  async #ask(query) {
+    const asked = this.#key;
+    const { words, trouble } = await fetchText(`/api/labels?${query}`);
+    if (asked === this.#key) this.#take(trouble ? {} : JSON.parse(words).frames);
+  }
+
+  /** @param {State} state */
+  setState({ mode, frames, recording, topics, topic, labels }) {
+    this.#frames = frames;
+    const key = `${recording} ${topic} ${labels?.stamp}`;
+    if (mode !== "inspect" || key === this.#key) return;
+    this.#key = key;
+    if (!labels?.stamp) return this.#take({});
+    const query = new URLSearchParams({ recording });
+    if (topics.length > 1 && topic) query.set("topic", topic);
+    this.#ask(query);
+  }
 }

@@ -3,197 +3,152 @@
 import { h, setText } from "../widgets/dom.js";
 import { createNumberField } from "../widgets/number.js";
 import { clamp } from "../widgets/scale.js";
+import { FrameList } from "./frame_list.js";
 
 /** @typedef {import("../wire.js").Score} Score */
 /** @typedef {{score: string, values: Float32Array, complete: boolean, message: string | null}} Scored */
-
-const ROW_PX = 78;
-const SPARE_ROWS = 4;
-
+/** @typedef {typeof import("../text/inspect.js").inspectText.frames} Text */
 /**
- * @param {typeof import("../text/inspect.js").inspectText.frames} text
- * @param {{onFrame: (frame: number) => void, onScore: (score: string) => void,
- *          number: (frame: number) => number, value: (frame: number) => string, words: (frame: number) => string, passes: (frame: number) => boolean, onRows: () => void, extra: HTMLElement, filter: HTMLElement}} handlers
- *   number: what a frame is called; value, words: what is said of a frame, its score and what looks wrong; passes: whether it is listed; onRows: other frames came into view; extra, filter: below the score, and the range
+ * @typedef {object} Handlers
+ * @property {(frame: number) => void} onFrame
+ * @property {(score: string) => void} onScore
+ * @property {(frame: number) => number} number what a frame is called
+ * @property {(frame: number) => string} value its score, in words
+ * @property {(frame: number) => string} words what looks wrong in it
+ * @property {(frame: number) => boolean} passes whether it is listed
+ * @property {() => void} onRows other frames came into view
+ * @property {HTMLElement} extra below the score
+ * @property {HTMLElement} filter below the range
  */
-export function createFrames(text, { onFrame, onScore, number, value, words, passes, onRows, extra, filter }) {
-  /** @type {Scored | null} */
-  let scored = null;
-  /** @type {Score[]} */
-  let scores = [];
-  /** Frames in the order of the list. */
-  let order = new Uint32Array(0);
-  let frame = 0;
-  /** The frame that the list led to last. */
-  let led = -1;
-  let low = -Infinity;
-  let high = Infinity;
 
-  const select = h("select", { class: "select", "aria-label": text.score, onchange: () => onScore(select.value) });
-  const help = h("p", { class: "hint" });
-  const count = h("span", { class: "muted frames-count", role: "status" });
-  const [from, to] = [
-    limit(text.from, (typed) => (low = typed ?? -Infinity)),
-    limit(text.to, (typed) => (high = typed ?? Infinity)),
-  ];
-  const spacer = h("div", { class: "frames-spacer" });
-  const list = h("div", { class: "frames-list", role: "listbox", tabIndex: 0, "aria-label": text.label }, spacer);
-  const note = h("p", { class: "hint" });
-  const element = h(
-    "div",
-    { class: "frames" },
-    h("div", { class: "frames-head" }, h("label", {}, text.score), select),
-    help,
-    extra,
-    h(
+/** @param {Text} text @param {Handlers} handlers */
+export function createFrames(text, handlers) {
+  return new Frames(text, handlers);
+}
+
+class Frames {
+  #text;
+  #passes;
+  #onFrame;
+  /** @type {Scored | null} */ #scored = null;
+  /** @type {Score[]} */ #scores = [];
+  #frame = 0;
+  /** The frame that the list led to last. */ #led = -1;
+  /** Scores are listed from … to. */ #low = -Infinity;
+  #high = Infinity;
+  #select;
+  #help = h("p", { class: "hint" });
+  #extra;
+  #count = h("span", { class: "muted frames-count", role: "status" });
+  #note = h("p", { class: "hint" });
+  #list;
+
+  /** @param {Text} text @param {Handlers} handlers */
+  constructor(text, { onFrame, onScore, number, value, words, passes, onRows, extra, filter }) {
+    this.#text = text;
+    this.#passes = passes;
+    this.#onFrame = onFrame;
+    this.#extra = extra;
+    const select = h("select", { class: "select", "aria-label": text.score, onchange: () => onScore(select.value) });
+    this.#select = select;
+    const from = this.#limit(text.from, (typed) => {
+      this.#low = typed ?? -Infinity;
+    });
+    const to = this.#limit(text.to, (typed) => {
+      this.#high = typed ?? Infinity;
+    });
+    this.#list = new FrameList(text, { number, value, words, onRows, onTake: (frame) => this.#go(frame) });
+    const [fromLabel, toLabel] = [h("label", {}, text.from), h("label", {}, text.to)];
+    this.element = h(
       "div",
-      { class: "frames-head" },
-      h("label", {}, text.from),
-      from.element,
-      h("label", {}, text.to),
-      to.element,
-      count,
-    ),
-    from.error,
-    to.error,
-    filter,
-    note,
-    list,
-  );
-  list.addEventListener("scroll", paint);
-  new ResizeObserver(paint).observe(list);
-  list.addEventListener("keydown", (event) => {
-    const at = order.indexOf(frame);
-    const page = Math.max(1, Math.floor(list.clientHeight / ROW_PX) - 1);
-    const steps = { ArrowDown: 1, ArrowUp: -1, PageDown: page, PageUp: -page, Home: -Infinity, End: Infinity }[
-      event.key
-    ];
-    if (steps === undefined || !order.length) return;
-    event.preventDefault();
-    event.stopPropagation();
-    go(order[clamp(at < 0 ? 0 : at + steps, 0, order.length - 1)]);
-  });
+      { class: "frames" },
+      h("div", { class: "frames-head" }, h("label", {}, text.score), select),
+      this.#help,
+      extra,
+      h("div", { class: "frames-head" }, fromLabel, from.element, toLabel, to.element, this.#count),
+      from.error,
+      to.error,
+      filter,
+      this.#note,
+      this.#list.element,
+    );
+  }
 
   /** @param {string} end @param {(typed: number | null) => void} set */
-  function limit(end, set) {
+  #limit(end, set) {
     const field = createNumberField({
-      label: text.rangeLabel(end),
+      label: this.#text.rangeLabel(end),
       className: "frames-limit",
-      accept(typed) {
+      accept: (typed) => {
         const wanted = typed.trim() === "" ? null : Number(typed);
-        if (Number.isNaN(wanted)) return text.notANumber(typed);
+        if (Number.isNaN(wanted)) return this.#text.notANumber(typed);
         set(wanted);
         field.set(typed.trim());
-        sort();
+        this.sort();
         return null;
       },
     });
-    field.element.placeholder = text.any;
+    field.element.placeholder = this.#text.any;
     return field;
   }
 
-  function sort() {
-    const what = scores.find(({ name }) => name === scored?.score);
-    const known = scored?.complete ? scored.values : new Float32Array(0);
+  /** Other frames may be listed. */
+  sort() {
+    const what = this.#scores.find(({ name }) => name === this.#scored?.score);
+    const known = this.#scored?.complete ? this.#scored.values : new Float32Array(0);
     const sign = what?.worse === "lower" ? 1 : -1;
-    const inside = [...known.keys()].filter((k) => !(known[k] < low || known[k] > high) && passes(k));
-    order = Uint32Array.from(inside.sort((one, other) => sign * (known[one] - known[other]) || one - other));
-    setText(help, what?.help ?? "");
-    setText(count, known.length ? text.count(order.length, known.length) : "");
-    setText(note, known.length ? (order.length ? "" : text.none) : (scored?.message ?? text.pending));
-    note.hidden = order.length > 0;
-    spacer.style.height = `${order.length * ROW_PX}px`;
-    paint();
+    const order = [...known.keys()]
+      .filter((k) => !(known[k] < this.#low || known[k] > this.#high) && this.#passes(k))
+      .sort((one, other) => sign * (known[one] - known[other]) || one - other);
+    setText(this.#help, what?.help ?? "");
+    setText(this.#count, known.length ? this.#text.count(order.length, known.length) : "");
+    setText(this.#note, known.length ? this.#text.none : (this.#scored?.message ?? this.#text.pending));
+    this.#note.hidden = order.length > 0;
+    this.#list.setOrder(order);
   }
 
-  function paint() {
-    const first = Math.max(0, Math.floor(list.scrollTop / ROW_PX) - SPARE_ROWS);
-    const last = Math.min(order.length, Math.ceil((list.scrollTop + list.clientHeight) / ROW_PX) + SPARE_ROWS);
-    const rows = /** @type {HTMLElement[]} */ ([...spacer.children]);
-    while (rows.length > last - first) rows.pop()?.remove();
-    while (rows.length < last - first) {
-      const row = emptyRow();
-      rows.push(row);
-      spacer.append(row);
-    }
-    rows.forEach((row, k) => fill(row, first + k));
-    onRows();
-    list.setAttribute("aria-activedescendant", spacer.querySelector("[aria-selected=true]")?.id ?? "");
+  /** @param {number} frame */
+  #go(frame) {
+    this.#led = frame;
+    this.#list.reveal(frame);
+    this.#onFrame(frame);
   }
 
-  function emptyRow() {
-    const row = h(
-      "div",
-      { class: "frames-row", role: "option" },
-      h("span", { class: "frames-number" }),
-      h("span", { class: "frames-value" }),
-      h("span", { class: "frames-words muted" }),
-    );
-    row.addEventListener("click", () => go(Number(row.dataset.frame)));
-    return row;
+  /** What is said of the frames may have changed. */
+  paint() {
+    this.#list.paint();
   }
 
-  /** @param {HTMLElement} row @param {number} place */
-  function fill(row, place) {
-    const shown = order[place];
-    row.id = `frame-${shown}`;
-    row.dataset.frame = String(shown);
-    row.style.top = `${place * ROW_PX}px`;
-    row.setAttribute("aria-selected", String(shown === frame));
-    const [score, said] = [value(shown), words(shown)];
-    row.setAttribute("aria-label", text.row(number(shown), score, said));
-    row.title = said;
-    [String(number(shown)), score, said].forEach((part, k) => setText(row.children[k], part));
+  /** The frames that are in view. */
+  get inView() {
+    return this.#list.inView;
   }
 
-  /** @param {number} wanted */
-  function go(wanted) {
-    led = wanted;
-    reveal(wanted);
-    onFrame(wanted);
+  /** The next or former frame of the list, its first to begin with. @param {1 | -1} by */
+  next(by) {
+    const { order } = this.#list;
+    const at = this.#led === this.#frame ? order.indexOf(this.#frame) : -1;
+    if (order.length) this.#go(order[at < 0 ? 0 : clamp(at + by, 0, order.length - 1)]);
   }
 
-  /** @param {number} wanted */
-  function reveal(wanted) {
-    const place = order.indexOf(wanted);
-    if (place < 0) return;
-    const top = place * ROW_PX;
-    if (top < list.scrollTop) list.scrollTop = top;
-    else if (top + ROW_PX > list.scrollTop + list.clientHeight) list.scrollTop = top + ROW_PX - list.clientHeight;
+  /** @param {Score[]} scores */
+  setScores(scores) {
+    this.#scores = scores;
+    this.#select.replaceChildren(...scores.map(({ name, label }) => h("option", { value: name }, label)));
   }
 
-  return {
-    element,
-    /** @param {Score[]} next */
-    setScores(next) {
-      scores = next;
-      select.replaceChildren(...next.map(({ name, label }) => h("option", { value: name }, label)));
-    },
-    /** @param {Scored | null} next the scores of every frame, null while there are none */
-    setScored(next) {
-      scored = next;
-      if (next) select.value = next.score;
-      extra.hidden = next?.score !== "suspicion";
-      sort();
-    },
-    /** What is said of the frames may have changed. */
-    paint,
-    /** Other frames may be listed. */
-    sort,
-    /** The frames that are in view. */
-    get inView() {
-      return /** @type {HTMLElement[]} */ ([...spacer.children]).map((row) => Number(row.dataset.frame));
-    },
-    /** @param {Readonly<import("../wire.js").View>} view */
-    setView(view) {
-      if (view.frame === frame) return;
-      frame = view.frame;
-      paint();
-    },
-    /** The next or former frame of the list, its first to begin with. @param {1 | -1} by */
-    next(by) {
-      const at = led === frame ? order.indexOf(frame) : -1;
-      if (order.length) go(order[at < 0 ? 0 : clamp(at + by, 0, order.length - 1)]);
-    },
-  };
+  /** @param {Scored | null} scored the scores of every frame, null while there are none */
+  setScored(scored) {
+    this.#scored = scored;
+    if (scored) this.#select.value = scored.score;
+    this.#extra.hidden = scored?.score !== "suspicion";
+    this.sort();
+  }
+
+  /** @param {Readonly<import("../wire.js").View>} view */
+  setView({ frame }) {
+    if (frame === this.#frame) return;
+    this.#frame = frame;
+    this.#list.setFrame(frame);
+  }
 }

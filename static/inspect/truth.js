@@ -1,12 +1,13 @@
 // @ts-check
 // The numbers of the paper's Table 4 and more, of the frame and of the recording.
-import { keyOf } from "../view/key.js";
 import { fetchText } from "../fetch.js";
+import { keyOf } from "../view/key.js";
 import { h, setText } from "../widgets/dom.js";
-import { tooltip } from "../widgets/tooltip.js";
+import { TruthTable } from "./truth_table.js";
 
 /** @typedef {import("../wire.js").State} State */
-/** @typedef {import("../wire.js").Agreement} Agreement */
+/** @typedef {typeof import("../text/inspect.js").inspectText.truth} Text */
+/** @typedef {{session: () => string, onShow: (shown: boolean) => void, onReference: (reference: "labels" | "wall") => void}} Handlers */
 
 const REST_MS = 300;
 const PARTS = /** @type {const} */ (["recording", "method", "params", "judgedBy", "labelled"]);
@@ -16,114 +17,109 @@ function keyOfAll(state) {
   return keyOf({ ...state, labelled: state.judgedBy === "labels" ? state.labels?.stamp : "" }, ...PARTS);
 }
 
-/**
- * @param {typeof import("../text/inspect.js").inspectText.truth} text
- * @param {{session: () => string, onShow: (shown: boolean) => void, onReference: (reference: "labels" | "wall") => void}} handlers
- */
-export function createTruth(text, { session, onShow, onReference }) {
-  const show = h("input", { type: "checkbox", onchange: () => onShow(show.checked) });
-  const key = (/** @type {string} */ name, /** @type {string} */ label) =>
-    h("span", { class: "verdict-key" }, h("span", { class: `verdict ${name}` }), label);
-  const all = h("th", { scope: "col" }, text.all);
-  const rows = text.rows.map(([name, label, help, kind]) => {
-    const head = h("th", { scope: "row" }, label);
-    tooltip(head, help, "left");
-    const cells = [h("td"), h("td")];
-    return { name, kind, cells, element: h("tr", {}, head, ...cells) };
-  });
-  const by = h("select", {
-    class: "select",
-    "aria-label": text.judgedBy,
-    onchange: () => onReference(/** @type {"labels" | "wall"} */ (by.value)),
-  });
-  const unlabelled = h("p", { class: "hint" }, text.unlabelled);
-  const explained = h("p", { class: "hint" });
-  const known = h(
-    "div",
-    {},
-    h("label", { class: "truth-by" }, text.judgedBy, by),
-    unlabelled,
-    h("label", { class: "truth-show" }, show, text.show),
-    h(
-      "p",
-      { class: "verdict-keys muted" },
-      key("matched", text.matched),
-      key("false", text.false),
-      key("missed", text.missed),
-    ),
-    h(
-      "table",
-      { class: "table truth-table" },
-      h("thead", {}, h("tr", {}, h("td"), h("th", { scope: "col" }, text.frame), all)),
-      h("tbody", {}, ...rows.map(({ element }) => element)),
-    ),
-    explained,
-  );
-  const unknown = h("p", { class: "hint" }, text.unknown);
-  const element = h("div", { class: "truth", "aria-label": text.label }, known, unknown);
-  let asked = "";
-  let waiting = 0;
-  new MutationObserver(askSoon).observe(element, { attributeFilter: ["hidden"] });
+/** @param {Text} text @param {Handlers} handlers */
+export function createTruth(text, handlers) {
+  return new Truth(text, handlers);
+}
 
-  /** @param {number} column @param {Agreement | null} agreement */
-  function fill(column, agreement) {
-    for (const { name, kind, cells } of rows) {
-      const value = agreement?.[name];
-      setText(
-        cells[column],
-        agreement === null
-          ? text.pending
-          : value === null || value === undefined
-            ? "–"
-            : kind === "count"
-              ? value.toLocaleString("en")
-              : text[kind](value),
-      );
-    }
+class Truth {
+  #text;
+  #session;
+  /** @type {State | null} */ #state = null;
+  /** What the numbers of the recording were asked for. */ #asked = "";
+  #waiting = 0;
+  #show;
+  #by;
+  #table;
+  #unlabelled;
+  #explained = h("p", { class: "hint" });
+  #known;
+  #unknown;
+
+  /** @param {Text} text @param {Handlers} handlers */
+  constructor(text, { session, onShow, onReference }) {
+    this.#text = text;
+    this.#session = session;
+    const show = h("input", { type: "checkbox", onchange: () => onShow(show.checked) });
+    const by = h("select", {
+      class: "select",
+      "aria-label": text.judgedBy,
+      onchange: () => onReference(/** @type {"labels" | "wall"} */ (by.value)),
+    });
+    this.#show = show;
+    this.#by = by;
+    this.#table = new TruthTable(text);
+    this.#unlabelled = h("p", { class: "hint" }, text.unlabelled);
+    this.#known = h(
+      "div",
+      {},
+      h("label", { class: "truth-by" }, text.judgedBy, by),
+      this.#unlabelled,
+      h("label", { class: "truth-show" }, show, text.show),
+      h(
+        "p",
+        { class: "verdict-keys muted" },
+        verdictKey("matched", text.matched),
+        verdictKey("false", text.false),
+        verdictKey("missed", text.missed),
+      ),
+      this.#table.element,
+      this.#explained,
+    );
+    this.#unknown = h("p", { class: "hint" }, text.unknown);
+    this.element = h("div", { class: "truth", "aria-label": text.label }, this.#known, this.#unknown);
+    new MutationObserver(() => this.#askSoon()).observe(this.element, { attributeFilter: ["hidden"] });
   }
 
-  /** @type {State | null} */
-  let state = null;
-  function askSoon() {
-    if (!state?.judgedBy || state.mode !== "inspect" || element.hidden) return;
-    const key = keyOfAll(state);
-    if (key === asked) return;
-    asked = key;
-    fill(1, null);
-    clearTimeout(waiting);
-    waiting = setTimeout(ask, REST_MS);
+  #askSoon() {
+    if (!this.#state?.judgedBy || this.#state.mode !== "inspect" || this.element.hidden) return;
+    const key = keyOfAll(this.#state);
+    if (key === this.#asked) return;
+    this.#asked = key;
+    this.#table.fill("all", null);
+    this.#wait();
   }
 
-  async function ask() {
-    const { words, trouble } = await fetchText(`/api/truth?${new URLSearchParams({ session: session() })}`);
+  #wait() {
+    clearTimeout(this.#waiting);
+    this.#waiting = setTimeout(() => this.#ask(), REST_MS);
+  }
+
+  /** Asks for the numbers of the recording. */
+  async #ask() {
+    const query = new URLSearchParams({ session: this.#session() });
+    const { words, trouble } = await fetchText(`/api/truth?${query}`);
     if (trouble) return;
     const answer = JSON.parse(words);
     // It may belong to what was on the screen a moment ago; then the next answer is on its way, or is asked for again.
-    if (keyOf(answer, ...PARTS) !== asked)
-      return void (asked === (state && keyOfAll(state)) && (waiting = setTimeout(ask, REST_MS)));
-    setText(
-      all,
-      answer.stride > 1 ? text.sampled(answer.stride) : answer.judgedBy === "labels" ? text.labelled : text.all,
-    );
-    fill(1, answer.agreement);
+    if (keyOf(answer, ...PARTS) !== this.#asked) {
+      if (this.#state && this.#asked === keyOfAll(this.#state)) this.#wait();
+      return;
+    }
+    const { sampled, labelled, all } = this.#text;
+    const whole = answer.judgedBy === "labels" ? labelled : all;
+    this.#table.nameAll(answer.stride > 1 ? sampled(answer.stride) : whole);
+    this.#table.fill("all", answer.agreement);
   }
 
-  return {
-    element,
-    /** @param {State} next */
-    setState(next) {
-      state = next;
-      show.checked = next.layers.verdicts;
-      const { judgedBy, references } = next;
-      known.hidden = judgedBy === "";
-      unknown.hidden = judgedBy !== "";
-      by.replaceChildren(...references.map((name) => h("option", { value: name }, text.references[name])));
-      by.value = judgedBy;
-      by.disabled = references.length < 2;
-      unlabelled.hidden = judgedBy !== "labels" || next.agreement !== null;
-      if (judgedBy) setText(explained, `${text.matching} ${text.explained[judgedBy]}`);
-      fill(0, next.agreement ?? {});
-      askSoon();
-    },
-  };
+  /** @param {State} state */
+  setState(state) {
+    const { layers, judgedBy, references, agreement } = state;
+    this.#state = state;
+    this.#show.checked = layers.verdicts;
+    this.#known.hidden = judgedBy === "";
+    this.#unknown.hidden = judgedBy !== "";
+    this.#by.replaceChildren(...references.map((name) => h("option", { value: name }, this.#text.references[name])));
+    this.#by.value = judgedBy;
+    this.#by.disabled = references.length < 2;
+    this.#unlabelled.hidden = judgedBy !== "labels" || agreement !== null;
+    if (judgedBy) setText(this.#explained, `${this.#text.matching} ${this.#text.explained[judgedBy]}`);
+    this.#table.fill("frame", agreement ?? {});
+    this.#askSoon();
+  }
+}
+
+/** @param {string} name @param {string} label */
+function verdictKey(name, label) {
+  return h("span", { class: "verdict-key" }, h("span", { class: `verdict ${name}` }), label);
 }
