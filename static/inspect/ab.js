@@ -5,6 +5,7 @@ import { h, setText } from "../widgets/dom.js";
 import { iconButton } from "../widgets/icon.js";
 import { format, withUnit } from "../widgets/scale.js";
 import { tooltip } from "../widgets/tooltip.js";
+import { createAbTable } from "./ab_table.js";
 
 /** @typedef {import("../wire.js").State} State */
 /** @typedef {import("../wire.js").Survey} Survey */
@@ -26,21 +27,7 @@ export function createAb(text, { onToggle, onSwap, onAdopt, onNext }) {
   );
   tooltip(button, text.pinHelp);
   const what = h("span", { class: "ab-what" });
-  const heads = Object.values(text.fates).map(({ label, help }) => {
-    const head = h("th", { scope: "col" }, label);
-    tooltip(head, help);
-    return head;
-  });
-  const rows = [text.frame, text.all].map((label) => {
-    const cells = heads.map(() => h("td"));
-    return { element: h("tr", {}, h("th", { scope: "row" }, label), ...cells), cells };
-  });
-  const table = h(
-    "table",
-    { class: "ab-table" },
-    h("thead", {}, h("tr", {}, h("td"), ...heads)),
-    h("tbody", {}, ...rows.map(({ element }) => element)),
-  );
+  const table = createAbTable(text);
   const action = (/** @type {string} */ label, /** @type {string} */ help, /** @type {() => void} */ run) => {
     const made = h("button", { type: "button", class: "button", onclick: run }, label);
     tooltip(made, help);
@@ -51,7 +38,7 @@ export function createAb(text, { onToggle, onSwap, onAdopt, onNext }) {
     "section",
     { class: "ab", "aria-label": text.label, hidden: true },
     h("div", { class: "ab-head" }, h("b", {}, text.a), what, iconButton("close", text.unpin, onToggle)),
-    table,
+    table.element,
     h(
       "div",
       { class: "ab-actions" },
@@ -69,13 +56,6 @@ export function createAb(text, { onToggle, onSwap, onAdopt, onNext }) {
   /** What the totals belong to. */
   let counted = "";
 
-  /** @param {HTMLElement[]} cells @param {Record<string, number> | null | undefined} counts */
-  function fill(cells, counts) {
-    Object.keys(text.fates).forEach((fate, k) =>
-      setText(cells[k], counts ? counts[fate].toLocaleString("en") : text.pending),
-    );
-  }
-
   return {
     button,
     element,
@@ -91,14 +71,14 @@ export function createAb(text, { onToggle, onSwap, onAdopt, onNext }) {
       element.hidden = against === null;
       if (!against) return;
       setText(what, words(against, state, methods, text));
-      fill(rows[0].cells, state.difference);
-      if (counted !== keyOf(state, ...PARTS)) fill(rows[1].cells, null);
+      table.fill("frame", state.difference);
+      if (counted !== keyOf(state, ...PARTS)) table.fill("all", null);
     },
     /** @param {Survey} survey */
     setSurvey(survey) {
       if (!survey.totals || !against || !drawn) return;
       counted = keyOf({ ...drawn, params: survey.params }, ...PARTS);
-      fill(rows[1].cells, survey.totals);
+      table.fill("all", survey.totals);
     },
   };
 }
