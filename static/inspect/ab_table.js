@@ -1,5 +1,5 @@
 // @ts-check
-// How many beams changed their fate from A to B, in the frame and in the recording.
+// What became of the lines of A in B, counted in the frame and in the recording.
 import { h, setText } from "../widgets/dom.js";
 import { tooltip } from "../widgets/tooltip.js";
 
