@@ -57,7 +57,10 @@ const labels = createLabels(place("stage"), stage, words.label, {
   onFrame: goToFrame,
   number: (frame) => timeline.scored.number(frame),
 });
-const inspect = createInspect(page, words.inspect, { timeline: () => timeline, onTags: labels.suggest });
+const inspect = createInspect(page, words.inspect, {
+  timeline: () => timeline,
+  onTags: (tags) => labels.suggest(tags),
+});
 const draw = createDraw(place("stage"), stage, words.draw, {
   onRecording: (recording) => change({ recording, step: page.view.step }),
   onSave: () =>

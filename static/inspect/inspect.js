@@ -31,7 +31,7 @@ export function createInspect(page, text, { timeline, onTags }) {
     number: (frame) => timeline().scored.number(frame),
     value: (frame) => timeline().scored.words(frame),
     words: said,
-    passes: filter.passes,
+    passes: (frame) => filter.passes(frame),
     filter: filter.element,
     onRows: () => inspecting() && words.need(),
     extra: weights.element,
