@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from ..kernel import entry_kernel, kernel
 from ..scan import Recording
 from ..segment import Extraction
-from . import Survey
+from .result import Survey
 
 KEPT, LOST, GAINED, SPLIT, MERGED = range(5)
 FATES = ("kept", "lost", "gained", "split", "merged")

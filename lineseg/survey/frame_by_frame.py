@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -17,9 +15,7 @@ from ..region_growing.lines import DROPPED, LINE, Dropping
 from ..region_growing.points import points_of, unpacked
 from ..scan import Recording, Scan
 from ..segment import Extraction
-
-if TYPE_CHECKING:
-    from . import Workspace
+from .stretch import Workspace
 
 # What a score takes from a method that has it; everything else is as usual, so that methods are judged alike.
 JUDGED_BY = ("epsilon", "delta", "seed_points", "min_points", "min_length")

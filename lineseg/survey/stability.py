@@ -12,7 +12,8 @@ from ..doubt import CHANGE_OF_THRESHOLD, SCORES
 from ..kernel import entry_kernel, kernel
 from ..knobs import Thresholds
 from ..scan import Recording
-from . import Survey, survey
+from .result import Survey
+from .threads import survey
 
 
 def variations(params: Thresholds) -> Iterator[tuple[str, Thresholds]]:

@@ -18,9 +18,10 @@ from ..extractors import extract, trace
 from ..knobs import Thresholds
 from ..params import Params
 from ..scan import Recording, Scan
-from . import Survey, survey
 from .frame_by_frame import judge_of
+from .result import Survey
 from .stability import changes
+from .threads import survey
 
 # From here on a score that every frame has is told.
 STANDS_OUT = 1.0

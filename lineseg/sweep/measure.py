@@ -14,7 +14,7 @@ from ..kernel import entry_kernel
 from ..params import Params
 from ..readers.source import Cancelled
 from ..scan import Recording
-from ..survey import Stretch, Workspace, flattened
+from ..survey.stretch import Stretch, Workspace, flattened
 from ..truth import true_lines
 from .totals import COLUMNS, COUNTS, MEAN_COLUMNS, Totals
 

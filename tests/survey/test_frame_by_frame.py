@@ -9,8 +9,8 @@ import pytest
 from scenes import corner, room, wall_ahead
 
 from lineseg import EXTRACTORS, SCORES, Cancelled, Params, Recording, extract, survey
-from lineseg.survey import Workspace
 from lineseg.survey.frame_by_frame import survey_stretch
+from lineseg.survey.stretch import Workspace
 
 OTHERS = [method for name, method in EXTRACTORS.items() if name != "region-growing"]
 

@@ -1,0 +1,149 @@
+"""Region growing over consecutive frames: one call of a kernel for thousands of them."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..doubt import SCORES, Spans, score_frame, spans_of
+from ..kernel import entry_kernel, kernel
+from ..params import Params
+from ..region_growing import Memory, extract_lines, limits_of
+from ..region_growing.lines import DROPPED, LINE, Dropping
+from ..region_growing.points import Points, unpacked
+from ..scan import Recording
+from .geometry import geometry_of
+from .result import SEGMENT, joined
+
+
+class Flat(NamedTuple):
+    """A recording in arrays of one kind each: for every other kind a kernel would be compiled anew."""
+
+    ranges: NDArray[np.floating]
+    offsets: NDArray[np.int64]
+    range_min: NDArray[np.float64]
+    range_max: NDArray[np.float64]
+
+
+def flattened(recording: Recording) -> Flat:
+    return Flat(
+        np.ascontiguousarray(recording.ranges),
+        np.ascontiguousarray(recording.offsets, dtype=np.int64),
+        np.array(recording.range_min, dtype=np.float64),
+        np.array(recording.range_max, dtype=np.float64),
+    )
+
+
+class Stretch:
+    """The frames start..stop − 1 of a recording, ready to be surveyed again and again.
+
+    compared: whether the frame before comes along, with which the first is compared by its score.
+    """
+
+    def __init__(self, recording: Recording, flat: Flat, start: int, stop: int, compared: bool) -> None:
+        lead = max(start - 1, 0) if compared else start
+        self._scans = Scans(*flat, lead, *geometry_of(recording, lead, stop))
+        self._start, self._stop = start, stop
+
+    def run(
+        self,
+        params: Params,
+        memory: Workspace,
+        cancelled: NDArray[np.bool_],
+        counts: NDArray[np.int64],
+        scores: NDArray[np.float32] | None,
+    ) -> NDArray[np.void]:
+        """The segments of these frames, in an array of their own; counts and scores: of all frames, written to."""
+        memory.spans.used[:] = -1
+        scored = np.empty((0, len(SCORES)), np.float32) if scores is None else scores
+        frame, used = self._scans.lead, 0
+        while True:
+            frame, used = survey_frames(
+                self._scans, frame, self._start, self._stop, limits_of(params), *memory.arguments, *memory.spans,
+                cancelled, memory.segments, used, counts, scored,
+            )  # fmt: skip
+            if frame == self._stop or cancelled[0]:
+                return joined([memory.segments[:used]])
+            memory.grow()
+
+
+class Workspace(Memory):
+    """What one thread writes to."""
+
+    def __init__(self, beams: int) -> None:
+        super().__init__(beams, circle=True)
+        # Of the frame at hand and of the one before, in turns.
+        self.spans = Spans(np.empty((2, beams + 1)), np.empty((2, beams + 1)), np.zeros(2, np.int64))
+        self.segments = np.empty(max(4096, beams), SEGMENT)
+
+    def grow(self) -> None:
+        self.segments = joined([self.segments, np.empty_like(self.segments)])
+
+
+class Scans(NamedTuple):
+    """A recording as the kernel takes it; place and circle begin with the frame `lead`."""
+
+    ranges: NDArray[np.floating]
+    offsets: NDArray[np.int64]
+    range_min: NDArray[np.float64]
+    range_max: NDArray[np.float64]
+    lead: int
+    bearings: NDArray[np.float64]
+    rays: NDArray[np.float64]
+    place: NDArray[np.int64]
+    circle: NDArray[np.bool_]
+
+
+@entry_kernel
+def survey_frames(
+    scans, frame, start, stop, limits, xy, numbers, lines, dropped, low, high, shown, cancelled, segments, used, counts,
+    scores,
+):  # fmt: skip
+    """Extract and score the frames frame..stop − 1: (the first that is not done, number of segments written).
+
+    A frame before `start` is only there to be compared with. It ends early when `cancelled` or `segments` is full.
+    """
+    rows, drops = lines.view(LINE), Dropping(dropped.view(DROPPED), numbers[3])
+    fields = unpacked(limits)
+    while frame < stop and not cancelled[0]:
+        first, beams = scans.offsets[frame], scans.offsets[frame + 1] - scans.offsets[frame]
+        place, circle = scans.place[frame - scans.lead], scans.circle[frame - scans.lead]
+        rays = scans.rays[2 * place : 2 * (place + beams)].reshape((2, beams))
+        count, _, n, returns = extract_lines(
+            scans.ranges[first : first + beams], rays, scans.range_min[frame], scans.range_max[frame], circle,
+            limits, xy, numbers, lines, dropped, None,
+        )  # fmt: skip
+        if used + count > len(segments):
+            return frame, used
+        m = 4 * n if circle else n
+        points = Points(xy[0, :m], xy[1, :m], numbers[0, :m], numbers[1, :m], n if circle else 0, n, circle, returns)
+        if frame >= start:
+            counts[frame] = count
+            write_segments(rows, count, points, beams, segments, used)
+            used += count
+        if len(scores) > 0:
+            this, other = frame % 2, 1 - frame % 2
+            now = Spans(low[this], high[this], shown[this : this + 1])
+            before = Spans(low[other], high[other], shown[other : other + 1])
+            spans_of(rows, count, points, scans.bearings[place : place + beams], now)
+            if frame >= start:
+                score_frame(rows, count, points, beams, fields, drops, now, before, scores[frame])
+        frame += 1
+    return frame, used
+
+
+@kernel
+def write_segments(lines, count, points, beams, segments, used):
+    """Put lines down as segments, by their first beam: those that begin past the seam of a full circle come first."""
+    past = 0
+    while past < count and points.beam[lines[past].first] // beams == points.beam[lines[0].first] // beams:
+        past += 1
+    for i in range(count):
+        line = lines[(past + i) % count]
+        row = segments[used + i]
+        row.a, row.b, row.c, row.rms = line.a, line.b, line.c, line.rms
+        row.x1, row.y1, row.x2, row.y2, row.length = line.x1, line.y1, line.x2, line.y2, line.length
+        row.first, row.last = points.beam[line.first] % beams, points.beam[line.last] % beams
+        row.points = line.last - line.first + 1

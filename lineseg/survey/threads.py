@@ -1,0 +1,151 @@
+"""The survey of a recording, shared out among all cores."""
+
+from __future__ import annotations
+
+import os
+import threading
+from collections import deque
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..arguments import need_recording, need_thresholds
+from ..doubt import SCORES
+from ..doubt.neighbours import VOTES, compare_frames, views_of
+from ..knobs import Thresholds
+from ..params import Params
+from ..readers.source import Cancelled
+from ..scan import Recording
+from .frame_by_frame import survey_stretch
+from .result import Survey, joined
+from .stretch import Stretch, Workspace, flattened
+
+# Scores for which the frame behind must be known.
+BESIDE = ("brief", "gone", "jump", "jolt")
+# A chunk is some milliseconds of work: long enough that Python costs nothing, short enough to share out evenly.
+CHUNK_BEAMS = 200_000
+# Less is not worth a thread.
+LEAST_BEAMS = 20_000
+
+
+def survey(
+    recording: Recording,
+    params: Thresholds | None = None,
+    cancelled: NDArray[np.bool_] | None = None,
+    scores: bool = True,
+    progress: Callable[[int, int], None] | None = None,
+    threads: int | None = None,
+) -> Survey:
+    """What `extract` finds in every frame by the method whose thresholds these are, and the scores of every frame.
+
+    cancelled: (1,) bool; set it in another thread and the survey stops after the frame at hand, raising `Cancelled`.
+    progress: called in the calling thread with (frames done, frames); what it raises comes through.
+    threads: as many as there are cores without.
+    Raises TypeError, which says what to pass, for anything but a Recording and thresholds.
+    """
+    need_recording(recording)
+    params = Params() if params is None else params
+    need_thresholds(params)
+    flag = np.zeros(1, np.bool_) if cancelled is None else cancelled
+    job = _Job(recording, params, flag, scores)
+    helpers = [
+        threading.Thread(target=job.help, daemon=True) for _ in range(min(threads or cores(), len(job.waiting)) - 1)
+    ]
+    for helper in helpers:
+        helper.start()
+    try:
+        job.work(progress or (lambda done, total: None))
+    finally:
+        # Where the calling thread was stopped, there is nothing left to do for the others.
+        job.waiting.clear()
+        for helper in helpers:
+            helper.join()
+    if job.error is not None:
+        raise job.error
+    result = None if flag[0] else job.result(len(helpers) + 1)
+    if result is None or flag[0]:
+        raise Cancelled(f"the survey of {recording.name or 'a recording'} was stopped")
+    return result
+
+
+def cores() -> int:
+    """How many cores this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+class _Job:
+    """Chunks of frames that wait for a thread, and what has come of them."""
+
+    def __init__(self, recording: Recording, params: Thresholds, cancelled: NDArray[np.bool_], scored: bool) -> None:
+        self.recording, self.params, self.cancelled = recording, params, cancelled
+        self.flat = flattened(recording)
+        frames = len(recording)
+        self.counts = np.zeros(frames, np.int64)
+        self.scores = np.full((frames, len(SCORES)), np.nan, np.float32) if scored else None
+        self.waiting = deque(_chunks(self.flat.offsets))
+        self.segments: dict[int, NDArray[np.void]] = {}
+        self.done, self.lock = 0, threading.Lock()
+        self.error: BaseException | None = None
+
+    def help(self) -> None:
+        try:
+            self.work(lambda done, total: None)
+        except BaseException as error:
+            self.error = error
+            self.waiting.clear()
+
+    def work(self, progress: Callable[[int, int], None]) -> None:
+        """Take chunk after chunk until none waits."""
+        memory = Workspace(self.recording.beams[1])
+        while not self.cancelled[0]:
+            try:
+                start, stop = self.waiting.popleft()
+            except IndexError:
+                return
+            where = memory, self.cancelled, self.counts, self.scores
+            if isinstance(self.params, Params):
+                stretch = Stretch(self.recording, self.flat, start, stop, compared=self.scores is not None)
+                self.segments[start] = stretch.run(self.params, *where)
+            else:
+                self.segments[start] = survey_stretch(self.recording, start, stop, self.params, *where)
+            with self.lock:
+                self.done += stop - start
+            progress(self.done, len(self.counts))
+
+    def result(self, threads: int) -> Survey:
+        parts = [self.segments[start] for start in sorted(self.segments)]
+        segments = joined(parts)
+        offsets = np.concatenate(([0], np.cumsum(self.counts)))
+        if self.scores is not None:
+            self._compare(segments, offsets, self.scores, threads)
+        return Survey(self.params, segments, offsets, self.scores)
+
+    def _compare(
+        self, segments: NDArray[np.void], offsets: NDArray[np.int64], scores: NDArray[np.float32], threads: int
+    ) -> None:
+        """The scores for which the frames on both sides must be known."""
+        columns = [scores[:, list(SCORES).index(name)] for name in BESIDE]
+        for column in columns:
+            column[:] = 0
+
+        views = views_of(self.recording)
+
+        def compare(start: int, stop: int) -> None:
+            compare_frames(segments, offsets, views, start, stop, np.empty(VOTES), *columns, self.cancelled)
+
+        ends = np.linspace(0, len(self.counts), threads + 1).astype(int).tolist()
+        with ThreadPoolExecutor(threads) as pool:
+            list(pool.map(compare, ends[:-1], ends[1:]))
+
+
+def _chunks(offsets: NDArray[np.int64]) -> list[tuple[int, int]]:
+    """(start, stop) of the frames of each chunk; there are enough for all cores, if there are enough frames."""
+    frames, beams = len(offsets) - 1, int(offsets[-1])
+    if frames < 1:
+        return []
+    count = max(-(-beams // CHUNK_BEAMS), min(4 * cores(), -(-beams // LEAST_BEAMS)), 1)
+    ends = np.searchsorted(offsets, np.linspace(0, beams, count + 1)[1:-1], side="right") - 1
+    ends = np.unique(np.concatenate(([0], ends, [frames])))
+    return list(zip(ends[:-1].tolist(), ends[1:].tolist(), strict=True))
