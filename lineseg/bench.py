@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 from .extractors import extract, trace
 from .kernel import keep
 from .params import Params
-from .region_growing import Memory, extract_lines, limits_of
+from .region_growing import Memory, extract_lines
+from .region_growing.limits import limits_of
 from .scan import Recording, Scan
 from .survey import cores, survey
 

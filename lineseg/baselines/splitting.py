@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from ..kernel import kernel
 from ..knobs import Knob
+from ..region_growing.acceptance import length_of
 from ..region_growing.checks import CHECKS, MIN_LENGTH, MIN_POINTS, NONE
-from ..region_growing.growth import length_of
 from ..region_growing.lines import append, drop, line_at
 from ..scan import Scan
 from ..total_least_squares import line_of, moments_of

@@ -11,9 +11,10 @@ from numpy.typing import NDArray
 
 from ..kernel import entry_kernel, kernel
 from ..region_growing import grow_lines
+from ..region_growing.limits import loosened
 from ..region_growing.lines import line_at
 from ..region_growing.overlap import resolve_overlaps
-from ..region_growing.points import Limits, Points
+from ..region_growing.points import Points
 from ..total_least_squares import signed_distance
 
 # A score must not follow the threshold that it judges: these stay what they are when merge_angle and max_gap change.
@@ -245,18 +246,7 @@ def probable_misses(lines, count, points, limits, dropped):
     itself, with P_min, L_min and the other limits as they are. The rows of `lines` behind `count` and of `dropped` are
     overwritten.
     """
-    looser = Limits(
-        LOOSER * limits.epsilon,
-        LOOSER * limits.delta,
-        limits.seed_points,
-        limits.min_points,
-        limits.min_length,
-        limits.max_dropout,
-        limits.max_gap,
-        limits.merge_angle,
-        limits.merge_rms,
-        limits.max_occluder,
-    )
+    looser = loosened(limits, LOOSER)
     found = 0
     start, stop = points.start, points.start + points.period
     if points.circle and count > 0:

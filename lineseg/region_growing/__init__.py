@@ -17,12 +17,14 @@ from ..params import Params
 from ..scan import Scan
 from ..total_least_squares import line_through
 from ..tracing.log import note, written
+from .acceptance import shortfall
 from .checks import LINE_DROPPED, LINE_KEPT, NONE
 from .endpoints import place_endpoints
 from .growth import grow
+from .limits import limits_of, unpacked
 from .lines import DROPPED, LINE, Dropping, append, drop
-from .overlap import resolve_overlaps, shortfall
-from .points import Limits, points_of, unpacked
+from .overlap import resolve_overlaps
+from .points import points_of
 from .seed import NOWHERE, find_seed
 
 
@@ -44,7 +46,7 @@ class Run(NamedTuple):
 def extract_lines(ranges, rays, range_min, range_max, circle, limits, xy, numbers, lines, dropped, log):
     """The four procedures in a row: (number of lines, of dropped candidates, of points, of valid beams).
 
-    ranges, rays, circle: of a `Scan`; limits: (10,) the fields of `Limits`; the rest is `Memory`.
+    ranges, rays, circle: of a `Scan`; limits: see `limits_of`; the rest is `Memory`.
     """
     limits = unpacked(limits)
     lines, dropped = lines.view(LINE), Dropping(dropped.view(DROPPED), numbers[3])
@@ -101,11 +103,6 @@ class Memory:
         self.lines = np.empty(beams + 1, LINE)
         self.dropped = np.empty(2 * beams + 1, DROPPED)
         self.arguments = self.xy, self.numbers, self.lines.view(np.float64), self.dropped.view(np.float64)
-
-
-def limits_of(params: Params) -> NDArray[np.float64]:
-    """`Params` as `extract_lines` takes them."""
-    return np.array([getattr(params, name) for name in Limits._fields], dtype=np.float64)
 
 
 def run(scan: Scan, params: Params, logged: bool = False) -> Run:

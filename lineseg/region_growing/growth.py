@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from ..kernel import inlined_kernel, kernel
-from ..total_least_squares import at, distance, is_nearer, line_through, project, signed_distance, with_point
+from ..total_least_squares import at, is_nearer, line_through, signed_distance, with_point
 from ..tracing.log import note
 from .checks import END, EPSILON, GROWTH_STOPPED, NONE, POINT_ADDED
 from .points import breach
@@ -63,11 +63,3 @@ def note_stop(points, first, last, here, edge, direction, scatter, limits, candi
         check, limit = EPSILON, limits.epsilon
         value = abs(signed_distance(line, points.x[there], points.y[there]))
     note(log, GROWTH_STOPPED, check, candidate, direction, (first, last), there, line, value, limit)
-
-
-@kernel
-def length_of(x, y, first, last, line):
-    """L_l: the distance between the two endpoints, projected on the line [m]."""
-    x1, y1 = project(line, x[first], y[first])
-    x2, y2 = project(line, x[last], y[last])
-    return distance(x1, y1, x2, y2)

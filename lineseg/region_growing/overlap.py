@@ -4,22 +4,20 @@ from __future__ import annotations
 
 import math
 
-from ..kernel import inlined_kernel, kernel
+from ..kernel import kernel
 from ..total_least_squares import least_squares_of, line_of, moments_of, signed_distance, squares_of
 from ..tracing.log import note, note_pair
+from .acceptance import shortfall
 from .checks import (
     LINE_DROPPED,
     LINES_KEPT_APART,
     LINES_MERGED,
     MERGE_ANGLE,
-    MIN_LENGTH,
-    MIN_POINTS,
     NEARER,
     NONE,
     OVERLAP_CUT,
     number_of,
 )
-from .growth import length_of
 from .lines import drop, line_at, remove
 
 MERGE_RMS = number_of("merge_rms")
@@ -182,16 +180,3 @@ def keep_sufficient(points, lines, count, dropped, limits, log):
         drop(dropped, first, last, check, value, limit)
         count = remove(lines, count, i)
     return count
-
-
-@inlined_kernel
-def shortfall(points, first, last, line, limits):
-    """(check, value, limit) of the requirement that a line fails, P_min first; check NONE if it meets both."""
-    n = last - first + 1
-    if n < limits.min_points or n < 2:
-        return MIN_POINTS, float(n), float(limits.min_points)
-    length = length_of(points.x, points.y, first, last, line)
-    # Not `<`: of points too close to have a direction, the length is NaN.
-    if not length >= limits.min_length:
-        return MIN_LENGTH, length, limits.min_length
-    return NONE, length, limits.min_length

@@ -16,38 +16,6 @@ from .occluder import look_past, square
 MAX_DROPOUT, MAX_GAP = number_of("max_dropout"), number_of("max_gap")
 
 
-class Limits(NamedTuple):
-    """`Params` as the kernels take them."""
-
-    epsilon: float
-    delta: float
-    seed_points: int
-    min_points: int
-    min_length: float
-    max_dropout: int
-    max_gap: float
-    merge_angle: float
-    merge_rms: float
-    max_occluder: float
-
-
-@kernel
-def unpacked(limits):
-    """`Limits` from an array of their fields."""
-    return Limits(
-        limits[0],
-        limits[1],
-        int(limits[2]),
-        int(limits[3]),
-        limits[4],
-        int(limits[5]),
-        limits[6],
-        limits[7],
-        limits[8],
-        limits[9],
-    )
-
-
 class Points(NamedTuple):
     """The valid points in scan order; kernels count in positions, and `beam` leads back to the beams.
 

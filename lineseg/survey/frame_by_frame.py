@@ -10,9 +10,9 @@ from ..extractors import method_of
 from ..kernel import entry_kernel, kernel
 from ..knobs import Thresholds
 from ..params import Params
-from ..region_growing import limits_of
+from ..region_growing.limits import limits_of, unpacked
 from ..region_growing.lines import DROPPED, LINE, Dropping
-from ..region_growing.points import points_of, unpacked
+from ..region_growing.points import points_of
 from ..scan import Recording, Scan
 from ..segment import Extraction
 from .stretch import Workspace

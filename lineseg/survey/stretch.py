@@ -10,9 +10,10 @@ from numpy.typing import NDArray
 from ..doubt import SCORES, Spans, score_frame, spans_of
 from ..kernel import entry_kernel, kernel
 from ..params import Params
-from ..region_growing import Memory, extract_lines, limits_of
+from ..region_growing import Memory, extract_lines
+from ..region_growing.limits import limits_of, unpacked
 from ..region_growing.lines import DROPPED, LINE, Dropping
-from ..region_growing.points import Points, unpacked
+from ..region_growing.points import Points
 from ..scan import Recording
 from .geometry import geometry_of
 from .result import SEGMENT, joined

@@ -7,7 +7,8 @@ import pytest
 
 from lineseg import Params, Recording, Scan, extract, open_recording, survey, trace
 from lineseg.bench import floor_pass
-from lineseg.region_growing import Memory, extract_lines, limits_of
+from lineseg.region_growing import Memory, extract_lines
+from lineseg.region_growing.limits import limits_of
 
 SAMPLES = Path(__file__).parents[2] / "sample_scans"
 

@@ -6,8 +6,8 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from lineseg import Params
-from lineseg.region_growing import limits_of
-from lineseg.region_growing.points import Points, unpacked
+from lineseg.region_growing.limits import limits_of, unpacked
+from lineseg.region_growing.points import Points
 from lineseg.region_growing.seed import is_edge
 
 bearings = st.lists(st.floats(-3.0, 3.0), min_size=3, max_size=3)

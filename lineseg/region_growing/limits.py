@@ -1,0 +1,43 @@
+"""`Params` as the kernels take them."""
+
+from __future__ import annotations
+
+from collections import namedtuple
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..kernel import kernel
+from ..params import Params
+
+# Each threshold of Params under its own name.
+Limits = namedtuple("Limits", Params.names())
+
+
+def limits_of(params: Params) -> NDArray[np.float64]:
+    """(len(Limits._fields),): what `unpacked` makes `Limits` of; numba takes an array faster than a tuple."""
+    return np.array([getattr(params, name) for name in Limits._fields], dtype=np.float64)
+
+
+def _from(kinds: tuple[type, ...], k: int = 0) -> Any:
+    """The kernel that gives a tuple of values[k], values[k + 1], … as numbers of these kinds."""
+    if not kinds:
+        return kernel(lambda values: ())
+    kind, others = kinds[0], _from(kinds[1:], k + 1)
+    return kernel(lambda values: (kind(values[k]), *others(values)))
+
+
+_numbers = _from(tuple(kind for _, kind, _ in Params.knobs()))
+
+
+@kernel
+def unpacked(limits):
+    """`Limits` from an array of their fields."""
+    return Limits(*_numbers(limits))
+
+
+@kernel
+def loosened(limits, times):
+    """Limits whose ε and δ are so many times as large."""
+    return Limits(times * limits.epsilon, times * limits.delta, *limits[2:])
