@@ -5,12 +5,23 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 Floats = NDArray[np.floating]
+
+
+class Fan(NamedTuple):
+    """Where the beams of a scan point; many scans of a recording share one.
+
+    bearings: (n,) [rad]; rays: (2, n), see `Scan.rays`; full_circle: see `Scan.full_circle`.
+    """
+
+    bearings: Floats
+    rays: NDArray[np.float64]
+    full_circle: bool
 
 
 @dataclass(frozen=True, eq=False)
@@ -21,6 +32,7 @@ class Scan:
     bearings: (n,) [rad], counter-clockwise from the x axis; they may fall from beam to beam.
     range_min, range_max: [m]; a beam is valid if its range is finite, > 0, ≥ range_min and < range_max.
     wall: (n,) int, the true wall of each beam, −1 for none; None where the truth is unknown.
+    known: what has been computed of these bearings already, by another scan that shares them.
     """
 
     ranges: Floats
@@ -30,6 +42,7 @@ class Scan:
     stamp: float = 0.0
     frame_id: str = ""
     wall: NDArray[np.integer] | None = None
+    known: Fan | None = field(default=None, repr=False)
 
     def __post_init__(self) -> None:
         for name, array in (("ranges", self.ranges), ("bearings", self.bearings)):
@@ -58,11 +71,19 @@ class Scan:
         return (self.ranges > 0) & (self.ranges >= self.range_min) & (self.ranges < self.range_max)
 
     @cached_property
-    def rays(self) -> NDArray[np.float64]:
-        """(2, n): unit vectors along the beams; read-only, for numba compiles a kernel once more for the other kind."""
+    def fan(self) -> Fan:
+        """Where the beams point."""
+        # `replace` may have given the scan other bearings.
+        if self.known is not None and self.known.bearings is self.bearings:
+            return self.known
         rays = np.array((np.cos(self.bearings), np.sin(self.bearings)))
         rays.flags.writeable = False
-        return rays
+        return Fan(self.bearings, rays, _is_full_circle(self.bearings))
+
+    @property
+    def rays(self) -> NDArray[np.float64]:
+        """(2, n): unit vectors along the beams; read-only, for numba compiles a kernel once more for the other kind."""
+        return self.fan.rays
 
     @cached_property
     def xy(self) -> NDArray[np.float64]:
@@ -70,13 +91,14 @@ class Scan:
         ranges = np.where(self.valid, self.ranges, np.nan).astype(np.float64)
         return (ranges * self.rays).T
 
-    @cached_property
+    @property
     def full_circle(self) -> bool:
         """Whether the last beam is as near to the first as beams are to each other: such a scan has no first beam."""
-        if len(self) < 3:
-            return False
-        steps = np.abs(np.diff(self.bearings))
-        return bool(2 * np.pi - steps.sum() < 1.5 * np.median(steps))
+        return self.fan.full_circle
+
+    def opened(self) -> Scan:
+        """The same scan; of a full circle too, its first beam is the first and its last the last."""
+        return replace(self, known=self.fan._replace(full_circle=False))
 
 
 @dataclass(frozen=True)
@@ -165,20 +187,18 @@ class Recording:
         frame %= len(self)
         beams = slice(self.offsets[frame], self.offsets[frame + 1])
         fields = {} if self.wall is None else {"wall": self.wall[beams]}
-        scan = Scan(
+        # Most scans of a recording share their geometry: its sines and cosines are computed once.
+        known = None if self.bearings is not None else self._fan(frame)
+        return Scan(
             self.ranges[beams],
-            self._bearings(frame),
+            self.bearings[beams] if known is None else known.bearings,
             float(self.range_min[frame]),
             float(self.range_max[frame]),
             float(self.stamps[frame]),
             self.frame_ids[frame],
+            known=known,
             **fields,
         )
-        if self.bearings is None:
-            # Most scans of a recording share their geometry: its sines and cosines are computed once.
-            _, rays, full_circle = self._geometry(frame)
-            vars(scan).update(rays=rays, full_circle=full_circle)
-        return scan
 
     def only(self, frames: NDArray[np.integer]) -> Recording:
         """The frames of these numbers, in this order."""
@@ -199,14 +219,9 @@ class Recording:
             **{name: getattr(self, name)[frames] for name in of_frames},
         )
 
-    def _bearings(self, frame: int) -> Floats:
-        if self.bearings is not None:
-            return self.bearings[self.offsets[frame] : self.offsets[frame + 1]]
-        return self._geometry(frame)[0]
-
-    def _geometry(self, frame: int) -> tuple[Floats, Floats, bool]:
+    def _fan(self, frame: int) -> Fan:
         beams = int(self.offsets[frame + 1] - self.offsets[frame])
-        return regular_geometry(float(self.angle_min[frame]), float(self.angle_increment[frame]), beams)
+        return regular_fan(float(self.angle_min[frame]), float(self.angle_increment[frame]), beams)
 
     def __iter__(self) -> Iterator[Scan]:
         return (self[frame] for frame in range(len(self)))
@@ -219,11 +234,18 @@ class Recording:
 
 
 @lru_cache(maxsize=64)
-def regular_geometry(angle_min: float, angle_increment: float, beams: int) -> tuple[Floats, Floats, bool]:
-    """(bearings, rays, full_circle) of beams `angle_increment` apart, read-only."""
-    scan = Scan.regular(np.empty(beams), angle_min, angle_increment)
-    scan.bearings.flags.writeable = False
-    return scan.bearings, scan.rays, scan.full_circle
+def regular_fan(angle_min: float, angle_increment: float, beams: int) -> Fan:
+    """The fan of beams that are `angle_increment` apart, read-only."""
+    fan = Scan.regular(np.empty(beams), angle_min, angle_increment).fan
+    fan.bearings.flags.writeable = False
+    return fan
+
+
+def _is_full_circle(bearings: Floats) -> bool:
+    if len(bearings) < 3:
+        return False
+    steps = np.abs(np.diff(bearings))
+    return bool(2 * np.pi - steps.sum() < 1.5 * np.median(steps))
 
 
 def _increment(bearings: Floats) -> float:

@@ -51,9 +51,7 @@ def misses(scan: Scan, params: Params | None = None) -> tuple[Miss, ...]:
         # What lines pass behind has been taken away before.
         beams = run[~traced.looked_past[run]]
         part = Scan(scan.ranges[beams], np.unwrap(scan.bearings[beams]), scan.range_min, scan.range_max)
-        # Of a whole turn too, the run ends where it ends.
-        vars(part)["full_circle"] = False
-        lines = extract(part, looser).segments
+        lines = extract(part.opened(), looser).segments
         found += [_miss(traced, beams[line.first : line.last + 1], line.points, line.length) for line in lines]
     return tuple(found)
 

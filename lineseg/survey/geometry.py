@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..kernel import entry_kernel, kernel
-from ..scan import Recording, regular_geometry
+from ..scan import Recording, regular_fan
 
 
 class Geometry(NamedTuple):
@@ -34,7 +34,7 @@ def geometry_of(recording: Recording, start: int, stop: int) -> Geometry:
     places = np.concatenate(([0], np.cumsum(lengths[new])))
     if recording.bearings is None and len(frames) == 1:
         numbers = float(recording.angle_min[start]), float(recording.angle_increment[start]), int(lengths[0])
-        bearings, rays, circle = regular_geometry(*numbers)
+        bearings, rays, circle = regular_fan(*numbers)
         circles = np.full(stop - start, circle)
         return Geometry(bearings.astype(np.float64), rays.flatten().astype(np.float64), places[which], circles)
     bearings = _bearings(recording, frames, places)
