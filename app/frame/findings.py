@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from lineseg import EXTRACTORS, Decision, Extraction, Recording, Scan, Thresholds, Trace
 from lineseg.knobs import Knob
 from lineseg.region_growing.checks import number_of
+from lineseg.region_growing.prediction import predicted_ranges
 from lineseg.region_growing.trace import GrowthTrace
 
 BINS = 24
@@ -138,10 +139,8 @@ def _seed_distances(found: Findings) -> tuple[NDArray, NDArray]:
     beams = [found.trace.beams(first, last) for first, last in found.seeds.values()]
     a, b, c = (np.repeat(rows["line"][name], [len(window) for window in beams]) for name in "abc")
     inside = np.concatenate(beams)
-    xy, bearings, ranges = found.scan.xy[inside], found.scan.bearings[inside], found.scan.ranges[inside]
-    with np.errstate(divide="ignore"):
-        predicted = -c / (a * np.cos(bearings) + b * np.sin(bearings))
-    return np.abs(a * xy[:, 0] + b * xy[:, 1] + c), np.abs(ranges - predicted)
+    xy, predicted = found.scan.xy[inside], predicted_ranges((a, b, c), found.scan.rays[:, inside])
+    return np.abs(a * xy[:, 0] + b * xy[:, 1] + c), np.abs(found.scan.ranges[inside] - predicted)
 
 
 def _refused(trace: GrowthTrace, check: str) -> NDArray:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,6 +9,7 @@ from numpy.typing import NDArray
 
 from lineseg import Decision, Scan
 from lineseg.colours import SEGMENTS, segment_colours
+from lineseg.region_growing.prediction import predicted_ranges
 
 from ..frame.findings import Findings
 from .palette import Colours, Theme
@@ -17,6 +17,8 @@ from .shapes import Lines, Points, joined, lines_between, points_at
 
 Line = tuple[float, float, float]
 NO_XY = np.empty((0, 2))
+# A beam along the line meets it nowhere in practice, farther away than this [m].
+FAR = 1e6
 
 
 @dataclass(frozen=True, eq=False)
@@ -112,14 +114,12 @@ def band_width(found: Findings, decision: Decision) -> float:
 
 def prediction(scan: Scan, decision: Decision, theme: Theme) -> tuple[Points, Lines]:
     """P′, where the beam meets the line, the beam, and the distance that was compared."""
-    point, bearing = scan.xy[decision.beam], float(scan.bearings[decision.beam])
-    toward = np.array([math.cos(bearing), math.sin(bearing)])
-    a, b, c = decision.line
-    slope = a * toward[0] + b * toward[1]
-    predicted = -c / slope * toward if abs(slope) > 1e-6 and -c / slope > 0 else np.full(2, np.nan)
+    point, toward = scan.xy[decision.beam], scan.rays[:, decision.beam]
+    reach = float(predicted_ranges(decision.line, toward))
+    predicted = reach * toward if 0 < reach < FAR else np.full(2, np.nan)
     near = np.linalg.norm(predicted - point) < 5.0
-    reach = predicted if near and np.linalg.norm(predicted) > np.linalg.norm(point) else point
-    beam = lines_between((0.0, 0.0), reach, theme.faint)
+    end = predicted if near and np.linalg.norm(predicted) > np.linalg.norm(point) else point
+    beam = lines_between((0.0, 0.0), end, theme.faint)
     other_end = predicted if decision.check == "delta" else foot(point, decision.line)
     measured = lines_between(point, other_end, theme.candidate)
     return points_at(predicted if near else NO_XY, theme.strong), joined(beam, measured)

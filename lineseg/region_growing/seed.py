@@ -9,6 +9,7 @@ from ..total_least_squares import NO_SCATTER, at, halved, line_through, scatter_
 from ..tracing.log import note
 from .checks import DELTA, EPSILON, NONE, SEED_FOUND, SEED_REJECTED
 from .points import breach
+from .prediction import predicted_distance
 
 NOWHERE = (0.0, 0.0, 0.0)
 
@@ -108,20 +109,10 @@ def note_refusal(points, first, last, scatter, limits, candidate, log):
     for k in range(first, last + 1):
         too_far, off_line = fails(points.x[k], points.y[k], test)
         if too_far:
-            value = predicted_distance(points, k, line)
+            value = predicted_distance(points.x[k], points.y[k], line)
             note(log, SEED_REJECTED, DELTA, candidate, 0, span, k, line, value, limits.delta)
             return
         if off_line:
             value = abs(signed_distance(line, points.x[k], points.y[k]))
             note(log, SEED_REJECTED, EPSILON, candidate, 0, span, k, line, value, limits.epsilon)
             return
-
-
-@kernel
-def predicted_distance(points, k, line):
-    """|ρ − ρ′| of Eqs. 4–6 [m]; infinite where the beam is parallel to the line."""
-    a, b, _ = line
-    x, y = points.x[k], points.y[k]
-    along = abs(a * x + b * y)
-    d = abs(signed_distance(line, x, y))
-    return d * math.hypot(x, y) / along if along > 0.0 else math.inf
