@@ -187,11 +187,15 @@ class Recording:
         frame %= len(self)
         beams = slice(self.offsets[frame], self.offsets[frame + 1])
         fields = {} if self.wall is None else {"wall": self.wall[beams]}
-        # Most scans of a recording share their geometry: its sines and cosines are computed once.
-        known = None if self.bearings is not None else self._fan(frame)
+        if self.bearings is not None:
+            bearings, known = self.bearings[beams], None
+        else:
+            # Most scans of a recording share their geometry: its sines and cosines are computed once.
+            known = self._fan(frame)
+            bearings = known.bearings
         return Scan(
             self.ranges[beams],
-            self.bearings[beams] if known is None else known.bearings,
+            bearings,
             float(self.range_min[frame]),
             float(self.range_max[frame]),
             float(self.stamps[frame]),
