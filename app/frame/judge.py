@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +14,7 @@ from lineseg.truth.labels import Labels
 from lineseg.writers.finite import finite_or_none
 
 from ..shelf.label_files import Known
+from ..told import drawn as told
 from .findings import Findings
 
 # Of a longer recording so many frames are judged, evenly spread: each is extracted once more for this.
@@ -35,17 +36,20 @@ class Reference:
     known: what people say of the recording, if anything can be said.
     """
 
-    available: list[str]
-    chosen: str
+    available: list[told.Reference]
+    chosen: told.Reference | Literal[""]
     known: Known | None
 
     @classmethod
     def of(cls, wanted: str, recording: Recording, known: Known | None) -> Reference:
         """The wanted one, else the one that there is."""
-        there = {"labels": known is not None and bool(known.labelled), "wall": recording.wall is not None}
-        available = [name for name, is_there in there.items() if is_there]
-        chosen = wanted if wanted in available else next(iter(available), "")
-        return cls(available, chosen, known)
+        available: list[told.Reference] = []
+        if known is not None and known.labelled:
+            available.append("labels")
+        if recording.wall is not None:
+            available.append("wall")
+        fitting = [name for name in available if name == wanted] or available
+        return cls(available, fitting[0] if fitting else "", known)
 
     @property
     def said(self) -> Known | None:
@@ -83,18 +87,17 @@ def judged_recording(
     return Agreement.of_all(each for each in found if each is not None), stride
 
 
-def as_json(agreement: Agreement) -> dict[str, float | None]:
+def agreement_told(agreement: Agreement) -> told.Agreement:
     """The numbers of the paper's Table 4 and more; null where one is not defined."""
-    numbers = {
-        "trueLines": agreement.true_lines,
-        "segments": agreement.segments,
-        "matches": agreement.matches,
-        "trueRate": agreement.true_rate,
-        "falseRate": agreement.false_rate,
-        "completeness": agreement.completeness,
-        "splits": agreement.splits,
-        "merges": agreement.merges,
-        "endpointMedian": agreement.endpoint_error(50),
-        "endpointMost": agreement.endpoint_error(95),
+    return {
+        "trueLines": finite_or_none(agreement.true_lines),
+        "segments": finite_or_none(agreement.segments),
+        "matches": finite_or_none(agreement.matches),
+        "trueRate": finite_or_none(agreement.true_rate),
+        "falseRate": finite_or_none(agreement.false_rate),
+        "completeness": finite_or_none(agreement.completeness),
+        "splits": finite_or_none(agreement.splits),
+        "merges": finite_or_none(agreement.merges),
+        "endpointMedian": finite_or_none(agreement.endpoint_error(50)),
+        "endpointMost": finite_or_none(agreement.endpoint_error(95)),
     }
-    return {name: finite_or_none(value) for name, value in numbers.items()}

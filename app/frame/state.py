@@ -3,20 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import asdict
-from typing import Any
 
 import numpy as np
 
-from lineseg import Decision, FrameLabels, Recording, TrueLine, difference
+from lineseg import Decision, FrameLabels, Recording, Segment, TrueLine, difference
+from lineseg.scan import PackAbout
 from lineseg.writers.finite import finite_or_none
 
 from ..live.ring import LiveRecording, first_of
 from ..shelf.label_files import Known
+from ..told import drawn as told
 from ..view import View
-from ..wire import segments_json, topics_json
-from .findings import Findings
+from .findings import Findings, Histogram
 from .geometry import Bounds, extent_of
-from .judge import Judged, Reference, as_json
+from .judge import Judged, Reference, agreement_told
 
 
 def state_of(
@@ -28,7 +28,7 @@ def state_of(
     reference: Reference,
     pinned: Findings | None = None,
     judged: Judged | None = None,
-) -> dict[str, Any]:
+) -> told.Scene:
     """Everything but the marks, which are long and change with the trace only, and how long the drawing took."""
     scan, trace = found.scan, found.trace
     chosen = trace[view.step] if view.step is not None else None
@@ -37,9 +37,9 @@ def state_of(
         "recording": view.recording,
         "label": label,
         "format": recording.format,
-        "pack": asdict(recording.pack) if recording.pack is not None else None,
+        "pack": _pack(recording.pack) if recording.pack is not None else None,
         "topic": recording.topic,
-        "topics": topics_json(recording),
+        "topics": [{"name": topic.name, "scans": topic.scans} for topic in recording.topics],
         "frame": view.frame,
         "frames": len(recording),
         "live": view.live if isinstance(recording, LiveRecording) else None,
@@ -62,13 +62,13 @@ def state_of(
         "difference": difference(pinned.extraction, found.extraction).counts if pinned is not None else None,
         "extent": extent_of(scan, bounds),
         "bounds": bounds,
-        "segments": segments_json(found.extraction),
+        "segments": [_segment(segment) for segment in found.extraction.segments],
         "dropped": [_dropped(found, drop) for drop in found.drops],
-        "decision": _decision(chosen),
-        "explanation": _explanation(found, view.selected),
-        "histograms": {name: asdict(histogram) for name, histogram in found.histograms.items()},
+        "decision": _decision(chosen) if chosen is not None else None,
+        "explanation": _explanation(found, view.selected) if view.selected is not None else None,
+        "histograms": {name: _histogram(each) for name, each in found.histograms.items()},
         "truth": recording.walls is not None and recording.poses is not None,
-        "agreement": as_json(judged.matching.agreement) if judged is not None else None,
+        "agreement": agreement_told(judged.matching.agreement) if judged is not None else None,
         "labels": _labels(reference.known, view.frame) if reference.known is not None else None,
         "reference": view.reference,
         "references": reference.available,
@@ -77,7 +77,30 @@ def state_of(
     }
 
 
-def _dropped(found: Findings, drop: Decision) -> dict[str, Any]:
+def _pack(about: PackAbout) -> told.Pack:
+    return {
+        "recording": about.recording,
+        "frame": about.frame,
+        "method": about.method,
+        "params": about.params,
+        "note": about.note,
+    }
+
+
+def _segment(segment: Segment) -> told.Segment:
+    return {
+        "start": segment.start,
+        "end": segment.end,
+        "first": segment.first,
+        "last": segment.last,
+        "line": segment.line,
+        "points": segment.points,
+        "length": segment.length,
+        "rms": segment.rms,
+    }
+
+
+def _dropped(found: Findings, drop: Decision) -> told.Dropped:
     start, end = found.ends(drop)
     across = end - start
     length = abs(drop.line[0] * across[1] - drop.line[1] * across[0])
@@ -93,31 +116,54 @@ def _dropped(found: Findings, drop: Decision) -> dict[str, Any]:
     }
 
 
-def _decision(decision: Decision | None) -> dict[str, Any] | None:
-    if decision is None:
-        return None
-    names = ("index", "kind", "phase", "text", "beam", "first", "last", "check", "direction", "points", "candidate")
-    told = {name: getattr(decision, name) for name in names}
-    if decision.kind == "line kept":
-        # It passed every check; the last of them was its length.
-        told["check"] = "min_length"
-    return told | {
+def _decision(decision: Decision) -> told.Decision:
+    a, b, c = decision.line
+    return {
+        "index": decision.index,
+        "kind": decision.kind,
+        "phase": decision.phase,
+        "text": decision.text,
+        "beam": decision.beam,
+        "first": decision.first,
+        "last": decision.last,
+        # What was kept passed every check; the last of them was its length.
+        "check": "min_length" if decision.kind == "line kept" else decision.check,
+        "direction": decision.direction,
+        "points": decision.points,
+        "candidate": decision.candidate,
         "value": finite_or_none(decision.value),
         "limit": finite_or_none(decision.limit),
-        "line": [finite_or_none(value) for value in decision.line],
+        "line": (finite_or_none(a), finite_or_none(b), finite_or_none(c)),
     }
 
 
-def _explanation(found: Findings, beam: int | None) -> dict[str, Any] | None:
-    if beam is None:
-        return None
-    told = asdict(found.trace.explain(beam))
-    told["at"] = found.scan.xy[beam].tolist() if found.scan.valid[beam] else None
-    return told | {name: finite_or_none(told[name]) for name in ("value", "limit", "margin")}
+def _explanation(found: Findings, beam: int) -> told.Explanation:
+    explained = found.trace.explain(beam)
+    return {
+        "beam": explained.beam,
+        "text": explained.text,
+        "segment": explained.segment,
+        "check": explained.check,
+        "value": finite_or_none(explained.value),
+        "limit": finite_or_none(explained.limit),
+        "margin": finite_or_none(explained.margin),
+        "at": found.scan.xy[beam].tolist() if found.scan.valid[beam] else None,
+    }
 
 
-def _labels(known: Known, frame: int) -> dict[str, Any]:
-    return labels_json(known.of(frame)) | {
+def _histogram(counted: Histogram) -> told.Histogram:
+    return {
+        "low": counted.low,
+        "high": counted.high,
+        "log": counted.log,
+        "passed": counted.passed,
+        "failed": counted.failed,
+    }
+
+
+def _labels(known: Known, frame: int) -> told.Labels:
+    return {
+        **labels_told(known.of(frame)),
         "file": known.path.name,
         "folder": str(known.path.parent),
         "apart": known.apart,
@@ -126,11 +172,11 @@ def _labels(known: Known, frame: int) -> dict[str, Any]:
     }
 
 
-def labels_json(said: FrameLabels) -> dict[str, Any]:
+def labels_told(said: FrameLabels) -> told.Labelled:
     """What people say of a frame."""
     lines = None if said.lines is None else [_true_line(line) for line in said.lines]
     return {"revision": said.revision, "lines": lines, "tags": said.tags, "note": said.note}
 
 
-def _true_line(line: TrueLine) -> dict[str, Any]:
+def _true_line(line: TrueLine) -> told.TrueLine:
     return {"first": line.first, "last": line.last, "start": line.start, "end": line.end}

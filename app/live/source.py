@@ -13,7 +13,7 @@ import numpy as np
 from lineseg import Thresholds
 from lineseg.readers.laser_scan import LaserScan
 
-from ..wire import Connection, LiveStatus
+from ..told.messages import Connection, LiveStatus
 from .ring import Ring
 
 WINDOW = 3.0

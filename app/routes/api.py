@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import tempfile
 from pathlib import Path
-from typing import Any
 
 from fastapi import FastAPI, Request
 from fastapi.responses import PlainTextResponse, Response
@@ -18,6 +17,7 @@ from ..session.sessions import Sessions
 from ..shelf.lessons import Lessons, lesson_files, read_lessons
 from ..shelf.library import Library
 from ..shelf.uploads import TooLargeError, TooManyError
+from ..told.answers import ThresholdSweep
 from ..tuning.sweep import sweep
 from .attachment import attachment
 from .body import body_of
@@ -69,7 +69,7 @@ def add_api(app: FastAPI, library: Library, sessions: Sessions) -> None:
         return read_lessons(lesson_files())
 
     @app.get("/api/sweep")
-    def sweep_threshold(session: str = "", name: str = "epsilon") -> dict[str, Any]:
+    def sweep_threshold(session: str = "", name: str = "epsilon") -> ThresholdSweep:
         shown = sessions.shown(session)
         known = [field for field, _, _ in shown.view.params.knobs()]
         if name not in known:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Annotated
 
 from fastapi import FastAPI, Request
 from fastapi.responses import JSONResponse, Response
@@ -12,9 +12,10 @@ from starlette.exceptions import HTTPException
 
 from lineseg import ConflictError, FrameLabels, Recording, Scan, TrueLine
 
-from ..frame.state import labels_json
+from ..frame.state import labels_told
 from ..shelf.label_files import LIVE, LabelFiles
 from ..shelf.library import Library
+from ..told.answers import Brief, LabelsOverview, Sweep
 from ..wire import Count, Message, Name, Number, RecordingId, sentence
 from .body import body_of
 
@@ -22,7 +23,7 @@ LONGEST = 1 << 20
 Place = tuple[Number, Number]
 
 
-class Line(Message):
+class SaidLine(Message):
     """Without its ends they are those of the points."""
 
     first: Count
@@ -38,7 +39,7 @@ class Said(Message):
     topic: Name | None = None
     frame: Count
     revision: Count
-    lines: Annotated[list[Line], Field(max_length=5000)] | None
+    lines: Annotated[list[SaidLine], Field(max_length=5000)] | None
     tags: Annotated[list[Annotated[str, Field(min_length=1, max_length=60)]], Field(max_length=100)]
     note: Annotated[str, Field(max_length=20_000)]
 
@@ -47,16 +48,16 @@ def add_labels(app: FastAPI, library: Library, files: LabelFiles) -> None:
     """Routes of /api/labels."""
 
     @app.get("/api/labels")
-    def overview(recording: str = "", topic: str | None = None) -> dict[str, Any]:
+    def overview(recording: str = "", topic: str | None = None) -> LabelsOverview:
         known = files.known(recording, _open(library, recording, topic))
         if known is None:
             raise HTTPException(400, LIVE)
         return {"stamp": known.stamp, "frames": {frame: _brief(said) for frame, said in known.labels.items()}}
 
     @app.get("/api/labels/points")
-    def points(frame: int, recording: str = "", topic: str | None = None) -> dict[str, Any]:
+    def points(frame: int, recording: str = "", topic: str | None = None) -> Sweep:
         scan = _scan(_open(library, recording, topic), frame)
-        xy = [[round(float(x), 4), round(float(y), 4)] if x == x else None for x, y in scan.xy]
+        xy = [(round(float(x), 4), round(float(y), 4)) if x == x else None for x, y in scan.xy]
         return {"points": xy, "fullCircle": scan.full_circle}
 
     @app.put("/api/labels")
@@ -69,8 +70,9 @@ def add_labels(app: FastAPI, library: Library, files: LabelFiles) -> None:
         return await run_in_threadpool(_save, library, files, said)
 
 
-def _brief(said: FrameLabels) -> dict[str, Any]:
-    return labels_json(said) | {"lines": None if said.lines is None else len(said.lines)}
+def _brief(said: FrameLabels) -> Brief:
+    lines = None if said.lines is None else len(said.lines)
+    return {"revision": said.revision, "lines": lines, "tags": said.tags, "note": said.note}
 
 
 def _save(library: Library, files: LabelFiles, said: Said) -> Response:
@@ -79,12 +81,12 @@ def _save(library: Library, files: LabelFiles, said: Said) -> Response:
         labels = _labels(said, _scan(recording, said.frame))
         saved = files.save(said.recording, recording, said.frame, labels)
     except ConflictError as error:
-        return JSONResponse({"message": str(error), "theirs": labels_json(error.theirs)}, status_code=409)
+        return JSONResponse({"message": str(error), "theirs": labels_told(error.theirs)}, status_code=409)
     except ValueError as error:
         raise HTTPException(400, str(error)) from None
     except OSError as error:
         raise HTTPException(507, f"{error.filename or 'the labels'} cannot be written: {error.strerror}.") from None
-    return JSONResponse(labels_json(saved))
+    return JSONResponse(labels_told(saved))
 
 
 def _labels(said: Said, scan: Scan) -> FrameLabels:
@@ -92,7 +94,7 @@ def _labels(said: Said, scan: Scan) -> FrameLabels:
     return FrameLabels(lines, tuple(said.tags), said.note, said.revision)
 
 
-def _line(line: Line, scan: Scan) -> TrueLine:
+def _line(line: SaidLine, scan: Scan) -> TrueLine:
     if line.start is None or line.end is None:
         return TrueLine.over(scan, line.first, line.last)
     return TrueLine(line.first, line.last, line.start, line.end)

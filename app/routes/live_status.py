@@ -10,7 +10,7 @@ from starlette.websockets import WebSocketDisconnect
 
 from ..live.hub import Live
 from ..session.session import Session
-from ..wire import LiveStatus
+from ..told.messages import LiveStatus
 
 EVERY = 0.25
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from fastapi import FastAPI, Request
 from starlette.concurrency import run_in_threadpool
@@ -13,6 +11,7 @@ from lineseg.sweep import MEASURES
 from lineseg.sweep.table import Table, read_table
 from lineseg.writers.finite import finite_or_none
 
+from ..told.answers import SweepTable
 from .body import body_of
 
 LARGEST = 64 * 1024 * 1024
@@ -22,7 +21,7 @@ def add_sweep_table(app: FastAPI) -> None:
     """The route /api/sweep-table, which turns a file into what the map is drawn from; nothing of it is kept."""
 
     @app.post("/api/sweep-table")
-    async def sweep_table(request: Request, name: str = "sweep.csv") -> dict[str, Any]:
+    async def sweep_table(request: Request, name: str = "sweep.csv") -> SweepTable:
         content = await body_of(request, LARGEST, "the table of a sweep has")
         try:
             return columns_of(await run_in_threadpool(read_table, content, name[:120]))
@@ -30,7 +29,7 @@ def add_sweep_table(app: FastAPI) -> None:
             raise HTTPException(400, str(error)) from None
 
 
-def columns_of(table: Table) -> dict[str, Any]:
+def columns_of(table: Table) -> SweepTable:
     """axes: the values of each swept threshold; file: of each row its place in files; columns: of each row."""
     files, file = np.unique(table.files, return_inverse=True)
     known = [name for name in MEASURES if np.isfinite(table.numbers[name]).any()]

@@ -20,22 +20,9 @@ from lineseg import EXTRACTORS, __version__
 from ..session.session import Session
 from ..session.sessions import Sessions, TooManySessionsError
 from ..shelf.library import Library
+from ..told.messages import Failure, MethodEntry, Recordings, ScoreEntry, Surveyed, Welcome
 from ..view import STRIP_SCORES, View
-from ..wire import (
-    BadMessageError,
-    Cancel,
-    Change,
-    Close,
-    Failure,
-    Follow,
-    Hello,
-    MethodEntry,
-    Recordings,
-    ScoreEntry,
-    Surveyed,
-    Welcome,
-    parse,
-)
+from ..wire import BadMessageError, Cancel, Change, Close, Follow, Hello, parse
 from .live_status import tell_live
 from .viser_relay import client_page, relay
 

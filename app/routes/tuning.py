@@ -9,7 +9,7 @@ import json
 import logging
 import math
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import asdict
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -27,6 +27,8 @@ from lineseg.tuning import Objective, RecordingBlocks, Trial, Tuning
 
 from ..session.sessions import Sessions
 from ..session.strip import step_back
+from ..told.answers import Trial as TrialTold
+from ..told.answers import Tuned
 from ..tuning.sensitivity import Subject, curves, relief
 from ..wire import Message, Name, Number, sentence
 
@@ -40,13 +42,13 @@ log = logging.getLogger(__name__)
 Values = Annotated[dict[Name, int | Number], Field(max_length=64)]
 
 
-class Curves(Message):
+class CurvesWish(Message):
     type: Literal["curves"]
     job: int
     params: Values
 
 
-class Map(Message):
+class MapWish(Message):
     type: Literal["map"]
     job: int
     params: Values
@@ -55,7 +57,7 @@ class Map(Message):
     measure: Name
 
 
-class Auto(Message):
+class AutoWish(Message):
     """anew: forget the trials of former runs."""
 
     type: Literal["auto"]
@@ -67,14 +69,14 @@ class Auto(Message):
     anew: bool = False
 
 
-class Stop(Message):
+class StopWish(Message):
     type: Literal["stop"]
     what: Literal["curves", "map", "auto"]
 
 
-Wish = Curves | Map | Auto | Stop
+Wish = CurvesWish | MapWish | AutoWish | StopWish
 _WISH: TypeAdapter[Wish] = TypeAdapter(Annotated[Wish, Field(discriminator="type")])
-Answers = Iterator[dict[str, Any]]
+Answers = Iterator[Mapping[str, object]]
 
 
 class Slot:
@@ -111,7 +113,7 @@ class Slot:
         try:
             with pool() as workers:
                 for answer in work(workers):
-                    self._send(about | answer)
+                    self._send({**about, **answer})
             self._send(about | {"done": True})
         except Cancelled:
             self._send(about | {"done": True, "stopped": True})
@@ -149,7 +151,7 @@ def _obey(text: str, slots: dict[str, Slot], sessions: Sessions, session: str, f
     """Begin what is wished, or one sentence why not."""
     try:
         wish = _WISH.validate_json(text)
-        if isinstance(wish, Stop):
+        if isinstance(wish, StopWish):
             slots[wish.what].stop()
         else:
             shown = sessions.shown(session)
@@ -166,20 +168,20 @@ def _obey(text: str, slots: dict[str, Slot], sessions: Sessions, session: str, f
     return None
 
 
-def _work_of(wish: Curves | Map | Auto, subject: Subject, folder: Path) -> Callable[[Pool], Answers]:
+def _work_of(wish: CurvesWish | MapWish | AutoWish, subject: Subject, folder: Path) -> Callable[[Pool], Answers]:
     match wish:
-        case Curves():
+        case CurvesWish():
             names = [name for name, _, _ in Params.knobs()]
             return lambda workers: curves(subject, workers, names)
-        case Map(x=x, y=y, measure=measure):
+        case MapWish(x=x, y=y, measure=measure):
             if x == y or measure not in MEASURES or not {x, y} <= {name for name, _, _ in Params.knobs()}:
                 raise ValueError(f"a map needs two thresholds and one of {', '.join(MEASURES)}")
             return lambda workers: relief(subject, workers, x, y, measure)
-        case Auto():
+        case AutoWish():
             return lambda workers: search(subject, workers, wish, folder)
 
 
-def search(subject: Subject, workers: Pool, wish: Auto, folder: Path) -> Answers:
+def search(subject: Subject, workers: Pool, wish: AutoWish, folder: Path) -> Iterator[Tuned]:
     """Trials as they come, now and then what matters and what was gained; stopping ends with a verdict too."""
     objective = Objective(wish.objective)
     blocks = RecordingBlocks(subject.recording, workers, objective.kind == "label-free", MOST_FRAMES)
@@ -203,7 +205,7 @@ def search(subject: Subject, workers: Pool, wish: Auto, folder: Path) -> Answers
     yield _judged(tuning)
 
 
-def study_path(folder: Path, blocks: RecordingBlocks, wish: Auto) -> Path:
+def study_path(folder: Path, blocks: RecordingBlocks, wish: AutoWish) -> Path:
     """A file of its own for each recording, objective, and set of thresholds with what the others are."""
     fixed = {name: value for name, value in wish.params.items() if name not in wish.thresholds}
     about = json.dumps([blocks.name, list(blocks.frames), wish.objective, wish.thresholds, fixed], sort_keys=True)
@@ -211,12 +213,14 @@ def study_path(folder: Path, blocks: RecordingBlocks, wish: Auto) -> Path:
     return folder / f"{hashlib.sha256(about.encode()).hexdigest()[:16]}.db"
 
 
-def _trial(trial: Trial) -> dict[str, Any]:
+def _trial(trial: Trial) -> TrialTold:
     score = None if math.isnan(trial.score) else round(trial.score, 5)
     return {"number": trial.number, "params": asdict(trial.params), "score": score}
 
 
-def _judged(tuning: Tuning) -> dict[str, Any]:
+def _judged(tuning: Tuning) -> Tuned:
     verdict = tuning.verdict()
-    told = {"params": asdict(verdict.params), "text": verdict.text, "gained": verdict.gained}
-    return {"importance": tuning.importance(), "verdict": told}
+    return {
+        "importance": tuning.importance(),
+        "verdict": {"params": asdict(verdict.params), "text": verdict.text, "gained": verdict.gained},
+    }

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import Any
 
 from lineseg import Recording
 
@@ -16,6 +15,7 @@ from ..live.ring import LiveRecording
 from ..scene.picture import Picture, picture
 from ..shelf.label_files import LabelFiles
 from ..shelf.library import Library
+from ..told.drawn import Scene
 from ..view import View
 
 FRAMES_KEPT = 32
@@ -28,7 +28,7 @@ class Content:
     view: View
     found: Findings
     picture: Picture
-    state: dict[str, Any]
+    state: Scene
 
 
 class Composer:

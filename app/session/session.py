@@ -21,8 +21,9 @@ from ..live.ring import LiveRecording
 from ..scene.viser_scene import ViserScene
 from ..shelf.label_files import LabelFiles
 from ..shelf.library import Library
+from ..told.drawn import DrawnState, Timings
+from ..told.messages import Drawn, Failure, Loading, Traced
 from ..view import View
-from ..wire import Drawn, Failure, Loading, Traced
 from .composing import Composer
 from .following import Presence, Presenter, mirrored
 from .strip import Strip, key_of
@@ -277,7 +278,7 @@ class Session:
         view, found = content.view, content.found
         painted = time.perf_counter()
         self._scene.draw(content.picture, view.params, view.dark)
-        timings = {"pictureMs": _ms(painted - begun), "drawMs": _ms(time.perf_counter() - painted)}
+        timings: Timings = {"pictureMs": _ms(painted - begun), "drawMs": _ms(time.perf_counter() - painted)}
         with self._changed:
             self._shown = Shown(view, recording, found)
             self._done = request.number
@@ -292,9 +293,10 @@ class Session:
         if send is not None:
             if trace_wanted:
                 send(Traced(trace=columns_of(found)))
-            marks = {"marks": found.marks} if new_trace else {}
-            told = content.state | marks | timings | {"following": self._presence}
-            send(Drawn(rev=request.rev, origin=request.origin, state=told))
+            state: DrawnState = {**content.state, **timings, "following": self._presence}
+            if new_trace:
+                state["marks"] = found.marks
+            send(Drawn(rev=request.rev, origin=request.origin, state=state))
         self.presenter.show(view)
         if self._watch is not None:
             self._watch(view, recording, self._library.label(view.recording), found)

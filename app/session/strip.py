@@ -26,8 +26,8 @@ from lineseg.survey.difference import FATES, KEPT
 from lineseg.survey.stability import with_stability
 
 from ..live.ring import first_of
+from ..told.messages import Surveyed
 from ..view import Against, View, all_weights
-from ..wire import Surveyed
 
 # A glance of this many beams takes some milliseconds of one core: too little to be worth stopping.
 GLANCE_BEAMS = 400_000

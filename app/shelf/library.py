@@ -16,7 +16,7 @@ from lineseg.simulate.drawing import Drawing
 
 from ..live.hub import Live
 from ..places import data_folder
-from ..wire import RecordingEntry
+from ..told.messages import RecordingEntry
 from .recent import Recent
 from .uploads import Uploads
 

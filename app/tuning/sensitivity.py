@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import asdict, dataclass, field
 from functools import lru_cache
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +12,8 @@ from numpy.typing import NDArray
 from lineseg import Params, Recording
 from lineseg.sweep import MEASURES, Batch, Totals, slider_values
 from lineseg.sweep.workers import Pool
+
+from ..told.answers import SampledCurves, SampledMap
 
 CURVES = ("coverage", "segments", "true_rate", "false_rate", "completeness", "f_score")
 # (frames, values a threshold) and (frames, values a side) of each stage: the first answers while a hand still moves.
@@ -29,7 +30,7 @@ class Subject:
     stop: NDArray[np.bool_] = field(default_factory=lambda: np.zeros(1, np.bool_))
 
 
-def curves(subject: Subject, workers: Pool, names: Sequence[str]) -> Iterator[dict[str, Any]]:
+def curves(subject: Subject, workers: Pool, names: Sequence[str]) -> Iterator[SampledCurves]:
     """Stage after stage, over each threshold's slider CURVES of some frames of the recording, spread evenly."""
     for batch, frames, count in _stages(subject.recording, CURVE_STAGES):
         values = {name: slider_values(name, count) for name in names}
@@ -45,7 +46,7 @@ def curves(subject: Subject, workers: Pool, names: Sequence[str]) -> Iterator[di
         }
 
 
-def relief(subject: Subject, workers: Pool, x: str, y: str, measure: str) -> Iterator[dict[str, Any]]:
+def relief(subject: Subject, workers: Pool, x: str, y: str, measure: str) -> Iterator[SampledMap]:
     """Stage after stage a measure over two thresholds: `heights`, a row for each value of y."""
     for batch, frames, count in _stages(subject.recording, MAP_STAGES):
         xs, ys = slider_values(x, count), slider_values(y, count)

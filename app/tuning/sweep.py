@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
 
 from lineseg import EXTRACTORS, Knob, Scan, Thresholds
 from lineseg.colours import segment_colours
 from lineseg.sweep.axes import spread
+
+from ..told.answers import ThresholdSweep
 
 MOST_VALUES = 96
 
@@ -19,7 +19,7 @@ def values_of(kind: type, knob: Knob, most: int = MOST_VALUES) -> list[float]:
     return [float(value) for value in spread(knob.low, knob.high, most, kind, knob)]
 
 
-def sweep(scan: Scan, method: str, params: Thresholds, name: str) -> dict[str, Any]:
+def sweep(scan: Scan, method: str, params: Thresholds, name: str) -> ThresholdSweep:
     """values; runs: for each of them the stretches of beams [first, last, "#rrggbb"]; lines: how many there are."""
     kind, knob = {field: (kind, knob) for field, kind, knob in params.knobs()}[name]
     values = values_of(kind, knob)

@@ -4,7 +4,7 @@ import { fetchText } from "../fetch.js";
 import { h, setText } from "../widgets/dom.js";
 
 /** @typedef {import("../wire.js").State} State */
-/** @typedef {{revision: number, lines: number | null, tags: string[], note: string}} Brief */
+/** @typedef {import("../wire.js").Brief} Brief */
 /** @typedef {typeof import("../text/inspect.js").inspectText.filter} Text */
 /**
  * @typedef {object} Handlers

@@ -90,7 +90,7 @@ class Truth {
     const query = new URLSearchParams({ session: this.#session() });
     const { words, trouble } = await fetchText(`/api/truth?${query}`);
     if (trouble) return;
-    const answer = JSON.parse(words);
+    const answer = /** @type {import("../wire.js").Truth} */ (JSON.parse(words));
     // It may belong to what was on the screen a moment ago; then the next answer is on its way, or is asked for again.
     if (keyOf(answer, ...PARTS) !== this.#asked) {
       if (this.#state && this.#asked === keyOfAll(this.#state)) this.#wait();

@@ -34,10 +34,10 @@ export class TruthTable {
     setText(this.#all, words);
   }
 
-  /** @param {"frame" | "all"} column @param {Agreement | null} agreement null: it is still to come */
+  /** @param {"frame" | "all"} column @param {Partial<Agreement> | null} agreement null: it is still to come */
   fill(column, agreement) {
     for (const { name, kind, cells } of this.#rows) {
-      const value = agreement?.[name] ?? null;
+      const value = agreement?.[/** @type {keyof Agreement} */ (name)] ?? null;
       setText(cells[column], agreement === null ? this.#text.pending : this.#words(value, kind));
     }
   }

@@ -19,7 +19,7 @@ export function createWhatIf({ session, onChanges }) {
   async function ask() {
     const { words, trouble } = await fetchText(`/api/what-if?${new URLSearchParams({ session: session() })}`);
     if (trouble) return;
-    const answer = JSON.parse(words);
+    const answer = /** @type {import("../wire.js").WhatIfs} */ (JSON.parse(words));
     // It may belong to what was on the screen a moment ago.
     if (asked.endsWith(keyOf(answer, ...PARTS))) onChanges(answer.changes);
   }

@@ -32,7 +32,7 @@ export function createWords({ session, wanted, onWords }) {
     );
     asking = false;
     if (trouble) return;
-    const answer = JSON.parse(words);
+    const answer = /** @type {import("../wire.js").Whys} */ (JSON.parse(words));
     if (keyOf(answer, ...PARTS) === key) {
       for (const frame of missing) known.set(frame, answer.words[frame] ?? []);
       onWords();

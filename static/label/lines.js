@@ -1,9 +1,9 @@
 // @ts-check
 // Edits of true lines. A line is a run of beams, first to last; no beam is on two. All here is pure.
 
-/** @typedef {[number, number]} Point */
-/** Without its ends the server fits them. @typedef {{first: number, last: number, start?: Point | null, end?: Point | null}} Line */
-/** points: of each beam, null without a return. @typedef {{points: (Point | null)[], fullCircle: boolean}} Sweep */
+/** @typedef {import("../wire.js").Point} Point */
+/** Without its ends the server fits them. @typedef {import("../wire.js").SaidLine} Line */
+/** points: of each beam, null without a return. @typedef {import("../wire.js").Sweep} Sweep */
 /** @typedef {"first" | "last"} End */
 
 // Fewer points are no line.

@@ -4,19 +4,8 @@
 /** @typedef {import("../wire.js").State} State */
 /** @typedef {import("../wire.js").Params} Params */
 /** @typedef {import("./trace.js").Trace} Trace */
-/** @typedef {{kind: string, check: string | null, direction: number | null, beam: number | null, nth: number}} Find */
-/**
- * @typedef {object} Goal
- * @property {[number, number] | null} lines
- * @property {[number, number][]} together
- * @property {[number, number][]} apart
- * @property {number[]} inside
- * @property {number[]} outside
- * @property {string[]} changed
- * @property {Find | null} at
- * @property {number[]} selected
- * @property {[Find, number, number] | null} count
- */
+/** @typedef {import("../wire.js").Find} Find */
+/** @typedef {import("../wire.js").Goal} Goal */
 /** @typedef {typeof import("../text/learn.js").learnText.goals} Text */
 
 /** Every decision a description fits. @param {Trace} trace @param {Find} find */

@@ -9,7 +9,7 @@ import { fetchInto } from "./fetched.js";
 
 /** @typedef {import("../wire.js").Knob} Knob */
 /** @typedef {import("../wire.js").Params} Params */
-/** runs: first, last, colour of each line, for each value. @typedef {{name: string, beams: number, values: number[], lines: number[], runs: [number, number, string][][]}} Swept */
+/** runs: first, last, colour of each line, for each value. @typedef {import("../wire.js").ThresholdSweep} Swept */
 
 export class Sweep {
   #text;

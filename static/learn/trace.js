@@ -1,37 +1,8 @@
 // @ts-check
 // The decisions of one frame as the page holds them: columns from the server (app/frame/stepping.py), read one at a time.
 
-/** @typedef {[number, number, number]} Line a, b, c */
-
-/**
- * @typedef {object} Columns
- * @property {string[]} kinds
- * @property {string[]} checks
- * @property {string[]} phases
- * @property {Partial<Record<Jump, number[]>>} jumps where each jump leads that this method has
- * @property {{phase: number[], line: number[]}} starts where each phase and each line begins
- * @property {string[]} text the sentence of each decision
- * @property {number} total decisions there are; the columns may hold only the first of them
- * @property {boolean} circle
- * @property {number[]} kind
- * @property {number[]} check
- * @property {number[]} phase
- * @property {number[]} direction
- * @property {number[]} candidate
- * @property {number[]} first
- * @property {number[]} last
- * @property {number[]} beam
- * @property {number[]} points
- * @property {(number | null)[]} a
- * @property {(number | null)[]} b
- * @property {(number | null)[]} c
- * @property {Record<string, Line>} others the line of the partner, by index
- * @property {Record<string, number[]>} ends x1, y1, x2, y2 where endpoints are placed, by index
- * @property {(number | null)[]} value
- * @property {(number | null)[]} limit
- * @property {(number | null)[]} x
- * @property {(number | null)[]} y
- */
+/** @typedef {import("../wire.js").Line} Line a, b, c */
+/** @typedef {import("../wire.js").Columns} Columns */
 
 /**
  * One decision; fields as in lineseg/tracing/decisions.py. Infinite numbers arrive as null and become Infinity.

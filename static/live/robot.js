@@ -7,7 +7,7 @@ import { messageOf } from "../fetch.js";
 const KEY = "lineseg.robot";
 
 /** @typedef {typeof import("../text/live.js").liveText} Words */
-/** @typedef {{name: string, threshold: string, value: number, now: unknown, taken: boolean, reason: string}} Sent */
+/** @typedef {import("../wire.js").Sent} Sent */
 
 /**
  * Sends the thresholds to a node and shows what the robot has afterwards.

@@ -9,8 +9,8 @@ import { paintBars, TrialPictures } from "./trial_pictures.js";
 
 /** @typedef {import("../wire.js").Knob} Knob */
 /** @typedef {import("../wire.js").Params} Params */
-/** @typedef {import("./workbench.js").Answer} Answer */
-/** @typedef {import("./workbench.js").Trial} Trial */
+/** @typedef {import("../wire.js").Answer} Answer */
+/** @typedef {import("../wire.js").Trial} Trial */
 /** @typedef {import("./trial_pictures.js").Scored} Scored */
 /** @typedef {{ask: (wish: object) => void, stop: () => void, onAdopt: (params: Params) => void}} Handlers */
 

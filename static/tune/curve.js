@@ -4,7 +4,7 @@ import { h, svg } from "../widgets/dom.js";
 import { placeOf, valueAt, withUnit } from "../widgets/scale.js";
 
 /** @typedef {import("../wire.js").Knob} Knob */
-/** @typedef {import("./workbench.js").Curve} Curve */
+/** @typedef {import("../wire.js").Curve} Curve */
 
 const WIDTH = 1000;
 const HEIGHT = 100;

@@ -9,8 +9,8 @@ import { readSweepTable } from "./sweep_table.js";
 
 /** @typedef {import("../wire.js").Knob} Knob */
 /** @typedef {import("../wire.js").Params} Params */
-/** @typedef {import("./workbench.js").Answer} Answer */
-/** @typedef {import("./workbench.js").Measure} Measure */
+/** @typedef {import("../wire.js").Answer} Answer */
+/** @typedef {import("../wire.js").Measure} Measure */
 /** @typedef {import("./sweep_table.js").SweepTable} SweepTable */
 /** @typedef {{ask: (x: string, y: string, measure: string) => void, stop: () => void, onSet: (params: Params) => void}} Handlers */
 

@@ -3,7 +3,7 @@
 import { h } from "../widgets/dom.js";
 
 /** @typedef {import("../wire.js").Knob} Knob */
-/** @typedef {import("./workbench.js").Measure} Measure */
+/** @typedef {import("../wire.js").Measure} Measure */
 /** @typedef {import("./sweep_table.js").SweepTable} SweepTable */
 
 // What is measured of the recording on the screen; a sweep may know more.

@@ -96,7 +96,7 @@ export class Sensitivity {
     setText(this.#note, this.#text.pending);
   }
 
-  /** @param {import("./workbench.js").Answer} answer */
+  /** @param {import("../wire.js").Answer} answer */
   receive({ curves, frames, of, message, done }) {
     if (message) setText(this.#note, message);
     if (done || !curves) return;

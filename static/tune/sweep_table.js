@@ -4,7 +4,7 @@ import { messageOf } from "../fetch.js";
 
 /** @typedef {import("../wire.js").Params} Params */
 /** @typedef {(number | null)[]} Column */
-/** @typedef {{files: string[], axes: Record<string, number[]>, measures: string[], file: number[], columns: Record<string, Column>}} Columns */
+/** @typedef {import("../wire.js").SweepTable} Columns */
 /** @typedef {{height: number, params: Params}} Cell */
 
 const HEAD = "file,epsilon,";

@@ -4,7 +4,7 @@ import { h, svg } from "../widgets/dom.js";
 import { placeOf } from "../widgets/scale.js";
 
 /** @typedef {import("../wire.js").Knob} Knob */
-/** scored: its score is known. @typedef {import("./workbench.js").Trial & {score: number}} Scored */
+/** scored: its score is known. @typedef {import("../wire.js").Trial & {score: number}} Scored */
 
 const WIDTH = 300;
 const HEIGHT = 90;

@@ -8,7 +8,7 @@ import { Workbench } from "./workbench.js";
 /** @typedef {import("../wire.js").Method} Method */
 /** @typedef {import("../wire.js").Params} Params */
 /** @typedef {import("../wire.js").State} State */
-/** @typedef {import("./workbench.js").Answer} Answer */
+/** @typedef {import("../wire.js").Answer} Answer */
 /** row: of a threshold's slider. @typedef {{session: () => string | null, onParams: (params: Params) => void, row: (name: string) => HTMLElement | null}} Handlers */
 
 // A hand that moves a slider pauses for less.

@@ -2,14 +2,9 @@
 // The socket of long work. Each kind of work has a number that rises: answers of older numbers are dropped.
 
 /** @typedef {import("../wire.js").Params} Params */
-/** @typedef {"curves" | "map" | "auto"} Kind */
-/** @typedef {{name: string, label: string, unit: string, better: string, truth: boolean, help: string}} Measure (lineseg/sweep/totals.py) */
-/** @typedef {{values: number[]} & Record<string, (number | null)[]>} Curve */
-/** @typedef {{frames: number, of: number, params: Params, curves?: Record<string, Curve>, x?: string, y?: string, measure?: string, xs?: number[], ys?: number[], heights?: (number | null)[][]}} Sampled */
-/** @typedef {{number: number, params: Params, score: number | null}} Trial */
-/** @typedef {{params: Params, text: string, gained: boolean}} Verdict */
-/** @typedef {{text?: string, caution?: string, thresholds?: string[], trials?: Trial[], importance?: Record<string, number>, verdict?: Verdict}} Tuned */
-/** @typedef {Partial<Sampled> & Tuned & {type: Kind, job: number, done?: boolean, stopped?: boolean, message?: string}} Answer */
+/** @typedef {import("../wire.js").Job} Kind */
+/** @typedef {import("../wire.js").Measure} Measure */
+/** @typedef {import("../wire.js").Answer} Answer */
 
 const RETRY_MS = 2000;
 

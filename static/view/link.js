@@ -1,7 +1,7 @@
 // @ts-check
 // The WebSocket. At most one change is under way; newer ones replace each other meanwhile, and the last one always goes.
 import { merged } from "./store.js";
-import { messageOf } from "../wire.js";
+import { messageOf } from "./message.js";
 
 /** @typedef {import("../wire.js").Message} Message */
 /** @typedef {import("./store.js").Patch} Patch */

@@ -14,8 +14,8 @@ import numpy as np
 import pytest
 from lineseg_app.server import Settings, listen
 from lineseg_app.session.strip import Strip, glance_of, stride_of
+from lineseg_app.told.messages import Surveyed
 from lineseg_app.view import View
-from lineseg_app.wire import Surveyed
 from live import SECONDS, Address, Page, page_of, serving, surveyed
 from long import long_hallway
 

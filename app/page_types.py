@@ -1,0 +1,90 @@
+"""Writes the page's types from those of the server: `python -m lineseg_app.page_types > static/wire.d.ts`."""
+
+from __future__ import annotations
+
+import inspect
+from types import ModuleType
+
+from pydantic import BaseModel
+from typing_extensions import is_typeddict
+
+from lineseg.sweep.totals import Measure
+from lineseg.what_if import WhatIf
+
+from . import wire
+from .live.node_params import Sent
+from .routes import labels, robot, tuning
+from .shelf import lessons
+from .told import answers, drawn, messages
+from .told.typescript import alias, interface
+
+HEAD = """// Written by `python -m lineseg_app.page_types` from what the server declares; a test says if it is outdated.
+// The page names these types as import("./wire.js").NAME; there is no such module, for they are gone when it runs.
+"""
+SHARED = {
+    "Params": dict[str, float],
+    "Point": drawn.Point,
+    "Line": drawn.Line,
+    "Box": drawn.Box,
+    "Reference": drawn.Reference,
+    "Presence": drawn.Presence,
+    "Connection": messages.Connection,
+    "Where": messages.Where,
+    "Job": answers.Job,
+}
+# What TypeScript says better than an annotation.
+WRITTEN = """
+/** What is looked at. Every input changes only this. */
+export type View = Required<Omit<ViewPatch, "recording" | "mode" | "against">> & {
+  recording: string | null;
+  mode: string;
+  against: Against | null;
+};
+export type Against = Required<Pinned>;
+/** The drawn state, as the page keeps it. latencyMs: from the latest change that was made here until it was drawn. */
+export type State = DrawnState & { rev: number; latencyMs: number | null };
+export type Knob = KnobEntry;
+export type Method = MethodEntry;
+export type Score = ScoreEntry;
+export type Trouble = Failure;
+export type Columns = TraceColumns;
+export type Marks = Record<string, number[]>;
+/** What crosses the socket of a tab. */
+export type Incoming = Hello | Change | Cancel | Close | Follow;
+export type Message = Welcome | Recordings | LiveStatus | Loading | Failure | Traced | Drawn | Survey;
+/** The scores of every stride-th frame, as the page reads them: score after score in the order of Welcome.scores. */
+export type Survey = Surveyed & { values: Float32Array };
+/** Of a threshold its values, and of each measure what it is at them. */
+export type Curve = { values: number[] } & Record<string, (number | null)[]>;
+/** What long work answers. */
+export type Answer = Worked & Partial<SampledCurves & SampledMap> & Tuned;
+"""
+
+
+def page_types() -> str:
+    """The text of static/wire.d.ts."""
+    shared = [alias(name, annotation) for name, annotation in SHARED.items()]
+    sent = [interface(each, sent=True) for module in (wire, labels, tuning, robot) for each in _declared(module)]
+    told = [interface(each) for module in (messages, drawn, answers, lessons) for each in _declared(module)]
+    told += [interface(each) for each in (Measure, WhatIf, Sent)]
+    parts = [
+        HEAD,
+        "// Both directions",
+        *shared,
+        WRITTEN.strip(),
+        "// What the page sends",
+        *sent,
+        "// What the server sends",
+        *told,
+    ]
+    return "\n\n".join(part.strip() for part in parts) + "\n"
+
+
+def _declared(module: ModuleType) -> list[type]:
+    """The messages that a module declares itself, in their order."""
+    own = [each for each in vars(module).values() if inspect.isclass(each) and each.__module__ == module.__name__]
+    return [each for each in own if is_typeddict(each) or (issubclass(each, BaseModel) and each.model_fields)]
+
+
+if __name__ == "__main__":
+    print(page_types(), end="")

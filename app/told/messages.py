@@ -1,0 +1,209 @@
+"""The messages that the server sends on /api/session."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import BaseModel, Field, GetPydanticSchema
+from pydantic_core import core_schema
+
+from lineseg import Extractor, Knob
+
+from .drawn import DrawnState, TraceColumns
+
+Where = Literal["recording", "params", "frame", "view", "upload", "server"]
+Connection = Literal["connecting", "open", "lost"]
+
+# Sent many times a second: that it is what its type says, a test holds.
+UNCHECKED = GetPydanticSchema(lambda source, handler: core_schema.any_schema())
+
+
+class RecordingEntry(BaseModel):
+    """A recording on offer; `missing` if its file is no longer there."""
+
+    id: str
+    label: str
+    group: Literal["Live", "Samples", "Lessons", "Recent", "Uploads", "Command line", "Drawn"]
+    missing: bool = False
+
+
+class KnobEntry(BaseModel):
+    """A threshold: its name and its bounds. low, high, step: of its slider; least, most: what it may be, and why."""
+
+    name: str
+    kind: Literal["float", "int", "bool"]
+    symbol: str
+    label: str
+    unit: str
+    low: float
+    high: float
+    step: float
+    log: bool
+    least: float
+    most: float
+    why: str
+    help: str
+    extension: bool
+    default: float
+
+    @classmethod
+    def of(cls, name: str, kind: type, knob: Knob, default: float) -> KnobEntry:
+        return cls(
+            name=name,
+            kind=kind.__name__,  # type: ignore[arg-type]
+            symbol=knob.symbol,
+            label=knob.label,
+            unit=knob.unit,
+            low=knob.low,
+            high=knob.high,
+            step=knob.step,
+            log=knob.log,
+            least=knob.least,
+            most=knob.most,
+            why=knob.why,
+            help=knob.help,
+            extension=knob.extension,
+            default=default,
+        )
+
+
+class MethodEntry(BaseModel):
+    """begins: how a line of the method begins, in a word; ros: whether a ROS program knows its thresholds."""
+
+    name: str
+    label: str
+    citation: str
+    begins: str
+    ros: bool
+    knobs: list[KnobEntry]
+
+    @classmethod
+    def of(cls, method: Extractor) -> MethodEntry:
+        values = method.params_type().numbers()
+        knobs = [KnobEntry.of(name, kind, knob, values[name]) for name, kind, knob in method.params_type.knobs()]
+        ros = any(knob.ros for _, _, knob in method.params_type.knobs())
+        texts = {name: getattr(method, name) for name in ("name", "label", "citation", "begins")}
+        return cls(**texts, ros=ros, knobs=knobs)
+
+
+class ScoreEntry(BaseModel):
+    """A score of the strip. least: a difference that is worth a look; weight: in the suspicion, as it is at first."""
+
+    name: str
+    label: str
+    unit: str
+    help: str
+    worse: Literal["higher", "lower"]
+    least: float
+    weight: float
+
+
+class Welcome(BaseModel):
+    """The answer to hello. viser: where the scene is; presenter: the id under which others may follow this tab."""
+
+    type: Literal["welcome"] = "welcome"
+    session: str
+    resumed: bool
+    viser: str
+    version: str
+    methods: list[MethodEntry]
+    scores: list[ScoreEntry]
+    recordings: list[RecordingEntry]
+    uploadLimit: int
+    presenter: str
+
+
+class Recordings(BaseModel):
+    """All that is on offer, when the list has changed."""
+
+    type: Literal["recordings"] = "recordings"
+    recordings: list[RecordingEntry]
+
+
+class Loading(BaseModel):
+    """A recording is being read; note: why it takes long."""
+
+    type: Literal["loading"] = "loading"
+    recording: str
+    label: str
+    done: int
+    total: int
+    note: str = ""
+
+
+class LiveStatus(BaseModel):
+    """How a live source fares; told while a tab shows it, at most a few times a second.
+
+    rate: scans a second; delay: of the last scan, from its stamp to its arrival [s]. total: scans since the beginning,
+    of which the oldest were dropped, so that at most `most` are kept; refused: messages that were no scans.
+    publisher: which tab's segments go back to the robot, if any.
+    """
+
+    type: Literal["live"] = "live"
+    recording: str
+    connection: Connection
+    message: str
+    rate: float
+    delay: float | None
+    total: int
+    dropped: int
+    refused: int
+    most: int
+    publishable: bool
+    publisher: Literal["", "this", "another"]
+    publishTopic: str
+    published: int
+    publishTrouble: str
+
+
+class Failure(BaseModel):
+    """What could not be had, and why; rev: of the change that asked for it, if one did."""
+
+    type: Literal["error"] = "error"
+    where: Where
+    message: str
+    rev: int | None = None
+
+
+class Traced(BaseModel):
+    """Every decision of the frame that the next `drawn` shows."""
+
+    type: Literal["trace"] = "trace"
+    trace: Annotated[TraceColumns, UNCHECKED]
+
+
+class Drawn(BaseModel):
+    """`origin` says whose input it answers: "page", or "scene" for viser's sliders and clicks in the scene."""
+
+    type: Literal["drawn"] = "drawn"
+    rev: int
+    origin: Literal["page", "scene"]
+    state: Annotated[DrawnState, UNCHECKED]
+
+
+class Surveyed(BaseModel):
+    """The scores of every stride-th frame under these thresholds, or a message why there are none.
+
+    Crosses the network as one binary frame: the length of the rest of the head (uint32), the head in JSON, filled up
+    with blanks to a multiple of 4 bytes, and `values`: float32, score after score in the order of Welcome.scores, each
+    of ⌈frames / stride⌉ frames. All little-endian. The last of the scores, the differences from A, is there, and totals
+    of every fate, if there is an A and every frame is known. first: number of the first frame, as in the state.
+    """
+
+    type: Literal["survey"] = "survey"
+    rev: int
+    recording: str
+    topic: str
+    method: str
+    params: dict[str, int | float]
+    frames: int
+    first: int = 0
+    stride: int
+    message: str | None
+    totals: dict[str, int] | None = None
+    values: bytes = Field(exclude=True)
+
+    def as_bytes(self) -> bytes:
+        head = self.model_dump_json().encode()
+        head += b" " * (-len(head) % 4)
+        return len(head).to_bytes(4, "little") + head + self.values
