@@ -231,6 +231,14 @@ def test_what_does_not_come_is_missed_where_it_belongs_and_comes_when_asked_agai
     tab.page.get_by_text("There is no lesson “none_such”").wait_for()
 
 
+def test_a_lesson_opened_from_the_list_goes_on_where_another_method_is_shown(new_tab):
+    tab = learn(new_tab, "sample:hallway", step=0)
+    tab.page.locator("[data-lesson='12_split_and_merge']").click()
+    tab.page.locator(".lesson-foot .primary").click()
+    tab.until("s.method === 'split-and-merge'")
+    assert text_of(tab, ".lesson-foot .muted") == "2 of 5"
+
+
 def test_predictions_are_asked_before_the_decision_and_counted(new_tab):
     tab = learn(new_tab, "lesson:1_perfect_corner", step=0)
     tab.page.get_by_role("button", name="Predict").click()
