@@ -6,11 +6,11 @@ import { iconButton } from "../widgets/icon.js";
 import { createNumberField } from "../widgets/number.js";
 import { clamp } from "../widgets/scale.js";
 import { createSlider } from "../widgets/slider.js";
+import { createSpeed } from "../widgets/speed.js";
 import { tooltip } from "../widgets/tooltip.js";
 
 /** @typedef {import("../wire.js").State} State */
 
-const SPEEDS = [1, 2, 5, 10, 20, 40];
 const USUAL_SPEED = 10;
 
 /** @typedef {typeof import("../text/page.js").pageText.timeline} Text */
@@ -63,12 +63,7 @@ export class Timeline {
 
   #createControls() {
     const text = this.#text;
-    const speed = h(
-      "select",
-      { class: "select", "aria-label": text.speed, onchange: () => this.#player.setSpeed(Number(speed.value)) },
-      ...SPEEDS.map((n) => h("option", { value: String(n), selected: n === USUAL_SPEED }, text.perSecond(n))),
-    );
-    tooltip(speed, text.speed);
+    const speed = createSpeed(text, USUAL_SPEED, (perSecond) => this.#player.setSpeed(perSecond));
     const slider = createSlider({
       label: text.scrubber,
       onPlace: (place) => this.#go(this.#strip.snap(Math.round(place * Math.max(0, this.#frames - 1)))),

@@ -13,35 +13,6 @@ MODULES = sorted(path.relative_to(STATIC).as_posix() for path in STATIC.rglob("*
 LONGEST_FUNCTION = 80
 NO_FUNCTION = re.compile(r"\s*(\} )?(if|else|for|while|switch|do|try|catch|finally|return|(export )?class)\b")
 
-# Still to be split; the list only shrinks.
-TOO_LONG = {
-    "draw/draw.js",
-    "draw/handles.js",
-    "inspect/ab.js",
-    "inspect/filter.js",
-    "inspect/frames.js",
-    "inspect/truth.js",
-    "label/keep.js",
-    "label/labels.js",
-    "label/overlay.js",
-    "label/tags.js",
-    "learn/chart.js",
-    "learn/ladder.js",
-    "learn/learn.js",
-    "learn/lesson.js",
-    "learn/listing.js",
-    "learn/stepper.js",
-    "tune/auto.js",
-    "tune/exchange.js",
-    "tune/lines.js",
-    "tune/map.js",
-    "tune/panel.js",
-    "tune/replay.js",
-    "tune/sensitivity.js",
-    "tune/sliders.js",
-    "tune/tuner.js",
-}
-
 
 def functions(lines: list[str]) -> Iterator[tuple[str, int]]:
     """First line and length of each function of a formatted module: its last brace stands below its first letter."""
@@ -63,14 +34,9 @@ def too_long(module: str) -> list[tuple[str, int]]:
     return [(head, length) for head, length in found if length > LONGEST_FUNCTION]
 
 
-@pytest.mark.parametrize("module", [module for module in MODULES if module not in TOO_LONG])
+@pytest.mark.parametrize("module", MODULES)
 def test_no_function_is_long(module: str):
     assert too_long(module) == []
-
-
-@pytest.mark.parametrize("module", sorted(TOO_LONG))
-def test_what_is_excused_is_still_long(module: str):
-    assert too_long(module) != []
 
 
 def test_long_functions_are_found():
