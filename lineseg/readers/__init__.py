@@ -45,12 +45,17 @@ def open_recording(
     if not path.exists():
         raise FileNotFoundError(f"{path}: there is no such file or folder.")
     try:
-        recording = Ros2Bag.read(source) if path.is_dir() else _reader(source, _head(path)).read(source)
+        recording = (_folder_reader(path) if path.is_dir() else _reader(source, _head(path))).read(source)
     except PermissionError:
         raise PermissionError(f"{path}: you have no permission to read it.") from None
     if not recording.ranges.size:
         raise ValueError(f"{source.name} holds no scan with a beam.")
     return recording
+
+
+def _folder_reader(folder: Path) -> type[Reader]:
+    # A folder that no other format knows is taken for a bag, whose reader says what it lacks.
+    return next((reader for reader in READERS if reader.recognises_folder(folder)), Ros2Bag)
 
 
 def _reader(source: Source, head: bytes) -> type[Reader]:
@@ -61,7 +66,7 @@ def _reader(source: Source, head: bytes) -> type[Reader]:
         raise ValueError(f"{source.name} is empty{expected}.")
     for reader in READERS:
         if reader.recognises(head):
-            if _packed(source.path) and reader not in (CarmenLog, Text):
+            if _packed(source.path) and not reader.unpacks:
                 raise ValueError(f"{source.name}: a {reader.format} packed by gzip; unpack it with `gunzip` first.")
             return CarmenLog if reader is Text and by_suffix is CarmenLog and not _has_numbers(head) else reader
     formats = ", ".join(reader.format for reader in READERS)

@@ -35,6 +35,7 @@ class CarmenLog(Reader):
     format = "CARMEN log"
     suffixes = (".log", ".clf", ".carmen")
     expects = "lines that begin with FLASER, RLASER, ROBOTLASER1 or ROBOTLASER2"
+    unpacks = True
 
     @staticmethod
     def recognises(head: bytes) -> bool:

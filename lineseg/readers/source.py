@@ -73,16 +73,25 @@ class Source:
 
 
 class Reader:
-    """A format. format: its name; suffixes: in lower case; expects: what such a file has, for messages."""
+    """A format. format: its name; suffixes: in lower case; expects: what such a file has, for messages.
+
+    unpacks: whether it also reads a file that gzip packed; `recognises` is then given the unpacked bytes.
+    """
 
     format: ClassVar[str]
     suffixes: ClassVar[tuple[str, ...]]
     expects: ClassVar[str]
+    unpacks: ClassVar[bool] = False
 
     @staticmethod
     def recognises(head: bytes) -> bool:
         """Whether a file that begins so is of this format."""
         raise NotImplementedError
+
+    @staticmethod
+    def recognises_folder(folder: Path) -> bool:
+        """Whether a folder is a recording of this format."""
+        return False
 
     @staticmethod
     def read(source: Source) -> Recording:

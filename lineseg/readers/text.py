@@ -49,6 +49,7 @@ class Text(Reader):
     format = "text"
     suffixes = (".csv", ".txt", ".dat", ".tsv", ".asc", ".xy")
     expects = "lines of numbers"
+    unpacks = True
 
     @staticmethod
     def recognises(head: bytes) -> bool:
