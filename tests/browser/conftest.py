@@ -23,7 +23,7 @@ try:
 except ImportError:
     pytest.skip("pip install playwright", allow_module_level=True)
 
-SECONDS = 20
+SECONDS = 60
 FLAGS = (
     "--no-sandbox",
     "--use-angle=swiftshader",
@@ -176,6 +176,7 @@ def address(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Address]:
 def new_tab(browser: Browser, address: Address) -> Iterator[Callable[..., Tab]]:
     """Opens tabs of one browser profile; at the end none may have complained."""
     context = browser.new_context(viewport={"width": 1280, "height": 800}, accept_downloads=True)
+    context.set_default_timeout(1000 * SECONDS)
     tabs: list[Tab] = []
 
     def open_tab(hash: str = "", at: str = f"{address.http}/") -> Tab:
