@@ -193,6 +193,8 @@ export interface KnobEntry {
   why: string;
   help: string;
   extension: boolean;
+  counted: string;
+  floor: boolean;
   default: number;
 }
 

@@ -44,6 +44,8 @@ class KnobEntry(BaseModel):
     why: str
     help: str
     extension: bool
+    counted: str
+    floor: bool
     default: float
 
     @classmethod
@@ -63,6 +65,8 @@ class KnobEntry(BaseModel):
             why=knob.why,
             help=knob.help,
             extension=knob.extension,
+            counted=knob.counted,
+            floor=knob.floor,
             default=default,
         )
 

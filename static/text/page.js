@@ -128,12 +128,6 @@ export const pageText = {
     histogram: (/** @type {string} */ symbol, /** @type {number} */ passed, /** @type {number} */ failed) =>
       `${symbol}: ${passed} passed, ${failed} refused`,
     histogramEmpty: "nothing tested",
-    counts: /** @type {Record<string, string>} */ ({
-      epsilon: "Distances to the line of the points that were tested",
-      delta: "Distances to the predicted point, in seeds",
-      min_points: "Points in each line that grew",
-      min_length: "Length of each line that grew",
-    }),
     usually: (/** @type {boolean} */ on) => (on ? "Usually on." : "Usually off."),
     notANumber: (/** @type {string} */ typed) => `“${typed}” is not a number.`,
     notWhole: "A whole number is needed.",

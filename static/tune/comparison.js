@@ -2,8 +2,6 @@
 
 /** @typedef {import("../wire.js").Knob} Knob */
 
-const LEAST = new Set(["min_points", "min_length"]);
-
 /**
  * What a decision compared, for the bar of value and limit; null if it compared nothing.
  * @param {{check: string, value: number | null, limit: number | null}} decision
@@ -13,5 +11,5 @@ export function comparison({ check, value, limit }, knobs) {
   if (value === null || limit === null) return null;
   const knob = knobs.find(({ name }) => name === check);
   if (!knob && check !== "nearer") return null;
-  return { value, limit, symbol: knob?.symbol ?? "", unit: knob?.unit ?? "m", least: LEAST.has(check) };
+  return { value, limit, symbol: knob?.symbol ?? "", unit: knob?.unit ?? "m", least: knob?.floor ?? false };
 }

@@ -93,8 +93,7 @@ export class Threshold {
     const picture = this.#histogram?.element;
     if (!picture) return null;
     const holder = h("div", { class: "histogram-holder" }, picture);
-    const counts = this.#text.counts[this.#knob.name];
-    tooltip(holder, () => `${counts}\n${picture.getAttribute("aria-label")}`, "left");
+    tooltip(holder, () => `${this.#knob.counted}\n${picture.getAttribute("aria-label")}`, "left");
     return holder;
   }
 
