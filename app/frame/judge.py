@@ -48,7 +48,7 @@ class Reference:
             available.append("labels")
         if recording.wall is not None:
             available.append("wall")
-        fitting = [name for name in available if name == wanted] or available
+        fitting: list[told.Reference] = [name for name in available if name == wanted] or available
         return cls(available, fitting[0] if fitting else "", known)
 
     @property
