@@ -61,8 +61,11 @@ def is_edge(points, k, limits):
     xb, yb = at(points.x, k), at(points.y, k)
     xc, yc = at(points.x, k + 1), at(points.y, k + 1)
     ab, bc, ac = xa * yb - ya * xb, xb * yc - yb * xc, xa * yc - ya * xc
-    nearest = math.sqrt(min(xa * xa + ya * ya, xb * xb + yb * yb, xc * xc + yc * yc))
-    return abs(ab + bc - ac) * (nearest - limits.delta) > limits.delta * (abs(ab) + abs(bc) + abs(ac))
+    a, b, c = xa * xa + ya * ya, xb * xb + yb * yb, xc * xc + yc * yc
+    nearest = math.sqrt(min(a, b, c))
+    # Of points on one beam the products are no more than what rounding leaves.
+    most = limits.delta * (abs(ab) + abs(bc) + abs(ac)) + 1e-14 * max(a, b, c) * nearest
+    return abs(ab + bc - ac) * (nearest - limits.delta) > most
 
 
 @inlined_kernel
