@@ -107,7 +107,7 @@ class _Search:
         self._scans = [scan for scan in (recording[int(frames[k])] for k in spread) if scan.valid.any()]
         self._lines: list[list[Extraction]] = []
         ranges = np.concatenate([scan.ranges[scan.valid] for scan in self._scans]) if self._scans else np.empty(0)
-        self._white = float(self.noise.at(np.median(ranges))) if len(ranges) else math.nan
+        self._white = float(self.noise.at(float(np.median(ranges)))) if len(ranges) else math.nan
         self.scatter = math.hypot(self._white, self.noise.roughness)
         self.scales = np.empty(0)
         if math.isfinite(self._white) and self._white > 0:
