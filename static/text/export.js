@@ -1,5 +1,5 @@
 // @ts-check
-// Words of what is taken along: pictures, failure packs, segments.
+// Words of what the page exports: pictures, failure packs, segments.
 
 export const exportText = {
   frame: "This frame",
@@ -10,13 +10,13 @@ export const exportText = {
   formats: /** @type {Record<string, string>} */ ({ jsonl: "JSON lines", csv: "CSV", geojson: "GeoJSON" }),
   making: (/** @type {string} */ label) => `Writing the segments of ${label}`,
   drawing: "Drawing the frame",
-  broken: "This could not be fetched: the connection broke.",
-  noPicture: "The browser could not draw this picture.",
+  broken: "Nothing was downloaded: the connection was lost. Try again.",
+  noPicture: "This browser could not draw the picture. Save it as SVG instead.",
   note: {
     title: "Failure pack",
-    hint: "A zip with this frame, its parameters, segments, every decision and a picture. Dropped on this page, it opens again as you see it now.",
+    hint: "A zip file with this frame, its parameters, segments, every decision and a picture. Drop it on this page to see the frame again as it is now.",
     label: "What is wrong here?",
-    placeholder: "e.g. the door at the left is bridged since ε was raised",
+    placeholder: "e.g. since ε was raised, a line crosses the door on the left",
     save: "Save",
     close: "Close",
   },
@@ -25,8 +25,8 @@ export const exportText = {
     from: (/** @type {string} */ recording, /** @type {number} */ frame) =>
       `frame ${frame.toLocaleString("en")} of ${recording}`,
     noNote: "no note",
-    taken: "The parameters of the pack are taken. Ctrl+Z takes it back.",
-    take: "Its parameters",
-    takeHelp: "Take the method and the thresholds with which it was packed",
+    taken: "The parameters of the pack are set. Ctrl+Z undoes this.",
+    take: "Use its parameters",
+    takeHelp: "Set the method and the thresholds that are saved in the pack",
   },
 };

@@ -3,7 +3,7 @@
 
 export const rerunText = {
   tab: "Rerun",
-  tabHelp: "This recording in rerun's viewer: every frame, decision and score on its timelines",
+  tabHelp: "Show this recording in rerun's viewer, with every frame, decision and score on its timelines",
   viewer: "rerun's viewer",
   export: {
     title: "Recording for rerun",
@@ -12,14 +12,15 @@ export const rerunText = {
   },
   recording: (/** @type {string} */ label) => `Recording ${label} for rerun`,
   starting: "Starting rerun's viewer…",
-  stale: "The thresholds have changed since this was recorded.",
+  stale: "The thresholds have changed since this recording was made.",
   again: "Record again",
   download: "Download",
   close: "Back to the scene",
-  broken: "The server broke off.",
+  broken: "The server stopped sending. Record again.",
   cancelled: "Recording was cancelled.",
   noDrawing:
-    "rerun's viewer needs WebGL 2 or WebGPU, which this browser does not offer. Download the recording and open it with “rerun run.rrd”.",
-  crashed: (/** @type {string} */ why) => `rerun's viewer does not run here: ${why} The recording can be downloaded.`,
-  follows: "Frames follow the cursor on rerun's timeline “frame”",
+    "rerun's viewer needs WebGL 2 or WebGPU, which this browser does not have. Download the recording and open it with “rerun run.rrd”.",
+  crashed: (/** @type {string} */ why) =>
+    `rerun's viewer does not run here: ${why} Download the recording and open it with “rerun run.rrd”.`,
+  follows: "lineseg shows the frame at the cursor of rerun's timeline “frame”",
 };

@@ -6,7 +6,7 @@ export const tuningText = {
   curves: {
     label: "Sensitivity",
     show: "Sensitivity",
-    help: "Under each slider: what the whole recording would give with this threshold elsewhere, and the others as they are. Click to go there.",
+    help: "Shows under each slider how the result over the whole recording changes with this one threshold. Click the curve to set the threshold.",
     sample: (/** @type {number} */ frames, /** @type {number} */ of) =>
       frames < of
         ? `${frames.toLocaleString("en")} of ${of.toLocaleString("en")} frames`
@@ -27,24 +27,25 @@ export const tuningText = {
     measure: "Measure",
     picture: (/** @type {string} */ measure, /** @type {string} */ x, /** @type {string} */ y) =>
       `Map of ${measure} over ${x} and ${y}: click to set both`,
-    hint: "Click to set both thresholds. Lines join equal values; the ring is where you are.",
-    working: (/** @type {number} */ frames) => `finer… (now ${frames.toLocaleString("en")} frames)`,
+    hint: "Click to set both thresholds. Lines join equal values; the ring marks the current thresholds.",
+    working: (/** @type {number} */ frames) => `refining… (${frames.toLocaleString("en")} frames so far)`,
     starting: "computing…",
     stop: "Stop",
     again: "Compute",
     file: "File",
     allFiles: "all files, by frames",
     open: "Open a sweep…",
-    openHelp: "A table that `lineseg sweep … -o sweep.csv` or sweep.parquet wrote; it can be dropped on the page, too",
+    openHelp:
+      "Open a table that `lineseg sweep … -o sweep.csv` (or sweep.parquet) wrote. You can also drop it on the page.",
     close: "Back to the recording",
     reading: (/** @type {string} */ name) => `reading ${name}…`,
-    broken: "The server gave no answer; open the table again once it is there.",
+    broken: "The server did not answer. Open the table again when it is back.",
     sweep: (/** @type {string} */ name, /** @type {number} */ settings, /** @type {number} */ files) =>
       `${name}: ${settings.toLocaleString("en")} settings of ${files} ${files === 1 ? "file" : "files"}`,
     hintOfSweep:
-      "Of the other swept thresholds the best is shown; a click takes the whole setting. The ring is where you are.",
+      "Each point shows the best result over the other swept thresholds. Click to set them all; the ring marks the current thresholds.",
     stopped: "stopped",
-    nothing: "This measure has no value here. TR, FR and completeness need a recording that knows its walls.",
+    nothing: "This measure has no value here. TR, FR and completeness need a recording with known walls.",
   },
   auto: {
     objective: "Objective",
@@ -54,18 +55,19 @@ export const tuningText = {
     start: "Start",
     goOn: "Go on",
     stop: "Stop",
-    anew: "Begin anew",
-    anewHelp: "Forgets the trials of this recording and objective",
+    anew: "Start over",
+    anewHelp: "Delete the trials of this recording and objective",
     adopt: "Adopt the best",
-    adopted: "Adopted. Ctrl+Z takes it back.",
-    history: "Score of each trial on the training half; the line is the best so far, the dashes the paper's defaults",
+    adopted: "Adopted. Ctrl+Z undoes this.",
+    history:
+      "Score of each trial on the training half. The solid line is the best so far, the dashed line the paper's defaults.",
     importance: "What matters",
-    importanceHelp: "Share of each threshold in what makes a trial good (PED-ANOVA)",
-    parallel: "Every trial as a line over its thresholds; the stronger the better",
+    importanceHelp: "How much each threshold decides whether a trial is good (PED-ANOVA)",
+    parallel: "Each line is one trial, drawn across its thresholds. Stronger lines are better trials.",
     progress: (/** @type {number} */ n) => `${n.toLocaleString("en")} ${n === 1 ? "trial" : "trials"}`,
     best: (/** @type {string} */ score) => `best ${score} on the training half`,
     intro:
-      "Searches for thresholds by trying (Optuna), on one half of the frames, and compares the best with the paper's defaults on the other half. Trials are kept: you can stop, and go on another day.",
+      "Tries out thresholds (with Optuna) on one half of the frames and compares the best with the paper's defaults on the other half. Trials are kept, so you can stop and continue another day.",
   },
-  lost: "No connection to the server; the last results stay.",
+  lost: "No connection to the server. You still see the last results.",
 };

@@ -54,7 +54,7 @@ def test_an_export_that_breaks_is_told_in_the_page_and_one_that_lasts_can_be_can
     tab.page.route("**/api/segments?*", lambda route: route.abort())
     choose(tab, "JSON lines")
     alert = tab.page.locator(".notice.error")
-    tab.eventually(lambda: "the connection broke" in alert.inner_text(), "nothing says that the export broke")
+    tab.eventually(lambda: "the connection was lost" in alert.inner_text(), "nothing says that the export broke")
     tab.page.unroute("**/api/segments?*")
     tab.page.route("**/api/segments?*", lambda route: None)
     choose(tab, "JSON lines")
@@ -89,7 +89,7 @@ def test_a_failure_pack_opens_again_by_drag_and_drop_with_its_parameters_and_its
     assert "frame 18 of hallway.npz" in card.inner_text()
     other.page.keyboard.press("Control+z")
     other.until("s.params.epsilon === 0.05")
-    card.get_by_role("button", name="Its parameters").click()
+    card.get_by_role("button", name="Use its parameters").click()
     other.until("s.params.epsilon === 0.02")
     choose(other, "Failure pack…")
     assert other.page.get_by_label("What is wrong here?").input_value() == "the door is bridged\n– why?"

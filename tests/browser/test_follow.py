@@ -7,7 +7,7 @@ def test_a_class_follows_its_teacher_leaves_and_returns(new_tab):
     teacher = new_tab("#mode=learn&step=0&recording=lesson:1_perfect_corner")
     teacher.page.get_by_role("button", name="Export").click()
     teacher.page.get_by_role("menuitem", name="Copy a link that follows this tab").click()
-    teacher.page.get_by_text("Whoever opens it sees what you do").wait_for()
+    teacher.page.get_by_text("Whoever opens it sees what you see").wait_for()
     link = teacher.page.evaluate("window.lineseg.followLink")
     pupil = new_tab(link[link.index("#") :])
     assert pupil.until("s.following === 'here' && s.recording === 'lesson:1_perfect_corner'")["mode"] == "learn"
@@ -28,4 +28,4 @@ def test_a_class_follows_its_teacher_leaves_and_returns(new_tab):
     pupil.until(f"s.step === {step}")
     teacher.page.close()
     pupil.until("s.following === 'away'")
-    pupil.page.get_by_text("who is away for the moment").wait_for()
+    pupil.page.get_by_text("who is away at the moment").wait_for()

@@ -58,7 +58,7 @@ def test_frames_are_listed_worst_first_filtered_and_walked_by_key(new_tab):
     tab.page.get_by_role("listbox").press("ArrowDown")
     tab.until(f"s.frame === {worst[2]}")
     few = sum(value >= 0.96 for value in values)
-    limit = tab.page.get_by_label("Only frames with this score from")
+    limit = tab.page.get_by_label("Show only frames with this score from")
     limit.fill("0.96")
     limit.press("Enter")
     tab.eventually(lambda: tab.page.get_by_text(f"{few} of 300 frames").count() == 1, "the filter shows no count")
@@ -174,7 +174,7 @@ def test_the_most_suspicious_frame_says_what_looks_wrong_and_weights_change_the_
     other = int(worst_first(found.scores, only_gap)[0])
     tab.eventually(lambda: row.get_attribute("data-frame") == str(other), f"frame {other} is not the first")
     tab.page.locator(".weights-holder summary").click()
-    tab.page.get_by_role("button", name="Usual weights").click()
+    tab.page.get_by_role("button", name="Default weights").click()
     tab.eventually(lambda: row.get_attribute("data-frame") == str(worst), "the usual weights do not come back")
 
 

@@ -172,7 +172,7 @@ def test_two_tabs_lose_nothing_of_each_other_and_the_same_frame_is_told(label, h
     one.runs()
     held[0].continue_()
     other.page.unroute("**/api/labels")
-    told = other.page.get_by_role("alert").filter(has_text="was changed in another tab at the same time")
+    told = other.page.get_by_role("alert").filter(has_text="at the same time. You see its version")
     told.wait_for()
     other.tab.forgive("409")
     assert read_labels(sidecar, hall)[FRAME].tags == ("mine",)
@@ -216,13 +216,13 @@ def test_tags_and_notes_are_kept_undone_and_filter_the_frames(label, hall, sidec
     def listed() -> list[str]:
         return row.evaluate_all("(rows) => rows.map((row) => row.dataset.frame)")
 
-    tag = page.get_by_label("Only frames with this tag")
+    tag = page.get_by_label("Show only frames with this tag")
     tab.eventually(lambda: "#glass (1)" in tag.inner_text(), "the tag is not offered")
     tag.select_option(label="#glass (1)")
     tab.eventually(lambda: listed() == [str(FRAME)], "not filtered")
     assert "#glass the pane of the entrance" in row.inner_text()
     tag.select_option(label="any tag")
-    words = page.get_by_label(re.compile("Only frames with these words"))
+    words = page.get_by_label(re.compile("Show only frames with these words"))
     words.fill("ENTRANCE")
     tab.eventually(lambda: listed() == [str(FRAME)], "not searched")
     words.fill("nothing says this")
@@ -296,11 +296,11 @@ def test_segments_are_judged_by_labels_or_by_the_wall_as_one_chooses(label, hall
     page.get_by_role("button", name="They are right").click()
     tab.until("s.judgedBy === 'labels'")
     page.get_by_role("tab", name="Truth").click()
-    by = page.get_by_label("Judged by")
+    by = page.get_by_label("Compared with")
     row = page.locator(".truth-table tr:has(th:text-is('TR'))")
     tab.eventually(lambda: row.locator("td").all_inner_texts() == ["100.0 %"] * 2, "its own lines are not its truth")
     labeller.go(FRAME + 1)
-    page.get_by_text("Nobody has labelled the lines of this frame.").wait_for()
+    page.get_by_text("The lines of this frame are not labelled.").wait_for()
     assert row.locator("td").first.inner_text() == "–"
     by.select_option("wall")
     assert tab.until("s.judgedBy === 'wall'")["agreement"]["trueLines"] > 0

@@ -27,7 +27,7 @@ def text_of(tab, selector: str) -> str:
 def test_a_level_steps_by_whole_stretches_both_ways(new_tab, level):
     starts = trace(open_recording(data_folder("sample_scans") / "laboratory.npz")[0]).starts(level)
     tab = learn(new_tab, "sample:laboratory", step=0)
-    tab.page.get_by_label("What → goes on by").select_option(level)
+    tab.page.get_by_label("How far → steps").select_option(level)
     tab.page.keyboard.press("Tab")
     for expected in starts[1:6]:
         tab.page.keyboard.press("ArrowRight")
@@ -93,12 +93,12 @@ def test_nothing_moves_by_itself_for_who_wants_less_motion(new_tab):
 
 def test_a_loop_plays_between_its_ends(new_tab):
     tab = learn(new_tab, "lesson:1_perfect_corner", step=10)
-    tab.page.get_by_role("button", name="Loop: from here").click()
+    tab.page.get_by_role("button", name="Start the loop here").click()
     tab.page.keyboard.press("ArrowRight")
     tab.page.keyboard.press("ArrowRight")
     tab.until("s.step === 12")
-    tab.page.get_by_role("button", name="Loop: to here").click()
-    tab.page.get_by_label("Steps a second").select_option("40")
+    tab.page.get_by_role("button", name="End the loop here").click()
+    tab.page.get_by_label("Steps per second").select_option("40")
     tab.page.get_by_role("button", name="Play (Space)").first.click()
     for _ in range(2):
         tab.until("s.step === 10")
@@ -207,9 +207,9 @@ def test_charts_are_walked_through_by_keyboard(new_tab):
 def test_what_does_not_come_is_missed_where_it_belongs_and_comes_when_asked_again(new_tab):
     tab = learn(new_tab, "sample:hallway", step=0)
     places = {
-        "**/api/lessons": ("The lessons did not come.", ".lesson-item >> nth=5"),
-        "**/learn/listing.json": ("The pseudocode did not come.", ".code-line >> nth=5"),
-        "**/api/sweep?**": ("This picture could not be made.", ".sweep-canvas[aria-label*=lines]"),
+        "**/api/lessons": ("The lessons could not be loaded.", ".lesson-item >> nth=5"),
+        "**/learn/listing.json": ("The pseudocode could not be loaded.", ".code-line >> nth=5"),
+        "**/api/sweep?**": ("This chart could not be computed.", ".sweep-canvas[aria-label*=lines]"),
     }
     for path in places:
         tab.page.route(path, lambda route: route.fulfill(status=503, body='{"message": "Too busy."}'))

@@ -38,7 +38,7 @@ def test_a_typed_value_is_taken_exactly(tab):
     [
         ("epsilon", "0.5x", "“0.5x” is not a number."),
         ("seed_points", "2", "Allowed: 3 to 1000; a seed needs 3 or more points"),
-        ("min_points", "7.5", "A whole number is needed."),
+        ("min_points", "7.5", "Enter a whole number."),
         ("min_length", "-1", "Allowed: 0 to 1000 m"),
     ],
 )

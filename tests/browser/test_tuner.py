@@ -123,7 +123,7 @@ def test_auto_tuning_shows_its_trials_stops_goes_on_and_is_adopted(tab):
     checked = panel.locator("input:checked").evaluate_all("(boxes) => boxes.map((box) => box.value)")
     assert checked == ["epsilon", "delta", "seed_points"]
     panel.get_by_label("Objective").select_option("truth")
-    panel.get_by_role("button", name="Start").click()
+    panel.get_by_role("button", name="Start", exact=True).click()
     tuner(tab, "auto", "s.trials >= 12")
     assert "harmonic mean of TR and 1 − FR" in panel.inner_text()
     panel.get_by_role("button", name="Stop").click()
@@ -146,7 +146,7 @@ def test_auto_tuning_shows_its_trials_stops_goes_on_and_is_adopted(tab):
     panel.get_by_role("button", name=re.compile("Adopt the best")).click()
     adopted = tab.until("s.params.epsilon !== 0.09")["params"]
     assert adopted == found["best"]
-    panel.get_by_role("button", name="Begin anew").click()
+    panel.get_by_role("button", name="Start over").click()
     tuner(tab, "auto", "s.running && s.trials >= 1")
     panel.get_by_role("button", name="Stop").click()
     tuner(tab, "auto", "!s.running")
