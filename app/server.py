@@ -44,6 +44,8 @@ from .shelf.label_files import LabelFiles
 from .shelf.library import Library
 from .shelf.recent import Recent
 from .shelf.uploads import Uploads
+from .view import View
+from .view_field import page_module
 
 SHUTDOWN_SECONDS = 3
 
@@ -116,6 +118,7 @@ def create_app(settings: Settings) -> FastAPI:
     add_back(app, library, sessions)
     rerun = add_rerun(app, library, sessions)
     static = data_folder("static")
+    app.add_route("/static/declared.js", lambda request: _module(page_module(View)))
     app.mount("/static", Static(directory=static))
     app.add_route("/", lambda request: Static(directory=static).file_response_of("index.html", request.scope))
     return app
@@ -212,6 +215,10 @@ class Static(StaticFiles):
         response = super().file_response(*args, **kwargs)
         response.headers["Cache-Control"] = "no-cache"
         return response
+
+
+def _module(text: str) -> Response:
+    return Response(text, media_type="text/javascript", headers={"Cache-Control": "no-cache"})
 
 
 async def _sentence(request: Request, error: Exception) -> Response:

@@ -1,14 +1,17 @@
-"""What one browser tab looks at."""
+"""What one browser tab looks at: each field is declared once, and all that is known of it follows from there."""
 
-from __future__ import annotations
-
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass, field, fields, replace
-from typing import Any
+from typing import Annotated, Any, Literal, Self
+
+from pydantic import Field, ValidationError
 
 from lineseg import EXTRACTORS, Params, Thresholds
 from lineseg.doubt import SCORES, Score
 from lineseg.doubt.suspicion import WEIGHTS
+
+from .bounds import Count, Message, Name, RecordingId, Values, sentence
+from .view_field import EACH, ViewField, patch_of, view_fields
 
 DIFFERENCE = Score(
     "difference",
@@ -20,6 +23,8 @@ DIFFERENCE = Score(
     weight=0.0,
 )
 MOST_WEIGHT = 10.0
+# Of what a link says and cannot be had, so much is told.
+MOST_COMPLAINTS = 3
 SUSPICION = Score(
     "suspicion",
     "suspicion",
@@ -50,7 +55,7 @@ class Layers:
     grid: bool = True
     replay: bool = True
 
-    def but(self, **values: bool) -> Layers:
+    def but(self, /, **values: bool) -> Self:
         """These layers with some of them switched; an unknown name is a ValueError that lists the known ones."""
         known = [entry.name for entry in fields(self)]
         for name in values:
@@ -67,7 +72,7 @@ class Against:
     params: Thresholds
 
     @classmethod
-    def of(cls, method: str, params: Mapping[str, Any]) -> Against:
+    def of(cls, method: str, params: Mapping[str, Any]) -> Self:
         """A bad value is a ValueError that names it."""
         if method not in EXTRACTORS:
             raise ValueError(f"there is no method {method!r}; there are {', '.join(EXTRACTORS)}")
@@ -78,84 +83,155 @@ class Against:
         return {"method": self.method, "params": self.params.numbers()}
 
 
+class Pinned(Message):
+    """A, as a patch says it."""
+
+    method: Name
+    params: Values = Field(default_factory=dict)
+
+
+def all_weights(changed: tuple[tuple[str, float], ...]) -> dict[str, float]:
+    """The usual weights, but for those that were changed."""
+    return {**WEIGHTS, **dict(changed)}
+
+
+def _changed_weights(values: Mapping[str, float]) -> tuple[tuple[str, float], ...]:
+    for name, weight in values.items():
+        if name not in WEIGHTS:
+            raise ValueError(f"weights has no {name!r}; it has {', '.join(WEIGHTS)}")
+        if not 0 <= weight <= MOST_WEIGHT:
+            raise ValueError(f"the weight of {name} is {weight}; it may be 0 to {MOST_WEIGHT:g}")
+    return tuple(sorted((name, float(weight)) for name, weight in values.items() if weight != WEIGHTS[name]))
+
+
+PLACE = ("recording", "topic")
+
+
 @dataclass(frozen=True)
 class View:
     """The whole state of a tab; it hashes, and two equal Views are drawn alike.
 
+    A field stands behind those that it is reset or switched off by, and the links write them in this order.
+
     step: the decision after which the replay stands, or None where the whole result is shown.
-    selected: the beam whose fate is explained, or None. dark: whether the page has dark colours. score: of the strip.
-    against: what it is compared with. weights: of the suspicion, where they are not the usual ones.
+    selected: the beam whose fate is explained, or None. score: of the strip. against: what it is compared with.
+    weights: of the suspicion, where they are not the usual ones.
     reference: by what segments are judged where both are there, "labels" of people or the "wall" of the recording.
     live: whether the newest frame of a live recording is followed; else the recording stays as it was then.
+    dark: whether the page has dark colours.
     """
 
-    recording: str = ""
-    topic: str | None = None
-    frame: int = 0
-    method: str = "region-growing"
-    params: Thresholds = field(default_factory=Params)
-    step: int | None = None
-    layers: Layers = field(default_factory=Layers)
-    selected: int | None = None
-    camera: str = "plan"
-    dark: bool = False
-    mode: str = "tune"
-    score: str = "coverage"
-    against: Against | None = None
-    weights: tuple[tuple[str, float], ...] = ()
-    reference: str = "labels"
-    live: bool = True
+    mode: Annotated[Literal["tune", "learn", "inspect"], ViewField(link="mode", mirrored=True)] = "tune"
+    recording: Annotated[
+        RecordingId,
+        # An empty id is what a page says that knows of no recording yet.
+        ViewField(link="recording", mirrored=True, take=lambda view, id: id or view.recording),
+    ] = ""
+    topic: Annotated[Name | None, ViewField(link="topic", mirrored=True, reset_by=("recording",))] = None
+    frame: Annotated[Count, ViewField(link="frame", mirrored=True, reset_by=PLACE, lasting=False)] = 0
+    method: Annotated[Name, ViewField(link="method", mirrored=True, choices=EXTRACTORS)] = "region-growing"
+    params: Annotated[
+        Thresholds,
+        ViewField(
+            link=EACH,
+            mirrored=True,
+            reset_by=("method",),
+            fresh=lambda view: EXTRACTORS[view.method].params_type(),
+            patch=Values,
+            take=lambda view, values: view.params.but(**values),
+            tell=lambda params: params.numbers(),
+            written="thresholds",
+        ),
+    ] = field(default_factory=Params)
+    step: Annotated[Count | None, ViewField(link="step", mirrored=True, reset_by=(*PLACE, "method"))] = None
+    selected: Annotated[Count | None, ViewField(link="beam", mirrored=True, reset_by=PLACE)] = None
+    camera: Annotated[Literal["plan", "free"], ViewField(link="camera", mirrored=False)] = "plan"
+    score: Annotated[Name, ViewField(link="score", mirrored=True, choices=STRIP_SCORES)] = "coverage"
+    against: Annotated[
+        Against | None,
+        ViewField(
+            link="against",
+            mirrored=True,
+            patch=Pinned | None,
+            take=lambda view, pinned: pinned and Against.of(pinned["method"], pinned.get("params", {})),
+            tell=lambda against: against and against.numbers(),
+            written="pinned",
+        ),
+    ] = None
+    weights: Annotated[
+        tuple[tuple[str, float], ...],
+        ViewField(
+            link="weights",
+            mirrored=True,
+            patch=Values,
+            take=lambda view, values: _changed_weights({**view.all_weights, **values}),
+            tell=all_weights,
+            written="numbers",
+            most=MOST_WEIGHT,
+        ),
+    ] = ()
+    reference: Annotated[Literal["labels", "wall"], ViewField(link="reference", mirrored=True)] = "labels"
+    layers: Annotated[
+        Layers,
+        ViewField(
+            link="layers",
+            mirrored=False,
+            patch=Annotated[dict[Name, bool], Field(max_length=64)],
+            take=lambda view, switched: view.layers.but(**switched),
+            tell=asdict,
+            written="switches",
+        ),
+    ] = field(default_factory=Layers)
+    live: Annotated[bool, ViewField(link=None, mirrored=True, reset_by=PLACE, off_by=("frame", "step"))] = True
+    dark: Annotated[bool, ViewField(link=None, mirrored=False)] = False
 
-    def patched(self, patch: Mapping[str, Any]) -> View:
-        """This View with some fields changed; `params` and `layers` may name only some of theirs.
+    def patched(self, patch: Mapping[str, Any]) -> Self:
+        """This View with some fields changed; `params`, `layers` and `weights` may name only some of theirs.
 
-        Another recording or topic begins at its frame 0, and another frame has another trace: frame, step and selected
-        start afresh unless the patch carries them. Who chooses a frame or a step follows no longer. Another method
-        begins with its defaults. A bad value is a ValueError that names it.
+        What a change resets starts afresh unless the patch carries it: another recording or topic begins at its frame
+        0, another method with its defaults. Who chooses a frame or a step follows no longer. A bad value is a
+        ValueError that names it.
         """
-        known = {entry.name for entry in fields(self)}
+        declared = view_fields(type(self))
         for name in patch:
-            if name not in known:
-                raise ValueError(f"a view has no {name!r}; it has {', '.join(sorted(known))}")
-        changes: dict[str, Any] = dict(patch)
-        if changes.get("method", self.method) not in EXTRACTORS:
-            raise ValueError(f"there is no method {changes['method']!r}; there are {', '.join(EXTRACTORS)}")
-        if changes.get("score", self.score) not in STRIP_SCORES:
-            raise ValueError(f"there is no score {changes['score']!r}; there are {', '.join(STRIP_SCORES)}")
-        if "weights" in changes:
-            changes["weights"] = _weights({**dict(self.weights), **changes["weights"]})
-        if changes.get("against") is not None:
-            changes["against"] = Against.of(**changes["against"])
-        method = changes.get("method", self.method)
-        params = self.params if method == self.method else EXTRACTORS[method].params_type()
-        changes["params"] = params.but(**changes.get("params", {}))
-        if method != self.method:
-            changes = {"step": None} | changes
-        if "layers" in changes:
-            changes["layers"] = self.layers.but(**changes["layers"])
-        if changes.get("recording", self.recording) != self.recording:
-            changes = {"topic": None, "frame": 0, "step": None, "selected": None, "live": True} | changes
-        elif changes.get("topic", self.topic) != self.topic:
-            changes = {"frame": 0, "step": None, "selected": None} | changes
-        elif changes.get("frame", self.frame) != self.frame or changes.get("step") is not None:
-            changes = {"live": False} | changes
-        return replace(self, **changes)
+            if name not in declared:
+                raise ValueError(f"a view has no {name!r}; it has {', '.join(sorted(declared))}")
+        view, usual = self, type(self)()
+        changed, chosen = set[str](), set[str]()
+        for name, entry in declared.items():
+            if changed.intersection(entry.reset_by):
+                view = replace(view, **{name: entry.fresh(view) if entry.fresh else getattr(usual, name)})
+            elif chosen.intersection(entry.off_by):
+                view = replace(view, **{name: False})
+            if name in patch:
+                view = replace(view, **{name: entry.taken(name, view, patch[name])})
+            if (value := getattr(view, name)) != getattr(self, name):
+                changed.add(name)
+                chosen.update([name] if value is not None else [])
+        return view
 
-    def salvaged(self, patch: Mapping[str, Any]) -> tuple[View, str | None]:
-        """This View with all of a patch that can be had, as from a link; and a complaint about what can not."""
-        order = sorted(patch, key=lambda name: name not in ("recording", "topic", "method"))
-        parts = [
-            {name: {key: value}} if name in ("params", "layers") else {name: patch[name]}
-            for name in order
-            for key, value in (patch[name].items() if name in ("params", "layers") else [(name, patch[name])])
-        ]
-        view, complaint = self, None
-        for part in parts:
+    def salvaged(self, said: Mapping[str, Any]) -> tuple[Self, str | None]:
+        """This View with all that can be had of what a link says, whatever that is; and a complaint about the rest."""
+        try:
+            return self._checked(said), None
+        except ValueError:
+            view, complaints = self, list[str]()
+        for part in _parts(said, list(view_fields(type(self)))):
             try:
-                view = view.patched(part)
+                view = view._checked(part)
             except ValueError as error:
-                complaint = complaint or str(error)
-        return view, complaint
+                complaints.append(str(error))
+        more = len(complaints) - MOST_COMPLAINTS
+        told = complaints[:MOST_COMPLAINTS] + ([f"and {more} more"] if more > 0 else [])
+        return view, "; ".join(told) or None
+
+    def _checked(self, said: Mapping[str, Any]) -> Self:
+        """As `patched`, with what may be of any type."""
+        try:
+            patch = patch_of(type(self)).model_validate(dict(said))
+        except ValidationError as error:
+            raise ValueError(sentence(error)) from None
+        return self.patched(patch.changes())
 
     @property
     def all_weights(self) -> dict[str, float]:
@@ -164,18 +240,14 @@ class View:
 
     def as_json(self) -> dict[str, Any]:
         """This View as a patch that restores it."""
-        return asdict(self) | {"weights": dict(self.weights)}
+        return {name: entry.tell(getattr(self, name)) for name, entry in view_fields(type(self)).items()}
 
 
-def all_weights(changed: tuple[tuple[str, float], ...]) -> dict[str, float]:
-    """The usual weights, but for those that were changed."""
-    return {**WEIGHTS, **dict(changed)}
-
-
-def _weights(values: Mapping[str, float]) -> tuple[tuple[str, float], ...]:
-    for name, weight in values.items():
-        if name not in WEIGHTS:
-            raise ValueError(f"weights has no {name!r}; it has {', '.join(WEIGHTS)}")
-        if not 0 <= weight <= MOST_WEIGHT:
-            raise ValueError(f"the weight of {name} is {weight}; it may be 0 to {MOST_WEIGHT:g}")
-    return tuple(sorted((name, float(weight)) for name, weight in values.items() if weight != WEIGHTS[name]))
+def _parts(said: Mapping[str, Any], order: list[str]) -> Iterator[dict[str, Any]]:
+    """What is said piece by piece, what resets other fields before them."""
+    for name in sorted(said, key=lambda name: order.index(name) if name in order else len(order)):
+        value = said[name]
+        if isinstance(value, Mapping) and name != "against":
+            yield from ({name: {key: each}} for key, each in value.items())
+        else:
+            yield {name: value}

@@ -3,52 +3,21 @@
 from __future__ import annotations
 
 import json
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError
+from pydantic import Field, JsonValue, TypeAdapter, ValidationError
 
+from .bounds import Count, Message, sentence
 from .told.messages import Where
+from .view import View
+from .view_field import patch_of
 
-Name = Annotated[str, Field(max_length=300)]
-# The id of a drawn world holds all of its walls.
-RecordingId = Annotated[str, Field(max_length=8000)]
-Number = Annotated[float, Field(allow_inf_nan=False)]
-Count = Annotated[int, Field(ge=0, le=2**31)]
-
-
-class Message(BaseModel):
-    """Unknown fields are refused: a misspelt name must not pass silently."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
+# What a link says of a View, which may be anything.
+Said = dict[str, JsonValue]
 
 
-class Pinned(Message):
-    method: Name
-    params: Annotated[dict[Name, int | Number], Field(max_length=64)] = {}
-
-
-class ViewPatch(Message):
+class ViewPatch(patch_of(View)):
     """Some fields of a View; those that were not sent stay as they are."""
-
-    recording: RecordingId = ""
-    topic: Name | None = None
-    frame: Count = 0
-    method: Name = ""
-    params: Annotated[dict[Name, int | Number], Field(max_length=64)] = {}
-    step: Count | None = None
-    layers: Annotated[dict[Name, bool], Field(max_length=64)] = {}
-    selected: Count | None = None
-    camera: Literal["plan", "free"] = "plan"
-    dark: bool = False
-    mode: Literal["tune", "learn", "inspect"] = "tune"
-    score: Name = ""
-    against: Pinned | None = None
-    weights: Annotated[dict[Name, int | Number], Field(max_length=64)] = {}
-    reference: Literal["labels", "wall"] = "labels"
-    live: bool = True
-
-    def changes(self) -> dict[str, Any]:
-        return self.model_dump(exclude_unset=True)
 
 
 class Hello(Message):
@@ -56,7 +25,7 @@ class Hello(Message):
 
     type: Literal["hello"]
     session: Annotated[str, Field(max_length=64)] | None = None
-    view: ViewPatch | None = None
+    view: Said | None = None
     rev: Count | None = None
     follow: Annotated[str, Field(max_length=64)] | None = None
 
@@ -65,6 +34,14 @@ class Change(Message):
     type: Literal["view"]
     rev: Count
     patch: ViewPatch
+
+
+class OpenLink(Message):
+    """Look at what a link says: at all of it that can be had."""
+
+    type: Literal["link"]
+    rev: Count
+    patch: Said
 
 
 class Cancel(Message):
@@ -82,8 +59,8 @@ class Follow(Message):
     id: Annotated[str, Field(max_length=64)] | None
 
 
-Incoming = Annotated[Hello | Change | Cancel | Close | Follow, Field(discriminator="type")]
-_INCOMING: TypeAdapter[Hello | Change | Cancel | Close | Follow] = TypeAdapter(Incoming)
+Incoming = Annotated[Hello | Change | OpenLink | Cancel | Close | Follow, Field(discriminator="type")]
+_INCOMING: TypeAdapter[Hello | Change | OpenLink | Cancel | Close | Follow] = TypeAdapter(Incoming)
 LONGEST_MESSAGE = 64 * 1024
 
 
@@ -96,7 +73,7 @@ class BadMessageError(ValueError):
         self.rev = rev
 
 
-def parse(text: str) -> Hello | Change | Cancel | Close | Follow:
+def parse(text: str) -> Hello | Change | OpenLink | Cancel | Close | Follow:
     """A message of the page; BadMessageError with one sentence if it is none."""
     if len(text) > LONGEST_MESSAGE:
         raise BadMessageError(f"a message of {len(text)} characters; {LONGEST_MESSAGE} are the most")
@@ -114,12 +91,3 @@ def _rev_of(text: str) -> int | None:
     except (ValueError, TypeError, KeyError, RecursionError):
         return None
     return rev if type(rev) is int and 0 <= rev <= 2**31 else None
-
-
-def sentence(error: ValidationError) -> str:
-    """The first complaint of a validation, with its place and what was found."""
-    first = error.errors(include_url=False, include_context=False)[0]
-    place = ".".join(str(part) for part in first["loc"]) or "the message"
-    found = repr(first["input"])
-    shown = found if len(found) <= 60 else found[:57] + "…"
-    return f"{place} is {shown}: {first['msg'][:1].lower()}{first['msg'][1:]}"

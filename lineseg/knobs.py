@@ -63,7 +63,7 @@ class Thresholds:
     def names(cls) -> tuple[str, ...]:
         return tuple(entry.name for entry in fields(cls))  # type: ignore[arg-type]
 
-    def but(self, **values: Any) -> Self:
+    def but(self, /, **values: Any) -> Self:
         """These thresholds with some of them changed; an unknown name is a ValueError that lists the known ones."""
         for name in values:
             if name not in self.names():
@@ -83,10 +83,10 @@ def _checked(name: str, value: Any, kind: type, knob: Knob) -> int | float | boo
     whole = "" if kind is float else "whole numbers, "
     try:
         number = float(value)
-    except (TypeError, ValueError):
-        raise ValueError(f"{name} is {value!r}, which is not a number; {whole}{allowed}") from None
+    except (TypeError, ValueError, OverflowError):
+        raise ValueError(f"{name} is {value!r:.60}, which is not a number; {whole}{allowed}") from None
     if isinstance(value, str | bytes) or (isinstance(value, bool) and kind is not bool) or math.isnan(number):
-        raise ValueError(f"{name} is {value!r}, which is not a number; {whole}{allowed}")
+        raise ValueError(f"{name} is {value!r:.60}, which is not a number; {whole}{allowed}")
     if kind is not float and not number.is_integer():
         raise ValueError(f"{name} is {value!r}, which is not a whole number; {allowed}")
     if not knob.least <= number <= knob.most:

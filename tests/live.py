@@ -121,6 +121,10 @@ class Page:
             if message["rev"] >= rev:
                 return message
 
+    def drawn_or_told(self, rev: int) -> dict[str, Any]:
+        """The state of the first picture that contains revision `rev`, whatever complaint comes before it."""
+        return self.heard("drawn", lambda message: message["rev"] >= rev)["state"]
+
     def change(self, **patch: Any) -> dict[str, Any]:
         """Change the View; the state of the picture that shows it."""
         return self.drawn(self.ask(**patch))["state"]

@@ -33,6 +33,7 @@ def state_of(
     scan, trace = found.scan, found.trace
     chosen = trace[view.step] if view.step is not None else None
     return {
+        "view": view.as_json() | {"topic": recording.topic if len(recording.topics) > 1 else None},
         "mode": view.mode,
         "recording": view.recording,
         "label": label,

@@ -12,11 +12,11 @@ from starlette.exceptions import HTTPException
 
 from lineseg import ConflictError, FrameLabels, Recording, Scan, TrueLine
 
+from ..bounds import Count, Message, Name, Number, RecordingId, sentence
 from ..frame.state import labels_told
 from ..shelf.label_files import LIVE, LabelFiles
 from ..shelf.library import Library
 from ..told.answers import Brief, LabelsOverview, Sweep
-from ..wire import Count, Message, Name, Number, RecordingId, sentence
 from .body import body_of
 
 LONGEST = 1 << 20

@@ -12,11 +12,11 @@ from starlette.exceptions import HTTPException
 
 from lineseg import Params
 
+from ..bounds import Name, Number
 from ..live.node_params import Sent, send_params
 from ..live.source import Publishing
 from ..session.sessions import Sessions
 from ..shelf.library import Library
-from ..wire import Name, Number
 
 ROS_NAME = re.compile(r"/?[A-Za-z_~][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)*")
 

@@ -17,17 +17,16 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from lineseg import EXTRACTORS, __version__
 
+from ..session.following import OWN
 from ..session.session import Session
 from ..session.sessions import Sessions, TooManySessionsError
 from ..shelf.library import Library
 from ..told.messages import Failure, MethodEntry, Recordings, ScoreEntry, Surveyed, Welcome
 from ..view import STRIP_SCORES, View
-from ..wire import BadMessageError, Cancel, Change, Close, Follow, Hello, parse
+from ..wire import BadMessageError, Cancel, Change, Close, Follow, Hello, OpenLink, parse
 from .live_status import tell_live
 from .viser_relay import client_page, relay
 
-# What a tab may change while it mirrors another.
-OWN = frozenset({"dark", "camera", "layers"})
 MIRRORING = "this tab follows a presenter; stop following to change what it shows"
 
 NO_HELLO, CLOSED, TOO_MANY = 4000, 4001, 4002
@@ -103,13 +102,11 @@ async def _session_of(
     hello: Hello, library: Library, sessions: Sessions, topic: str | None
 ) -> tuple[Session, bool, str | None]:
     """The former session or a new one with the page's View; and a complaint if that View cannot be had."""
-    changes = hello.view.changes() if hello.view is not None else {}
-    if not changes.get("recording", True):
-        del changes["recording"]
+    said = hello.view or {}
     former = sessions.resume(hello.session)
     if former is not None:
-        return former, True, former.restore(changes)
-    view, complaint = View(recording=library.first(), topic=topic).salvaged(changes)
+        return former, True, former.restore(said)
+    view, complaint = View(recording=library.first(), topic=topic).salvaged(said)
     if view.topic is None and view.recording == library.first():
         view = replace(view, topic=topic)
     return await sessions.open(view), False, complaint
@@ -165,7 +162,7 @@ async def _listen(socket: WebSocket, session: Session, sessions: Sessions) -> No
             await _tell(socket, Failure(where=error.where, message=str(error), rev=error.rev))
             continue
         match message:
-            case Change() if session.following and not OWN.issuperset(message.patch.model_fields_set):
+            case Change() | OpenLink() if session.following and not OWN.issuperset(_named(message)):
                 await _tell(socket, Failure(where="view", message=MIRRORING, rev=message.rev))
             case Follow():
                 await _follow(socket, session, sessions, message.id)
@@ -176,6 +173,11 @@ async def _listen(socket: WebSocket, session: Session, sessions: Sessions) -> No
                 except ValueError as error:
                     where = "params" if "params" in changes else "view"
                     await _tell(socket, Failure(where=where, message=str(error), rev=message.rev))
+            case OpenLink():
+                complaint = session.restore(message.patch, message.rev)
+                if complaint is not None:
+                    # The picture answers this revision.
+                    await _tell(socket, Failure(where="view", message=complaint))
             case Cancel():
                 session.cancel()
             case Close():
@@ -183,6 +185,11 @@ async def _listen(socket: WebSocket, session: Session, sessions: Sessions) -> No
                 return
             case Hello():
                 await _tell(socket, Failure(where="server", message="this tab has said hello already"))
+
+
+def _named(message: Change | OpenLink) -> set[str]:
+    """The fields that a message is about."""
+    return message.patch.model_fields_set if isinstance(message, Change) else set(message.patch)
 
 
 async def _follow(socket: WebSocket, session: Session, sessions: Sessions, id: str | None) -> None:

@@ -25,12 +25,12 @@ from lineseg.sweep import MEASURES, pool
 from lineseg.sweep.workers import Pool
 from lineseg.tuning import Objective, RecordingBlocks, Trial, Tuning
 
+from ..bounds import Message, Name, Number, sentence
 from ..session.sessions import Sessions
 from ..session.strip import step_back
 from ..told.answers import Trial as TrialTold
 from ..told.answers import Tuned
 from ..tuning.sensitivity import Subject, curves, relief
-from ..wire import Message, Name, Number, sentence
 
 # Of each recording; more would make a trial slow, and say little more.
 MOST_FRAMES = 400

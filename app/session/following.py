@@ -9,12 +9,10 @@ from dataclasses import replace
 from typing import Literal, Protocol
 
 from ..view import View
+from ..view_field import view_fields
 
 # Theme, camera and layers stay the follower's own.
-MIRRORED = (
-    "recording", "topic", "frame", "method", "params", "step", "selected", "mode", "score", "against", "weights",
-    "live",
-)  # fmt: skip
+OWN = frozenset(name for name, entry in view_fields(View).items() if not entry.mirrored)
 
 Presence = Literal["here", "away", "gone"]
 
@@ -73,4 +71,5 @@ class Presenter:
 
 def mirrored(own: View, shown: View) -> View:
     """A follower's View when its presenter looks at `shown`."""
-    return replace(own, **{name: getattr(shown, name) for name in MIRRORED})
+    kept = [name for name, entry in view_fields(type(own)).items() if not entry.mirrored]
+    return replace(shown, **{name: getattr(own, name) for name in kept})

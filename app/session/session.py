@@ -169,12 +169,12 @@ class Session:
             view = self._wanted.view.patched(patch)
             self._ask(view, self._wanted.rev if rev is None else rev, origin)
 
-    def restore(self, patch: Mapping[str, Any]) -> str | None:
-        """Change the View by all of the patch that can be had; a complaint about the rest, if any."""
+    def restore(self, said: Mapping[str, Any], rev: int | None = None) -> str | None:
+        """Change the View by all that can be had of what a link says; a complaint about the rest, if any."""
         with self._changed:
             self.last_input = time.monotonic()
-            view, complaint = self._wanted.view.salvaged(patch)
-            self._ask(view, self._wanted.rev, "page")
+            view, complaint = self._wanted.view.salvaged(said)
+            self._ask(view, self._wanted.rev if rev is None else rev, "page")
         return complaint
 
     def cancel(self) -> None:

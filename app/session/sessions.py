@@ -68,7 +68,7 @@ class Sessions:
     def presenter(self, id: str) -> Presenter:
         """Whoever shows itself under this id; a ValueError if nobody does."""
         for session in self._sessions.values():
-            if secrets.compare_digest(session.presenter.id, id):
+            if secrets.compare_digest(session.presenter.id.encode(), id.encode()):
                 return session.presenter
         raise ValueError("the presenter of this link is gone; ask for a new link")
 

@@ -10,8 +10,8 @@ from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationErr
 from lineseg.extractors import EXTRACTORS
 from lineseg.region_growing.trace import VOCABULARY
 
+from ..bounds import Name, Number, sentence
 from ..places import data_folder
-from ..wire import Name, Number, sentence
 
 Beam = Annotated[int, Field(ge=0)]
 Words = Annotated[str, Field(min_length=1, max_length=2000)]

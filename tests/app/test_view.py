@@ -2,10 +2,33 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, fields
+from typing import Annotated
+
 import pytest
-from lineseg_app.view import View
+from lineseg_app.following import mirrored
+from lineseg_app.view import MOST_WEIGHT, Against, Layers, View
+from lineseg_app.view_field import EACH, ViewField, field_entries, patch_of, view_fields
+from pydantic import Field, ValidationError
 
 from lineseg import Params
+
+OF_EACH_OTHER = View(
+    mode="inspect", recording="c", topic="/rear", frame=2, method="region-growing", params=Params(epsilon=0.05), step=1,
+    selected=4, camera="free", score="gap", against=Against("region-growing", Params()), weights=(("gap", 4.0),),
+    reference="wall", layers=Layers(grid=False), live=False, dark=True,
+)  # fmt: skip
+LINK_KEYS = {
+    "mode", "recording", "topic", "frame", "method", "step", "beam", "camera", "score", "against", "weights",
+    "reference", "layers", EACH,
+}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Zoomed(View):
+    """A View with one field more, declared here and nowhere else."""
+
+    zoom: Annotated[int, Field(ge=1, le=9), ViewField(link="zoom", mirrored=True, reset_by=("recording",))] = 1
 
 
 def test_a_patch_changes_what_it_names():
@@ -16,6 +39,7 @@ def test_a_patch_changes_what_it_names():
 def test_a_view_that_is_patched_with_another_becomes_that():
     other = View(recording="b", topic="/scan", frame=3, step=5, selected=9, params=Params(delta=0.2), dark=True)
     assert View(recording="a", frame=1).patched(other.as_json()) == other
+    assert other.patched(OF_EACH_OTHER.as_json()) == OF_EACH_OTHER
 
 
 def test_another_recording_starts_afresh_unless_the_patch_says_otherwise():
@@ -64,3 +88,94 @@ def test_who_chooses_a_frame_or_a_step_follows_no_longer():
     assert not view.patched({"step": 0}).live
     assert view.patched({"frame": 4, "live": True}).live
     assert view.patched({"frame": 4}).patched({"recording": "live:b"}).live
+
+
+def test_every_field_is_the_presenters_or_the_followers_own():
+    follower = mirrored(View(), OF_EACH_OTHER)
+    for name in (entry.name for entry in fields(View)):
+        own, shown = getattr(View(), name), getattr(OF_EACH_OTHER, name)
+        assert getattr(follower, name) == (shown if view_fields(View)[name].mirrored else own)
+    kept = {name for name, entry in view_fields(View).items() if not entry.mirrored}
+    assert kept == {"dark", "camera", "layers"}
+
+
+def test_every_field_has_a_key_in_the_link_or_says_that_it_has_none():
+    keys = [entry.link for entry in view_fields(View).values() if entry.link is not None]
+    assert set(keys) == LINK_KEYS
+    assert len(keys) == len(LINK_KEYS)
+    assert {name for name, entry in view_fields(View).items() if entry.link is None} == {"live", "dark"}
+
+
+def test_a_field_stands_behind_those_that_reset_it_or_switch_it_off():
+    names = list(view_fields(View))
+    for place, entry in enumerate(view_fields(View).values()):
+        assert set(names[:place]) >= {*entry.reset_by, *entry.off_by}
+
+
+def test_a_field_more_is_declared_in_one_place():
+    view = Zoomed(recording="a").patched({"zoom": 3})
+    assert view == Zoomed(recording="a", zoom=3)
+    assert view.patched({"recording": "b"}) == Zoomed(recording="b")
+    assert view.as_json()["zoom"] == 3
+    assert mirrored(Zoomed(dark=True), view) == Zoomed(recording="a", zoom=3, dark=True)
+    with pytest.raises(ValidationError, match="zoom"):
+        patch_of(Zoomed).model_validate({"zoom": 10})
+    assert view.salvaged({"zoom": "x", "frame": 3})[0].frame == 3
+    entry = field_entries(Zoomed)[-1]
+    assert (entry.name, entry.link, entry.written, entry.default, entry.most) == ("zoom", "zoom", "whole", 1, 9)
+
+
+def test_a_field_without_a_declaration_is_refused():
+    @dataclass(frozen=True)
+    class Careless(View):
+        zoom: int = 1
+
+    with pytest.raises(TypeError, match=r"Careless\.zoom"):
+        view_fields(Careless)
+
+
+def test_the_greatest_weight_is_told_to_the_page():
+    entry = next(entry for entry in field_entries(View) if entry.name == "weights")
+    assert entry.most == MOST_WEIGHT
+    assert View().patched({"weights": {"gap": MOST_WEIGHT}}).weights == (("gap", MOST_WEIGHT),)
+    with pytest.raises(ValueError, match="gap"):
+        View().patched({"weights": {"gap": MOST_WEIGHT + 1}})
+
+
+def test_a_view_says_all_its_weights_so_that_it_replaces_changed_ones():
+    assert View(weights=(("gap", 4.0),)).patched(View(recording="a").as_json()) == View(recording="a")
+
+
+@pytest.mark.parametrize(
+    ("said", "named"),
+    [
+        ({"params": {"self": 1}}, "self"),
+        ({"layers": {"self": True}}, "self"),
+        ({"weights": {"self": 1}}, "self"),
+        ({"against": {"method": "region-growing", "params": {"self": 1}}}, "self"),
+        ({"self": 1}, "self"),
+        ({"params": {"epsilon": 10**400}}, "epsilon"),
+        ({"params": 7}, "params"),
+        ({"params": {"epsilon": "abc"}}, "epsilon"),
+        ({"against": {}}, "against"),
+        ({"against": "nothing"}, "against"),
+        ({"topic": "x" * 400}, "topic"),
+        ({"topic": ["x"]}, "topic"),
+        ({"step": 9e99}, "step"),
+        ({"selected": 3_000_000_000}, "selected"),
+        ({"mode": "zz"}, "mode"),
+        ({"x" * 5000: 1}, "xxx"),
+    ],
+)
+def test_whatever_a_link_says_what_can_be_had_is_taken_and_the_rest_told(said, named):
+    view, complaint = View().salvaged(said | {"frame": 7})
+    assert view == View().patched({"frame": 7})
+    assert complaint is not None
+    assert named in complaint
+    assert len(complaint) < 400
+
+
+def test_of_many_complaints_the_first_are_told():
+    _, complaint = View().salvaged({"params": {f"zoom{k}": 1 for k in range(9)}})
+    assert complaint is not None
+    assert complaint.endswith("; and 6 more")

@@ -39,6 +39,16 @@ def test_a_follower_sees_what_its_presenter_does_and_can_change_nothing(server: 
         assert teacher.change(frame=1)["params"]["epsilon"] == 0.05
 
 
+def test_a_follower_is_judged_by_what_its_presenter_is(server: Address):
+    with page_of(server) as teacher, page_of(server) as pupil:
+        teacher.hello()
+        teacher.change(mode="inspect", reference="wall")
+        pupil.hello(follow=teacher.welcome["presenter"])
+        pupil.until(lambda state: state["reference"] == "wall")
+        error = pupil.refused(reference="labels")
+        assert error["message"] == "this tab follows a presenter; stop following to change what it shows"
+
+
 def test_a_presenter_may_be_away_come_back_and_be_gone(server: Address):
     with page_of(server) as pupil:
         with page_of(server) as teacher:

@@ -101,6 +101,22 @@ def test_what_is_no_view_is_named_in_one_sentence(page: Page, patch, where, name
     assert page.change(frame=2)["frame"] == 2
 
 
+def test_a_first_message_says_what_it_will_and_gets_a_picture(page: Page):
+    state = page.hello(frame=2, mode="zz", topic="x" * 400, selected=3e99, params={"self": 1, "delta": 0.3}, zoom=[])
+    assert (state["frame"], state["mode"], state["params"]["delta"]) == (2, "tune", 0.3)
+    assert page.last["error"]["message"].startswith("mode is 'zz'")
+
+
+def test_a_link_opened_in_a_tab_gets_what_can_be_had_and_the_rest_is_told(page: Page):
+    page.hello()
+    page.say(type="link", rev=1, patch={"frame": 2, "params": {"epsilon": -1, "delta": 0.3}})
+    state = page.drawn_or_told(1)
+    assert (state["frame"], state["params"]["delta"], state["view"]["params"]["delta"]) == (2, 0.3, 0.3)
+    assert page.last["error"]["message"].startswith("epsilon is -1")
+    page.say(type="link", rev=2, patch=page.last["drawn"]["state"]["view"])
+    assert page.drawn(2)["state"]["frame"] == 2
+
+
 def test_what_is_no_json_does_not_end_the_tab(page: Page):
     page.hello()
     page._socket.send("{")

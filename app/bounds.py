@@ -1,0 +1,33 @@
+"""What every message from the network has: bounds, and one sentence that says what is wrong with it."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+Name = Annotated[str, Field(max_length=300)]
+# The id of a drawn world holds all of its walls.
+RecordingId = Annotated[str, Field(max_length=8000)]
+Number = Annotated[float, Field(allow_inf_nan=False)]
+Count = Annotated[int, Field(ge=0, le=2**31)]
+Values = Annotated[dict[Name, int | Number], Field(max_length=64)]
+
+LONGEST_WORD = 60
+
+
+class Message(BaseModel):
+    """Unknown fields are refused: a misspelt name must not pass silently."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
+
+
+def sentence(error: ValidationError) -> str:
+    """The first complaint of a validation, with its place and what was found."""
+    first = error.errors(include_url=False, include_context=False)[0]
+    place = ".".join(_shown(str(part)) for part in first["loc"]) or "the message"
+    return f"{place} is {_shown(repr(first['input']))}: {first['msg'][:1].lower()}{first['msg'][1:]}"
+
+
+def _shown(word: str) -> str:
+    return word if len(word) <= LONGEST_WORD else word[: LONGEST_WORD - 3] + "…"

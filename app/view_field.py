@@ -1,0 +1,136 @@
+"""How a field of the View is declared, and what follows from that for patches, links and the page."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, fields
+from functools import cache
+from typing import Any, Literal, Protocol, get_type_hints
+
+from pydantic import BaseModel, TypeAdapter, create_model
+
+from .bounds import Message
+
+# The key in a link of what has many: each of its values stands under its own name.
+EACH = "*"
+
+Written = Literal["text", "whole", "choice", "thresholds", "pinned", "numbers", "switches"]
+
+
+@dataclass(frozen=True, eq=False)
+class ViewField:
+    """What all need to know of a field of the View, besides its type and default.
+
+    link: its key in a link; None: no link has it. mirrored: whether a follower shows what its presenter does; otherwise
+    it keeps its own. reset_by: the fields whose change lets it begin afresh: with its default, or as `fresh` says.
+    off_by: the fields that switch it off when they are chosen. lasting: whether it still means something when a link
+    to a live recording is opened later. choices: what it may be. patch: its type in a patch, where that is another.
+    take: the value from the View and what a patch says; a ValueError says what is wrong. tell: the value as a patch
+    says it. written: how a link writes it, where the type does not say so. most: of each of its numbers.
+    """
+
+    link: str | None
+    mirrored: bool
+    reset_by: tuple[str, ...] = ()
+    off_by: tuple[str, ...] = ()
+    lasting: bool = True
+    choices: Iterable[str] = ()
+    fresh: Callable[[Any], Any] | None = None
+    patch: Any = None
+    take: Callable[[Any, Any], Any] = lambda view, value: value
+    tell: Callable[[Any], Any] = lambda value: value
+    written: Written | None = None
+    most: float | None = None
+
+    def taken(self, name: str, view: Any, value: Any) -> Any:
+        """The value of the field of this name, from what a patch says."""
+        if self.choices and value not in self.choices:
+            raise ValueError(f"there is no {name} {value!r}; there are {', '.join(self.choices)}")
+        return self.take(view, value)
+
+
+class Viewlike(Protocol):
+    """A dataclass whose fields carry a ViewField each; all of them have defaults."""
+
+    def as_json(self) -> dict[str, Any]: ...
+
+
+@cache
+def view_fields(view: type[Viewlike]) -> dict[str, ViewField]:
+    """The declaration of each field, in their order; a field without one is a TypeError."""
+    hints = get_type_hints(view, include_extras=True)
+    declared: dict[str, ViewField] = {}
+    for name in (entry.name for entry in fields(view)):  # type: ignore[arg-type]
+        found = [each for each in getattr(hints[name], "__metadata__", ()) if isinstance(each, ViewField)]
+        if not found:
+            raise TypeError(f"{view.__name__}.{name} is not declared; it needs a ViewField")
+        declared[name] = found[0]
+    return declared
+
+
+class Patch(Message):
+    """Some fields of a View; those that were not sent stay as they are."""
+
+    def changes(self) -> dict[str, Any]:
+        return self.model_dump(exclude_unset=True)
+
+
+@cache
+def patch_of(view: type[Viewlike]) -> type[Patch]:
+    """The model of a patch of such a View."""
+    usual = view().as_json()
+    types: Any = {name: (patch_type, usual[name]) for name, patch_type in _patch_types(view).items()}
+    return create_model(f"{view.__name__}Patch", __base__=Patch, __module__=__name__, **types)
+
+
+def _patch_types(view: type[Viewlike]) -> dict[str, Any]:
+    hints = get_type_hints(view, include_extras=True)
+    return {name: entry.patch or hints[name] for name, entry in view_fields(view).items()}
+
+
+class FieldEntry(BaseModel):
+    """A field of the View as the page knows it; see ViewField.
+
+    default: {} where it depends on other fields. most: of a number, or of the length of a text.
+    """
+
+    name: str
+    link: str | None
+    written: Written | Literal["switch"]
+    default: Any
+    choices: list[str]
+    most: float | None
+    mirrored: bool
+    resetBy: list[str]  # noqa: N815
+    lasting: bool
+
+
+def field_entries(view: type[Viewlike]) -> list[FieldEntry]:
+    """What the page is told of each field."""
+    usual, types = view().as_json(), _patch_types(view)
+    return [_entry(name, entry, types[name], usual[name]) for name, entry in view_fields(view).items()]
+
+
+def _entry(name: str, entry: ViewField, patch_type: Any, default: Any) -> FieldEntry:
+    schema = TypeAdapter(patch_type).json_schema()
+    bounds = next((each for each in schema.get("anyOf", ()) if each.get("type") != "null"), schema)
+    choices = list(entry.choices) or bounds.get("enum", [])
+    plain: dict[str, Any] = {"string": "choice" if choices else "text", "integer": "whole", "boolean": "switch"}
+    return FieldEntry(
+        name=name,
+        link=entry.link,
+        written=entry.written or plain[bounds["type"]],
+        default={} if entry.fresh else default,
+        choices=choices,
+        most=entry.most or bounds.get("maximum", bounds.get("maxLength")),
+        mirrored=entry.mirrored,
+        resetBy=list(entry.reset_by),
+        lasting=entry.lasting,
+    )
+
+
+def page_module(view: type[Viewlike]) -> str:
+    """The declaration as a module of the page, which reads a link before any message has come."""
+    entries = [entry.model_dump() for entry in field_entries(view)]
+    return f"export const VIEW = {json.dumps(entries, allow_nan=False)};\n"
