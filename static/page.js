@@ -1,9 +1,10 @@
 // @ts-check
 // What the parts of this tab share: its View, its session, what was drawn last, and how all of them are told.
 import { tell } from "./parts.js";
+import { overlaid } from "./view/fields.js";
 import { Link } from "./view/link.js";
 import { keepSessionOnLeave, takeSession } from "./view/session.js";
-import { Store, viewOf } from "./view/store.js";
+import { Store } from "./view/store.js";
 
 /** @typedef {import("./parts.js").Part} Part */
 /** @typedef {import("./wire.js").Method} Method */
@@ -24,8 +25,8 @@ export class Page {
   #method = "";
 
   constructor() {
-    this.store.onChange((view, patch) => {
-      if (patch) this.link?.send(patch);
+    this.store.onChange((view, patch, linked) => {
+      if (patch) this.link?.send(patch, linked);
       this.showMethod();
       const { canUndo, canRedo } = this.store;
       this.tell("setView", view, { patch, canUndo, canRedo });
@@ -40,11 +41,11 @@ export class Page {
     const { session } = this;
     const link = new Link(`${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/api/session`, {
       rev: session.rev,
-      hello: () => ({
+      hello: (waiting) => ({
         type: "hello",
         session: session.id,
         rev: link.rev,
-        view: this.sendable(),
+        view: overlaid(this.view, waiting),
         follow: following.presenter,
       }),
       onMessage,
@@ -82,13 +83,7 @@ export class Page {
 
   /** Takes the View from what is drawn. */
   adoptDrawn() {
-    if (this.drawn) this.store.adopt(viewOf(this.drawn));
-  }
-
-  /** The View as the server takes it. */
-  sendable() {
-    const { recording, ...rest } = this.view;
-    return recording === null ? rest : { recording, ...rest };
+    if (this.drawn) this.store.adopt(this.drawn.view);
   }
 
   /** The id of the session for requests. */
@@ -105,7 +100,7 @@ export class Page {
     return this.learning || this.view.step !== null;
   }
 
-  /** @param {import("./view/store.js").Patch} patch @param {string | null} [gesture] */
+  /** @param {import("./view/fields.js").Patch} patch @param {string | null} [gesture] */
   change = (patch, gesture = null) => this.store.change(patch, gesture);
 
   /** @param {number} frame */

@@ -8,7 +8,7 @@
 
 /**
  * Beside a View: what a person changed in it, null for what the server told, and whether that can be undone and redone.
- * @typedef {{patch: import("./view/store.js").Patch | null, canUndo: boolean, canRedo: boolean}} Change
+ * @typedef {{patch: import("./view/fields.js").Patch | null, canUndo: boolean, canRedo: boolean}} Change
  */
 
 /**

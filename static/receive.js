@@ -26,7 +26,7 @@ export function createReceiver(page, { address, notices, work, following, panel,
     page.showMethod();
     page.store.declare(welcome.methods);
     // A resumed session may hold thresholds that the link leaves at their defaults.
-    if (welcome.resumed) page.link?.send(page.sendable());
+    if (welcome.resumed) page.link?.send(page.view, true);
     page.tell("setWelcome", welcome);
   }
 

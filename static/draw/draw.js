@@ -208,7 +208,7 @@ class Draw {
 
   /** @param {Readonly<import("../wire.js").View>} view */
   setView({ recording }) {
-    const next = recording === null ? null : worldOf(recording);
+    const next = worldOf(recording);
     if (next && this.#world && idOf(this.#world) === idOf(next)) return;
     if (!next) {
       this.#world = null;

@@ -16,9 +16,7 @@ import { createWords } from "./words.js";
  */
 export function createInspect(page, text, { timeline, onTags }) {
   const inspecting = () => page.view.mode === "inspect";
-  const weights = createWeights(text.weights, (changed) =>
-    page.change({ weights: { ...page.view.weights, ...changed } }),
-  );
+  const weights = createWeights(text.weights, (weights) => page.change({ weights }));
   const words = createWords({
     session: page.sessionId,
     wanted: () => [...frames.inView, ...filter.unknown()],

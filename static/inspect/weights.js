@@ -1,11 +1,12 @@
 // @ts-check
 // How much each score counts in the suspicion.
 import { h, setText } from "../widgets/dom.js";
+import { fieldOf } from "../view/fields.js";
 import { tooltip } from "../widgets/tooltip.js";
 
 /** @typedef {import("../wire.js").Score} Score */
 
-const MOST = 4;
+const { most: MOST } = fieldOf("weights");
 const STEP = 0.5;
 const NO_PART = new Set(["suspicion", "difference"]);
 

@@ -5,7 +5,7 @@ import { toast } from "../widgets/toast.js";
 import { presenterIn } from "./follow.js";
 import { createLinked } from "./linked.js";
 
-/** @typedef {import("./store.js").Look} Look */
+/** @typedef {import("./hash.js").Look} Look */
 
 const DELAY_MS = 200;
 

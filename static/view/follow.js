@@ -1,16 +1,18 @@
 // @ts-check
 // Mirroring another tab: the bar that says so, and the gate that keeps this tab from changing what it mirrors.
 import { h, setText } from "../widgets/dom.js";
+import { OWN } from "./fields.js";
 
-/** @typedef {import("./store.js").Patch} Patch */
+/** @typedef {import("./fields.js").Patch} Patch */
 /** @typedef {"here" | "away" | "gone"} Presence */
 
 const HASH = /^#follow=([\w-]+)$/;
-const OWN = new Set(["dark", "camera", "layers"]);
+// The server takes no longer id; a cut one is nobody's.
+const LONGEST_ID = 64;
 
 /** The presenter that a link names. @param {string} hash @returns {string | null} */
 export function presenterIn(hash) {
-  return HASH.exec(hash)?.[1] ?? null;
+  return HASH.exec(hash)?.[1].slice(0, LONGEST_ID) ?? null;
 }
 
 /**

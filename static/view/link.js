@@ -1,10 +1,10 @@
 // @ts-check
 // The WebSocket. At most one change is under way; newer ones replace each other meanwhile, and the last one always goes.
-import { merged } from "./store.js";
+import { merged } from "./fields.js";
 import { messageOf } from "./message.js";
 
 /** @typedef {import("../wire.js").Message} Message */
-/** @typedef {import("./store.js").Patch} Patch */
+/** @typedef {import("./fields.js").Patch} Patch */
 /** @typedef {"connecting" | "open" | "lost"} Connection */
 
 const FIRST_RETRY_MS = 250;
@@ -27,11 +27,11 @@ export class Link {
   #welcomed = false;
   #closed = false;
   /** @type {{rev: number, since: number, timer: number} | null} */ #underWay = null;
-  /** @type {{patch: Patch, since: number} | null} */ #waiting = null;
+  /** @type {{patch: Patch, since: number, linked: boolean} | null} */ #waiting = null;
 
   /**
    * @param {string} url
-   * @param {{rev: number, hello: () => object, onMessage: (message: Message, latencyMs: number | null) => void,
+   * @param {{rev: number, hello: (waiting: Patch) => object, onMessage: (message: Message, latencyMs: number | null) => void,
    *          onConnection: (connection: Connection, reason: string) => void}} options
    *   rev: the last revision of a resumed session; hello: the first message of each connection
    */
@@ -56,12 +56,12 @@ export class Link {
     return this.#underWay === null && this.#waiting === null;
   }
 
-  /** @param {Patch} patch */
-  send(patch) {
+  /** @param {Patch} patch @param {boolean} [linked] a link says it: the server takes what it can, and tells the rest */
+  send(patch, linked = false) {
     const waiting = this.#waiting;
     this.#waiting = waiting
-      ? { patch: merged(waiting.patch, patch), since: waiting.since }
-      : { patch, since: performance.now() };
+      ? { patch: merged(waiting.patch, patch), since: waiting.since, linked: waiting.linked || linked }
+      : { patch, since: performance.now(), linked };
     if (!this.#socket && !this.#retryTimer) this.retry();
     this.#next();
   }
@@ -96,12 +96,12 @@ export class Link {
 
   #next() {
     if (!this.#waiting || this.#underWay || !this.#welcomed) return;
-    const { patch, since } = this.#waiting;
+    const { patch, since, linked } = this.#waiting;
     this.#waiting = null;
     this.#rev += 1;
     const rev = this.#rev;
     this.#underWay = { rev, since, timer: setTimeout(() => this.#answered(rev), PATIENCE_MS) };
-    this.#post({ type: "view", rev, patch });
+    this.#post({ type: linked ? "link" : "view", rev, patch });
   }
 
   /** @param {number} rev */
@@ -120,11 +120,12 @@ export class Link {
     this.#socket = socket;
     this.#onConnection("connecting", "");
     socket.onopen = () => {
-      // hello carries the whole View, so what was waiting is in it.
+      // hello carries the whole View and what was waiting.
       if (this.#underWay) clearTimeout(this.#underWay.timer);
       this.#underWay = null;
+      const hello = this.#hello(this.#waiting?.patch ?? {});
       this.#waiting = null;
-      this.#post(this.#hello());
+      this.#post(hello);
     };
     socket.binaryType = "arraybuffer";
     socket.onmessage = (event) => this.#receive(messageOf(event.data));

@@ -3,7 +3,7 @@
 // the link says goes with the file once that is opened.
 
 /** @typedef {import("../wire.js").View} View */
-/** @typedef {import("./store.js").Patch} Patch */
+/** @typedef {import("./fields.js").Patch} Patch */
 
 export function createLinked() {
   /** @type {Readonly<View> | null} */

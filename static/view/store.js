@@ -1,82 +1,33 @@
 // @ts-check
 // The View of this tab: the one place where it changes, its undo, and its mirror in the URL hash.
 
+import { VIEW } from "../declared.js";
+import { freshView, isPartial, merged, overlaid, resets } from "./fields.js";
+import { hashOf, readHash } from "./hash.js";
+
 /** @typedef {import("../wire.js").View} View */
 /** @typedef {import("../wire.js").Params} Params */
 /** @typedef {import("../wire.js").Method} Method */
 /** @typedef {Pick<View, "method" | "params">} Chosen */
-/** @typedef {Partial<View>} Patch */
-/** The middle of the plan and how high it is [m]. @typedef {{x: number, y: number, span: number}} Look */
-/** @typedef {(view: Readonly<View>, patch: Patch | null) => void} Listener patch is null for what the server told */
-
-export const LAYERS = Object.freeze({
-  points: true,
-  invalid: false,
-  seeds: true,
-  segments: true,
-  endpoints: true,
-  normals: false,
-  dropped: true,
-  truth: false,
-  verdicts: false,
-  laser: true,
-  grid: true,
-  replay: true,
-});
-
-/** @returns {View} */
-function freshView() {
-  return {
-    recording: null,
-    topic: null,
-    frame: 0,
-    method: "region-growing",
-    params: {},
-    step: null,
-    layers: { ...LAYERS },
-    selected: null,
-    camera: "plan",
-    dark: false,
-    mode: "tune",
-    score: "coverage",
-    against: null,
-    weights: {},
-    reference: "labels",
-    live: true,
-  };
-}
-
-/**
- * `after` on top of `before`; params and layers are merged, and another recording forgets the place in the former one,
- * another method its params.
- * @template {Patch} T
- * @param {T} before
- * @param {Patch} after
- * @returns {T}
- */
-export function merged(before, after) {
-  const base = /** @type {T} */ ({ ...before });
-  if (after.recording !== undefined && after.recording !== before.recording) {
-    for (const name of /** @type {const} */ (["topic", "frame", "step", "selected", "live"])) delete base[name];
-  }
-  const result = { ...base, ...after };
-  // Another method has other thresholds.
-  const same = after.method === undefined || after.method === before.method;
-  if (same && before.params && after.params) result.params = { ...before.params, ...after.params };
-  if (before.layers && after.layers) result.layers = { ...before.layers, ...after.layers };
-  return result;
-}
-
-const RESET_BY_RECORDING = { topic: null, frame: 0, step: null, selected: null, live: true };
+/** @typedef {import("./fields.js").Patch} Patch */
+/** @typedef {import("./hash.js").Look} Look */
+/** @typedef {(view: Readonly<View>, patch: Patch | null, linked: boolean) => void} Listener patch: null for what the server told; linked: a link says it, and not all of it may be possible */
 
 export class Store {
-  /** @type {View} */ #view = freshView();
+  #fields;
+  /** @type {View} */ #view;
   /** @type {Chosen[]} */ #past = [];
   /** @type {Chosen[]} */ #future = [];
   /** @type {string | null} */ #gesture = null;
   /** @type {Record<string, Params>} of each method */ #defaults = {};
   /** @type {Record<string, Params>} of each method, as they were when another was chosen */ #kept = {};
   /** @type {Listener[]} */ #listeners = [];
+
+  /** @param {import("../wire.js").Field[]} fields */
+  constructor(fields = VIEW) {
+    this.#fields = fields;
+    this.#view = freshView(fields);
+  }
 
   /** @returns {Readonly<View>} */
   get view() {
@@ -116,7 +67,7 @@ export class Store {
       Object.fromEntries(knobs.map((knob) => [knob.name, knob.default])),
     ];
     this.#defaults = Object.fromEntries(methods.map(defaults));
-    const known = Object.entries(this.#view.params).filter(([name]) => name in this.defaults);
+    const known = Object.entries(this.#view.params).filter(([name]) => Object.hasOwn(this.defaults, name));
     this.#view = { ...this.#view, params: { ...this.defaults, ...Object.fromEntries(known) } };
     this.#tell(null);
   }
@@ -130,12 +81,13 @@ export class Store {
   change(patch, gesture = null) {
     // Controls that moved go back to what is.
     if (!this.allows(patch)) return this.#tell(null);
-    const { method, recording } = patch;
-    let full = recording && recording !== this.#view.recording ? { ...RESET_BY_RECORDING, ...patch } : patch;
-    if (method && method !== this.#view.method)
-      full = { params: this.#kept[method] ?? this.#defaults[method] ?? {}, ...full };
+    const afresh = resets(this.#view, patch, this.#fields).map(({ name, written, default: usual }) => [
+      name,
+      written === "thresholds" ? this.#thresholds(patch.method) : structuredClone(usual),
+    ]);
+    const full = { ...Object.fromEntries(afresh), ...patch };
     if (full.params) this.#remember(gesture);
-    this.#view = merged(this.#view, full);
+    this.#view = merged(this.#view, full, this.#fields);
     this.#tell(full);
     return undefined;
   }
@@ -147,7 +99,7 @@ export class Store {
   adopt(patch) {
     const same = patch.method === undefined || patch.method === this.#view.method;
     if (patch.params && !(same && equal(patch.params, this.#view.params))) this.#remember(null);
-    this.#view = merged(this.#view, patch);
+    this.#view = merged(this.#view, patch, this.#fields);
     this.#tell(null);
   }
 
@@ -189,153 +141,45 @@ export class Store {
     this.#future.length = 0;
   }
 
+  /** As they were when another method was chosen, or as they usually are. @param {string | undefined} method */
+  #thresholds(method = this.#view.method) {
+    return this.#kept[method] ?? this.#defaults[method] ?? {};
+  }
+
   /** @param {Patch | null} patch */
-  #tell(patch) {
-    for (const listener of this.#listeners) listener(this.#view, patch);
+  #tell(patch, linked = false) {
+    for (const listener of this.#listeners) listener(this.#view, patch, linked);
   }
 
   /** The View as a readable hash; what is as usual is left out. */
   get hash() {
-    const view = this.#view;
-    /** @type {[string, string | number][]} */
-    const pairs = [];
-    if (view.mode !== "tune") pairs.push(["mode", view.mode]);
-    if (view.recording !== null) pairs.push(["recording", view.recording]);
-    if (this.name && /^(file|recent|upload):/.test(view.recording ?? "")) pairs.push(["name", this.name]);
-    if (view.topic !== null) pairs.push(["topic", view.topic]);
-    // The frames of a live recording are gone when the link is opened.
-    if (view.frame !== 0 && !view.recording?.startsWith("live:")) pairs.push(["frame", view.frame]);
-    if (view.method !== "region-growing") pairs.push(["method", view.method]);
-    for (const [name, value] of Object.entries(view.params)) {
-      if (value !== this.defaults[name]) pairs.push([name, value]);
-    }
-    if (view.step !== null) pairs.push(["step", view.step]);
-    if (view.selected !== null) pairs.push(["beam", view.selected]);
-    if (view.camera !== "plan") pairs.push(["camera", view.camera]);
-    else if (this.look)
-      pairs.push(["look", [this.look.x, this.look.y, this.look.span].map((metres) => metres.toFixed(2)).join()]);
-    if (view.score !== "coverage") pairs.push(["score", view.score]);
-    if (view.against) pairs.push(["against", pinnedWords(view.against)]);
-    const weights = Object.entries(view.weights);
-    if (weights.length) pairs.push(["weights", weights.map(([name, value]) => `${name}:${value}`).join(",")]);
-    if (view.reference !== "labels") pairs.push(["reference", view.reference]);
-    const switched = Object.entries(LAYERS).filter(([name, usual]) => view.layers[name] !== usual);
-    if (switched.length) pairs.push(["layers", switched.map(([name, usual]) => (usual ? "-" : "") + name).join(",")]);
-    return pairs
-      .map(([name, value]) => `${name}=${encodeURIComponent(value).replace(/%(3A|3B|2F|2C)/g, decodeURIComponent)}`)
-      .join("&");
+    return hashOf(this.#view, this.#fields, this.defaults, this);
   }
 
   /**
-   * Takes the View from a hash; what the hash leaves out is as usual.
+   * Takes the View from a hash; what the hash leaves out is as usual, but for what is a person's own and in no link.
    * @param {string} hash
-   * @returns {boolean} false if the hash says nothing
+   * @returns {boolean} whether the hash names a recording
    */
   read(hash) {
-    const patch = parseHash(hash);
-    const words = new URLSearchParams(hash.replace(/^#/, ""));
-    this.name = words.get("name") ?? "";
-    this.look = parseLook(words.get("look"));
-    const dark = this.#view.dark;
-    const params = { ...this.#defaults[patch.method ?? freshView().method], ...patch.params };
-    this.#view = { ...freshView(), ...patch, params, layers: { ...LAYERS, ...patch.layers }, dark };
-    if (!patch.recording) return false;
-    this.#tell(this.#view);
-    return true;
+    const fresh = /** @type {import("./fields.js").Named} */ (freshView(this.#fields));
+    const own = /** @type {import("./fields.js").Named} */ (this.#view);
+    const defaults = (/** @type {string | undefined} */ method) => this.#defaults[method ?? fresh.method];
+    const { patch, odd, aside, empty } = readHash(hash, this.#fields, defaults);
+    if (empty) return false;
+    Object.assign(this, aside);
+    for (const { name, link, mirrored } of this.#fields) if (link === null && !mirrored) fresh[name] = own[name];
+    for (const { name } of this.#fields.filter(isPartial))
+      if (patch[name]) patch[name] = { ...fresh[name], ...patch[name] };
+    /** @type {import("./fields.js").Named} */
+    const view = { ...fresh, ...patch };
+    this.#view = /** @type {View} */ ({ ...view, params: { ...defaults(view.method), ...patch.params } });
+    this.#tell(overlaid(this.#view, odd, this.#fields), true);
+    return Boolean(patch.recording);
   }
 }
 
 /** @param {Params} one @param {Params} other */
 function equal(one, other) {
   return Object.entries(one).every(([name, value]) => other[name] === value);
-}
-
-/**
- * @param {string} hash
- * @returns {Patch}
- */
-function parseHash(hash) {
-  /** @type {Patch} */
-  const patch = {};
-  /** @type {Params} */
-  const params = {};
-  for (const [name, value] of new URLSearchParams(hash.replace(/^#/, "").replaceAll("+", "%2B"))) {
-    const number = value.trim() === "" ? NaN : Number(value);
-    if (name === "mode" || name === "recording" || name === "topic" || name === "method" || name === "score")
-      patch[name] = value;
-    else if (name === "follow" || name === "name" || name === "look") continue;
-    else if (name === "weights") patch.weights = parsePinned(`,${value}`).params;
-    else if (name === "against") patch.against = parsePinned(value);
-    else if (name === "camera") patch.camera = value === "free" ? "free" : "plan";
-    else if (name === "reference") patch.reference = value === "wall" ? "wall" : "labels";
-    else if (name === "layers") patch.layers = parseLayers(value);
-    else if (name === "frame" || name === "step" || name === "beam") {
-      if (Number.isInteger(number) && number >= 0) patch[name === "beam" ? "selected" : name] = number;
-    } else if (Number.isFinite(number)) params[name] = number;
-  }
-  if (Object.keys(params).length) patch.params = params;
-  return patch;
-}
-
-/** @param {import("../wire.js").Against} pinned "region-growing,epsilon:0.03,…" */
-function pinnedWords({ method, params }) {
-  return [method, ...Object.entries(params).map(([name, value]) => `${name}:${value}`)].join(",");
-}
-
-/** @param {string} value */
-function parsePinned(value) {
-  const [method, ...pairs] = value.split(",");
-  const params = pairs.map((pair) => pair.split(":")).filter(([, number]) => Number.isFinite(Number(number ?? NaN)));
-  return { method, params: Object.fromEntries(params.map(([name, number]) => [name, Number(number)])) };
-}
-
-/** @param {string | null} value "1.50,-2.00,8.00" @returns {Look | null} */
-function parseLook(value) {
-  const [x, y, span] = (value ?? "").split(",").map((metres) => (metres.trim() === "" ? NaN : Number(metres)));
-  return [x, y, span].every(Number.isFinite) && span > 0 ? { x, y, span } : null;
-}
-
-/** @param {string} value e.g. "normals,-dropped" */
-function parseLayers(value) {
-  const entries = value
-    .split(",")
-    .map((word) => /** @type {const} */ ([word.replace(/^-/, ""), !word.startsWith("-")]));
-  return Object.fromEntries(entries.filter(([name]) => name in LAYERS));
-}
-
-/** What a drawn state says of the View. @param {import("../wire.js").State} state */
-export function viewOf(state) {
-  const {
-    mode,
-    recording,
-    topics,
-    frame,
-    method,
-    params,
-    step,
-    layers: shown,
-    selected,
-    camera,
-    score,
-    against,
-    reference,
-  } = state;
-  const topic = topics.length > 1 ? state.topic : null;
-  const following = state.live ?? true;
-  return {
-    mode,
-    recording,
-    topic,
-    frame,
-    method,
-    params,
-    step,
-    layers: shown,
-    selected,
-    camera,
-    score,
-    against,
-    reference,
-    live: following,
-  };
 }

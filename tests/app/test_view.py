@@ -6,7 +6,7 @@ from dataclasses import dataclass, fields
 from typing import Annotated
 
 import pytest
-from lineseg_app.following import mirrored
+from lineseg_app.session.following import mirrored
 from lineseg_app.view import MOST_WEIGHT, Against, Layers, View
 from lineseg_app.view_field import EACH, ViewField, field_entries, patch_of, view_fields
 from pydantic import Field, ValidationError

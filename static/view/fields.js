@@ -1,0 +1,56 @@
+// @ts-check
+// The fields of the View as the server declares them (app/view.py), and what follows from that in the page.
+import { VIEW } from "../declared.js";
+
+/** @typedef {import("../wire.js").View} View */
+/** @typedef {import("../wire.js").Field} Field */
+/** @typedef {Partial<View>} Patch */
+/** A View or a patch of one, by the names of its fields. @typedef {Record<string, any>} Named */
+
+/** What a follower keeps. */
+export const OWN = new Set(VIEW.filter(({ mirrored }) => !mirrored).map(({ name }) => name));
+
+/** @param {string} name */
+export function fieldOf(name) {
+  const field = VIEW.find((each) => each.name === name);
+  if (!field) throw new Error(`the View has no ${name}`);
+  return field;
+}
+
+/** What a View begins with. @param {Field[]} [fields] @returns {View} */
+export function freshView(fields = VIEW) {
+  const fresh = Object.fromEntries(fields.map(({ name, default: value }) => [name, structuredClone(value)]));
+  return /** @type {any} */ (fresh);
+}
+
+/** Whether a patch may name only some of its entries. @param {Field} field */
+export const isPartial = ({ written }) => ["thresholds", "numbers", "switches"].includes(written);
+
+/** The fields that begin afresh after such a change. @param {Named} before @param {Named} after @param {Field[]} [fields] */
+export function resets(before, after, fields = VIEW) {
+  const changed = (/** @type {string} */ name) => after[name] !== undefined && after[name] !== before[name];
+  return fields.filter(({ resetBy }) => resetBy.some(changed));
+}
+
+/**
+ * `after` on top of `before`: what may be partial is merged, and what begins afresh is left out unless `after` has it.
+ * @template {Patch} T
+ * @param {T} before
+ * @param {Patch} after
+ * @param {Field[]} [fields]
+ * @returns {T}
+ */
+export function merged(before, after, fields = VIEW) {
+  /** @type {Named} */
+  const base = { ...before };
+  for (const { name } of resets(before, after, fields)) delete base[name];
+  return /** @type {T} */ (overlaid(base, after, fields));
+}
+
+/** `after` on top of `before`, where nothing begins afresh. @param {Named} before @param {Named} after @param {Field[]} [fields] */
+export function overlaid(before, after, fields = VIEW) {
+  const result = { ...before, ...after };
+  for (const { name } of fields.filter(isPartial))
+    if (before[name] && after[name]) result[name] = { ...before[name], ...after[name] };
+  return result;
+}
