@@ -11,7 +11,7 @@ from typing_extensions import is_typeddict
 from lineseg.sweep.totals import Measure
 from lineseg.what_if import WhatIf
 
-from . import wire
+from . import view, view_field, wire
 from .live.node_params import Sent
 from .routes import labels, robot, tuning
 from .shelf import lessons
@@ -35,14 +35,14 @@ SHARED = {
 # What TypeScript says better than an annotation.
 WRITTEN = """
 /** What is looked at. Every input changes only this. */
-export type View = Required<Omit<ViewPatch, "recording" | "mode" | "against">> & {
-  recording: string | null;
+export type View = Required<Omit<ViewPatch, "mode" | "against">> & {
   mode: string;
   against: Against | null;
 };
 export type Against = Required<Pinned>;
 /** The drawn state, as the page keeps it. latencyMs: from the latest change that was made here until it was drawn. */
 export type State = DrawnState & { rev: number; latencyMs: number | null };
+export type Field = FieldEntry;
 export type Knob = KnobEntry;
 export type Method = MethodEntry;
 export type Score = ScoreEntry;
@@ -50,7 +50,7 @@ export type Trouble = Failure;
 export type Columns = TraceColumns;
 export type Marks = Record<string, number[]>;
 /** What crosses the socket of a tab. */
-export type Incoming = Hello | Change | Cancel | Close | Follow;
+export type Incoming = Hello | Change | OpenLink | Cancel | Close | Follow;
 export type Message = Welcome | Recordings | LiveStatus | Loading | Failure | Traced | Drawn | Survey;
 /** The scores of every stride-th frame, as the page reads them: score after score in the order of Welcome.scores. */
 export type Survey = Surveyed & { values: Float32Array };
@@ -64,8 +64,8 @@ export type Answer = Worked & Partial<SampledCurves & SampledMap> & Tuned;
 def page_types() -> str:
     """The text of static/wire.d.ts."""
     shared = [alias(name, annotation) for name, annotation in SHARED.items()]
-    sent = [interface(each, sent=True) for module in (wire, labels, tuning, robot) for each in _declared(module)]
-    told = [interface(each) for module in (messages, drawn, answers, lessons) for each in _declared(module)]
+    sent = [interface(each, sent=True) for module in (view, wire, labels, tuning, robot) for each in _declared(module)]
+    told = [interface(each) for module in (messages, drawn, answers, lessons, view_field) for each in _declared(module)]
     told += [interface(each) for each in (Measure, WhatIf, Sent)]
     parts = [
         HEAD,

@@ -6,11 +6,12 @@ import json
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, fields
 from functools import cache
-from typing import Any, Literal, Protocol, get_type_hints
+from typing import Annotated, Any, Literal, Protocol, get_type_hints
 
 from pydantic import BaseModel, TypeAdapter, create_model
 
 from .bounds import Message
+from .told.typescript import As
 
 # The key in a link of what has many: each of its values stands under its own name.
 EACH = "*"
@@ -98,7 +99,7 @@ class FieldEntry(BaseModel):
     name: str
     link: str | None
     written: Written | Literal["switch"]
-    default: Any
+    default: Annotated[Any, As("any")]
     choices: list[str]
     most: float | None
     mirrored: bool

@@ -9,11 +9,12 @@ from pydantic import Field, JsonValue, TypeAdapter, ValidationError
 
 from .bounds import Count, Message, sentence
 from .told.messages import Where
+from .told.typescript import As
 from .view import View
 from .view_field import patch_of
 
 # What a link says of a View, which may be anything.
-Said = dict[str, JsonValue]
+Said = Annotated[dict[str, JsonValue], As("Partial<View>")]
 
 
 class ViewPatch(patch_of(View)):

@@ -22,14 +22,14 @@ export type Where = "recording" | "params" | "frame" | "view" | "upload" | "serv
 export type Job = "curves" | "map" | "auto";
 
 /** What is looked at. Every input changes only this. */
-export type View = Required<Omit<ViewPatch, "recording" | "mode" | "against">> & {
-  recording: string | null;
+export type View = Required<Omit<ViewPatch, "mode" | "against">> & {
   mode: string;
   against: Against | null;
 };
 export type Against = Required<Pinned>;
 /** The drawn state, as the page keeps it. latencyMs: from the latest change that was made here until it was drawn. */
 export type State = DrawnState & { rev: number; latencyMs: number | null };
+export type Field = FieldEntry;
 export type Knob = KnobEntry;
 export type Method = MethodEntry;
 export type Score = ScoreEntry;
@@ -37,7 +37,7 @@ export type Trouble = Failure;
 export type Columns = TraceColumns;
 export type Marks = Record<string, number[]>;
 /** What crosses the socket of a tab. */
-export type Incoming = Hello | Change | Cancel | Close | Follow;
+export type Incoming = Hello | Change | OpenLink | Cancel | Close | Follow;
 export type Message = Welcome | Recordings | LiveStatus | Loading | Failure | Traced | Drawn | Survey;
 /** The scores of every stride-th frame, as the page reads them: score after score in the order of Welcome.scores. */
 export type Survey = Surveyed & { values: Float32Array };
@@ -48,6 +48,7 @@ export type Answer = Worked & Partial<SampledCurves & SampledMap> & Tuned;
 
 // What the page sends
 
+/** A, as a patch says it. */
 export interface Pinned {
   method: string;
   params?: Record<string, number>;
@@ -55,29 +56,29 @@ export interface Pinned {
 
 /** Some fields of a View; those that were not sent stay as they are. */
 export interface ViewPatch {
+  mode?: "tune" | "learn" | "inspect";
   recording?: string;
   topic?: string | null;
   frame?: number;
   method?: string;
   params?: Record<string, number>;
   step?: number | null;
-  layers?: Record<string, boolean>;
   selected?: number | null;
   camera?: "plan" | "free";
-  dark?: boolean;
-  mode?: "tune" | "learn" | "inspect";
   score?: string;
   against?: Pinned | null;
   weights?: Record<string, number>;
   reference?: "labels" | "wall";
+  layers?: Record<string, boolean>;
   live?: boolean;
+  dark?: boolean;
 }
 
 /** The first message: which session to take up again, if it is still there, and what to look at. */
 export interface Hello {
   type: "hello";
   session?: string | null;
-  view?: ViewPatch | null;
+  view?: Partial<View> | null;
   rev?: number | null;
   follow?: string | null;
 }
@@ -86,6 +87,13 @@ export interface Change {
   type: "view";
   rev: number;
   patch: ViewPatch;
+}
+
+/** Look at what a link says: at all of it that can be had. */
+export interface OpenLink {
+  type: "link";
+  rev: number;
+  patch: Partial<View>;
 }
 
 export interface Cancel {
@@ -446,15 +454,17 @@ export interface Labels {
 /**
  * What is on the screen.
  *
- * label: of the recording; pack: of a failure pack, what it says. topic: the one on the screen. live: whether the
- * newest frame is followed, null of a recording that is not live; first: number of the first frame, of a live
- * recording the oldest are gone. stamp: time since the first scan [s]. covered: how many of the `valid` beams are
- * in segments. steps: decisions that there are. difference: what became of the lines of A. truth: the recording
- * knows its walls. agreement: in the mode Inspect, where the truth is known; labels: there, of a recording that can
- * have some. references: by what segments can be judged; judgedBy: by what they are, "" without truth. extent: box
- * around the points of the frame, bounds: of the recording [m]. extractionUs: time of the extraction [µs].
+ * view: all of it, as a patch that leads back to it. label: of the recording; pack: of a failure pack, what it
+ * says. topic: the one on the screen. live: whether the newest frame is followed, null of a recording that is not
+ * live; first: number of the first frame, of a live recording the oldest are gone. stamp: time since the first scan
+ * [s]. covered: how many of the `valid` beams are in segments. steps: decisions that there are. difference: what
+ * became of the lines of A. truth: the recording knows its walls. agreement: in the mode Inspect, where the truth
+ * is known; labels: there, of a recording that can have some. references: by what segments can be judged; judgedBy:
+ * by what they are, "" without truth. extent: box around the points of the frame, bounds: of the recording [m].
+ * extractionUs: time of the extraction [µs].
  */
 export interface Scene {
+  view: View;
   mode: View["mode"];
   recording: string;
   label: string;
@@ -511,6 +521,7 @@ export interface Timings {
  * presenter that this tab mirrors.
  */
 export interface DrawnState {
+  view: View;
   mode: View["mode"];
   recording: string;
   label: string;
@@ -822,6 +833,23 @@ export interface NamedLesson {
 export interface Lessons {
   lessons: NamedLesson[];
   broken: string[];
+}
+
+/**
+ * A field of the View as the page knows it; see ViewField.
+ *
+ * default: {} where it depends on other fields. most: of a number, or of the length of a text.
+ */
+export interface FieldEntry {
+  name: string;
+  link: string | null;
+  written: "text" | "whole" | "choice" | "thresholds" | "pinned" | "numbers" | "switches" | "switch";
+  default: any;
+  choices: string[];
+  most: number | null;
+  mirrored: boolean;
+  resetBy: string[];
+  lasting: boolean;
 }
 
 /** How a measure is called and read; truth: whether it needs true lines. */

@@ -151,7 +151,8 @@ class Labels(Labelled):
 class Scene(TypedDict):
     """What is on the screen.
 
-    label: of the recording; pack: of a failure pack, what it says. topic: the one on the screen. live: whether the
+    view: all of it, as a patch that leads back to it. label: of the recording; pack: of a failure pack, what it says.
+    topic: the one on the screen. live: whether the
     newest frame is followed, null of a recording that is not live; first: number of the first frame, of a live
     recording the oldest are gone. stamp: time since the first scan [s]. covered: how many of the `valid` beams are in
     segments. steps: decisions that there are. difference: what became of the lines of A. truth: the recording knows its
@@ -160,6 +161,7 @@ class Scene(TypedDict):
     points of the frame, bounds: of the recording [m]. extractionUs: time of the extraction [µs].
     """
 
+    view: Annotated[dict[str, Any], As("View")]
     mode: Annotated[str, As('View["mode"]')]
     recording: str
     label: str
