@@ -20,7 +20,13 @@ export function createAddress(page, text, { following, onLook }) {
   let timer = 0;
   /** Of the last drawn state. @type {{recording: string, topic: string | null} | null} */
   let shown = null;
-  addEventListener("hashchange", () => (presenterIn(location.hash) ? location.reload() : read(location.hash)));
+  addEventListener("hashchange", ({ newURL }) => {
+    // The address may have been written since.
+    const { hash } = new URL(newURL);
+    if (!presenterIn(hash)) return read(hash);
+    history.replaceState(null, "", hash);
+    return location.reload();
+  });
 
   function write() {
     clearTimeout(timer);

@@ -16,7 +16,7 @@ def test_a_link_without_weights_has_the_usual_ones(new_tab):
 
 
 def test_weights_that_are_as_usual_again_leave_the_link(new_tab):
-    tab = new_tab("#mode=inspect&recording=sample:hallway&weights=gap:4")
+    tab = new_tab("#mode=inspect&score=suspicion&recording=sample:hallway&weights=gap:4")
     tab.page.get_by_role("tab", name="Frames").click()
     tab.page.locator(".weights-holder summary").click()
     slider = tab.page.locator(".weights input").first
