@@ -24,7 +24,7 @@ export function bindingsOf(page, parts, words, help) {
   const steps = () => (page.learning ? stepper : parts.replay);
   /** What ← and → move through. */
   const place = () => (page.replaying ? steps() : timeline);
-  /** Whose edits Ctrl+Z takes back. */
+  /** The part whose edits Ctrl+Z undoes. */
   const editor = () => [draw, labels].find(({ active }) => active) ?? page.store;
 
   /** @param {"refusal" | "merge" | "cut"} mark */

@@ -1,5 +1,5 @@
 // @ts-check
-// Answers of the server as text, or the sentence that says why there is none.
+// Answers of the server as text, or a sentence that says why there is none.
 import { pageText } from "./text/page.js";
 
 /** @param {string} url @param {RequestInit} [options] @returns {Promise<{words: string, trouble: string | null}>} */
@@ -13,7 +13,7 @@ export async function fetchText(url, options) {
   }
 }
 
-/** The sentence in an error of the server. @param {string} body */
+/** The message in an error of the server. @param {string} body */
 export function messageOf(body) {
   try {
     return String(JSON.parse(body).message);

@@ -1,5 +1,5 @@
 // @ts-check
-// The keyboard: one table for what keys do and for the help that lists them.
+// The keyboard: one table serves both the keys and the help that lists them.
 import { openDialog } from "./widgets/dialog.js";
 import { h } from "./widgets/dom.js";
 
@@ -29,7 +29,7 @@ export function keyboard(bindings) {
   };
 }
 
-/** Elements of the scene's frame belong to another window, so `instanceof` would not know them. @param {EventTarget | null} target */
+/** Elements in the scene's frame belong to another window, so `instanceof` does not recognise them. @param {EventTarget | null} target */
 function typing(target) {
   const element = /** @type {HTMLInputElement | null} */ (target);
   const tag = element?.tagName;
@@ -40,7 +40,7 @@ function typing(target) {
   );
 }
 
-/** Whether the key works the focused control itself. @param {EventTarget | null} target @param {string} pressed */
+/** Whether the focused control handles the key itself. @param {EventTarget | null} target @param {string} pressed */
 function operates(target, pressed) {
   const element = /** @type {HTMLElement | null} */ (target);
   if (pressed !== "Space" && pressed !== "Enter") return false;

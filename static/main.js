@@ -1,5 +1,5 @@
 // @ts-check
-// Composition only: which parts there are, where they stand, and in which order they are told.
+// Composition only: the parts, their places, and the order in which they are informed.
 import { createModes } from "./bars/modes.js";
 import { mountStatus } from "./bars/status.js";
 import { Timeline } from "./bars/timeline.js";
@@ -42,7 +42,7 @@ const address = createAddress(page, text, {
   following: () => following.presenter,
   onLook: (look) => camera.want(look),
 });
-// On the stage, what comes later lies over what came before.
+// On the stage, later elements lie over earlier ones.
 const scene = mountScene(page, place("stage"), text, {
   onKey: (event) => press(event),
   onFrame: (frame) => opening.acceptDrops(frame),
@@ -132,7 +132,7 @@ const press = keyboard(bindings);
 addEventListener("keydown", press);
 opening.acceptDrops(window);
 
-// Sizes stand before the camera looks, and the frame's labels before what is filtered by them.
+// Sizes must be set before the camera, and the labels of a frame before the lists that they filter.
 page.parts = [address, following, modes, topbar, timeline, live, packCard, ...tune.parts, learn, draw, status];
 page.parts.push(labels, rerun, ...inspect.parts, ...scene.parts);
 page.connect(

@@ -1,5 +1,5 @@
 // @ts-check
-// What the parts of this tab share: its View, its session, what was drawn last, and how all of them are told.
+// What the parts of this tab share: its View, its session, the last drawn state, and the calls that inform every part.
 import { tell } from "./parts.js";
 import { overlaid } from "./view/fields.js";
 import { Link } from "./view/link.js";
@@ -16,11 +16,11 @@ export class Page {
   session = takeSession();
   /** @type {Link | null} */
   link = null;
-  /** What the server said first. @type {import("./wire.js").Welcome | null} */
+  /** The first message of the server. @type {import("./wire.js").Welcome | null} */
   welcome = null;
   /** The last drawn state. @type {State | null} */
   drawn = null;
-  /** In the order in which they are told. @type {Part[]} */
+  /** In the order in which they are informed. @type {Part[]} */
   parts = [];
   #method = "";
 
@@ -68,12 +68,12 @@ export class Page {
     return this.welcome?.methods ?? [];
   }
 
-  /** Of this name, or the first of all. @param {string} name */
+  /** The method of this name, or the first one. @param {string} name */
   methodOf(name) {
     return this.methods.find((method) => method.name === name) ?? this.methods[0];
   }
 
-  /** Tells of the chosen method, if it is another. */
+  /** Informs the parts if another method was chosen. */
   showMethod() {
     const { method } = this.view;
     if (method === this.#method || !this.methods.length) return;
@@ -81,7 +81,7 @@ export class Page {
     this.tell("setMethod", this.methodOf(method), this.methods);
   }
 
-  /** Takes the View from what is drawn. */
+  /** Takes over the View of the drawn state. */
   adoptDrawn() {
     if (this.drawn) this.store.adopt(this.drawn.view);
   }
@@ -89,7 +89,7 @@ export class Page {
   /** The id of the session for requests. */
   sessionId = () => this.session.id ?? "";
 
-  /** Everything that was changed here is drawn. */
+  /** Whether every change made in this tab is drawn. */
   settled = () => this.link?.settled ?? true;
 
   get learning() {
@@ -105,7 +105,7 @@ export class Page {
 
   /** @param {number} frame */
   goToFrame = (frame) => {
-    // The decisions of another frame are others.
+    // Another frame has other decisions.
     this.change({ frame, selected: null, step: this.replaying ? 0 : null, live: false });
   };
 
@@ -115,18 +115,18 @@ export class Page {
   /** @param {string} mode */
   setMode = (mode) => {
     if (mode === this.view.mode) return;
-    // Inspecting begins with the most suspicious frames, learning with the first decision.
+    // Inspect starts with the most suspicious frames, Learn with the first decision.
     const score = mode === "inspect" && this.view.score === "coverage" ? { score: "suspicion" } : {};
     this.change({ mode, step: mode === "learn" ? 0 : null, ...score });
   };
 
-  /** Opens the world that drawing begins with. */
+  /** Opens the initial world for drawing. */
   drawWorld = () => {
     const recording = this.welcome?.recordings.find(({ group }) => group === "Drawn")?.id;
     if (recording) this.change({ recording, step: null });
   };
 
-  /** Whether so much of a method is what is looked at. @param {string} method @param {Params} params */
+  /** Whether the View shows a method to this extent. @param {string} method @param {Params} params */
   looksAt(method, params) {
     const view = this.view;
     return method === view.method && Object.entries(params).every(([name, value]) => view.params[name] === value);

@@ -1,5 +1,5 @@
 // @ts-check
-// What a part of the page may be told. Each of these is a method of that name, which a part has or has not.
+// What a part of the page can be informed of. Each entry is an optional method of the part.
 
 /** @typedef {import("./wire.js").Message} Message */
 /** @typedef {import("./wire.js").Method} Method */
@@ -7,18 +7,18 @@
 /** @typedef {import("./wire.js").View} View */
 
 /**
- * Beside a View: what a person changed in it, null for what the server told, and whether that can be undone and redone.
+ * What comes with a View: what a person changed in it (null if the server changed it), and whether undo and redo are possible.
  * @typedef {{patch: import("./view/fields.js").Patch | null, canUndo: boolean, canRedo: boolean}} Change
  */
 
 /**
  * @typedef {object} Part
- * @property {(view: Readonly<View>, change: Change) => void} [setView] it changed
- * @property {(state: State, origin: "page" | "scene") => void} [setState] it was drawn; origin: where the change was made
- * @property {(method: Method, methods: Method[]) => void} [setMethod] another one is chosen
- * @property {(methods: Method[]) => void} [setMethods] those that there are
- * @property {(scores: import("./wire.js").Score[]) => void} [setScores] those that there are
- * @property {(welcome: import("./wire.js").Welcome) => void} [setWelcome] the server is there, perhaps again
+ * @property {(view: Readonly<View>, change: Change) => void} [setView] the View changed
+ * @property {(state: State, origin: "page" | "scene") => void} [setState] a state was drawn; origin: where the change was made
+ * @property {(method: Method, methods: Method[]) => void} [setMethod] another method was selected
+ * @property {(methods: Method[]) => void} [setMethods] the available methods
+ * @property {(scores: import("./wire.js").Score[]) => void} [setScores] the available scores
+ * @property {(welcome: import("./wire.js").Welcome) => void} [setWelcome] the server is connected, perhaps again
  * @property {(recordings: import("./wire.js").RecordingEntry[]) => void} [setRecordings]
  * @property {(survey: import("./wire.js").Survey) => void} [setSurvey]
  * @property {(trace: import("./learn/trace.js").Columns) => void} [setTrace]
@@ -28,7 +28,7 @@
  */
 
 /**
- * Tells all parts, in their order.
+ * Calls this method of every part that has it, in order.
  * @template {keyof Part} Name
  * @param {Part[]} parts
  * @param {Name} name

@@ -1,5 +1,5 @@
 // @ts-check
-// What comes from the server, and who is told of it.
+// Passes each message of the server to the parts that need it.
 
 /** @typedef {import("./wire.js").State} State */
 /** @typedef {import("./wire.js").Message} Message */
@@ -25,7 +25,7 @@ export function createReceiver(page, { address, notices, work, following, panel,
     page.tell("setScores", welcome.scores);
     page.showMethod();
     page.store.declare(welcome.methods);
-    // A resumed session may hold thresholds that the link leaves at their defaults.
+    // A resumed session may have thresholds that the link leaves at their defaults.
     if (welcome.resumed) page.link?.send(page.view, true);
     page.tell("setWelcome", welcome);
   }

@@ -16,11 +16,11 @@ export function offerToScripts(page, { timeline, address, rerun, tuner, stage })
     get strip() {
       return timeline.scored.current;
     },
-    /** Whoever opens it sees what this tab shows. */
+    /** A link that shows what this tab shows. */
     get followLink() {
       return address.followLink;
     },
-    /** The frame at which the time cursor of rerun's viewer stands; null without it. */
+    /** The frame at the time cursor of rerun's viewer; null without the viewer. */
     get rerunFrame() {
       return rerun.cursor;
     },
@@ -28,9 +28,9 @@ export function offerToScripts(page, { timeline, address, rerun, tuner, stage })
     get tuner() {
       return tuner.current;
     },
-    /** Where a point of the plan is on the stage [px]. @param {number} x @param {number} y */
+    /** Position of a point of the plan on the stage [px]. @param {number} x @param {number} y */
     project: (x, y) => stage.project(x, y),
-    /** Everything that was changed here is drawn. */
+    /** Whether every change made in this tab is drawn. */
     get settled() {
       return page.settled();
     },

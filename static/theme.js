@@ -1,5 +1,5 @@
 // @ts-check
-// Light, dark, or as the system: kept in this browser, and in the View as what comes of it.
+// Light, dark, or the same as the system. The choice is kept in this browser; the View has the resulting theme.
 
 const KEY = "lineseg.theme";
 

@@ -1,5 +1,5 @@
 // @ts-check
-// The switch between the modes, and what of the page each of them shows.
+// The switch between the modes, and which parts of the page each mode shows.
 import { h } from "../widgets/dom.js";
 
 export const MODES = /** @type {const} */ (["tune", "learn", "inspect"]);

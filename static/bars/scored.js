@@ -1,5 +1,5 @@
 // @ts-check
-// What is known of the frames by their scores: the newest survey, and what follows from it.
+// The scores of the frames: the newest survey, and what follows from it.
 import { clamp } from "../widgets/scale.js";
 
 /** @typedef {import("../wire.js").State} State */
@@ -14,11 +14,11 @@ export class ScoredFrames {
   /** @type {State | null} */
   #state = null;
   #score = "";
-  /** Frames from the most doubtful to the least, once asked for. @type {Uint32Array | null} */
+  /** Frames from the most to the least doubtful, once requested. @type {Uint32Array | null} */
   #ranking = null;
   #rank = -1;
 
-  /** The name of the chosen one. */
+  /** The name of the selected score. */
   get score() {
     return this.#score;
   }
@@ -35,31 +35,31 @@ export class ScoredFrames {
     return this.survey !== null && this.survey.message === null && this.survey.stride === 1;
   }
 
-  /** Whether the chosen score is still to come, because it takes many surveys. */
+  /** Whether the selected score is not available yet because it takes many surveys. */
   get due() {
     return this.complete && !this.values.length && this.#score !== "difference";
   }
 
-  /** Whether nothing is pinned that the frames could differ from. */
+  /** Whether the selected score needs a pinned result and there is none. */
   get lacksPinned() {
     return !this.values.length && this.complete && !this.#state?.against;
   }
 
-  /** The values that are known of the chosen score; none if there is no survey. */
+  /** The known values of the selected score; none if there is no survey. */
   get values() {
     const at = this.scores.findIndex(({ name }) => name === this.#score);
     if (!this.survey || this.survey.message !== null || at < 0) return new Float32Array(0);
     return columnOf(this.survey, at);
   }
 
-  /** Whether the values belong to other thresholds than what is drawn, or to some of the frames only. */
+  /** Whether the values belong to other thresholds than the drawn ones, or only to some frames. */
   get stale() {
     const [survey, state] = [this.survey, this.#state];
     if (!survey || !state) return false;
     return survey.stride !== 1 || !samePlace(survey, state) || !sameParams(survey.params, state.params);
   }
 
-  /** What a frame is called: of a live recording the oldest are gone. @param {number} frame */
+  /** The number of a frame; a live recording drops its oldest frames. @param {number} frame */
   number = (frame) => (this.survey?.first ?? 0) + frame + 1;
 
   /** @param {number} frame "coverage 0.83" */
@@ -95,7 +95,7 @@ export class ScoredFrames {
     return true;
   }
 
-  /** The next (1) or former (−1) in the order of doubt, the worst to begin with; null if it is not known yet. @param {number} frame @param {1 | -1} by */
+  /** The next (1) or previous (−1) frame in the order of doubt, worst first; null if it is not known yet. @param {number} frame @param {1 | -1} by */
   doubtful(frame, by) {
     const known = this.values;
     if (!this.survey || this.survey.stride > 1 || !known.length) return null;
@@ -107,7 +107,7 @@ export class ScoredFrames {
     return this.#ranking[this.#rank];
   }
 
-  /** The next frame, after the last the first, in which A and B differ; null if there is none. @param {number} frame */
+  /** The next frame where A and B differ, starting again from the first after the last; null if there is none. @param {number} frame */
   different(frame) {
     const at = this.scores.findIndex(({ name }) => name === "difference");
     const known = this.survey && this.complete ? columnOf(this.survey, at) : [];
@@ -139,7 +139,7 @@ export class ScoredFrames {
   }
 }
 
-/** The values of the score at a place in the list, of every stride-th frame; none if it was not told. @param {Survey} survey @param {number} at */
+/** The values of the k-th score for every stride-th frame; none if they were not sent. @param {Survey} survey @param {number} at */
 function columnOf({ frames, stride, values }, at) {
   const known = Math.ceil(frames / stride);
   const column = values.subarray(at * known, (at + 1) * known);

@@ -4,13 +4,13 @@ import { clamp } from "../widgets/scale.js";
 
 /** @typedef {{low: number, high: number}} Scale */
 
-// From what is well to what is doubtful; lightness alone tells them apart, so no kind of colour vision is needed.
+// From good to doubtful. Lightness alone distinguishes them, so they work for every kind of colour vision.
 export const LIGHT = [0xeceff2, 0xf7d59b, 0xe8903a, 0xb04410, 0x571908];
 export const DARK = [0x2c3239, 0x5f3c1d, 0xad5d18, 0xf0a043, 0xfff1c9];
 export const SHADES = 64;
 
 /**
- * The frame that each pixel shows: the most doubtful of those under it.
+ * The frame that each pixel shows: the most doubtful of the frames at this pixel.
  * @param {Float32Array} known every stride-th frame
  * @param {{frames: number, stride: number}} survey
  * @param {number} width

@@ -17,7 +17,7 @@ export class Strip {
   #text;
   #onChange;
   #shades = shadesBetween(LIGHT);
-  /** Of each score, over all that was seen of this recording: one colour means one value while thresholds change. @type {Map<string, Scale>} */
+  /** The range of each score over everything seen of this recording, so that a colour keeps its value while thresholds change. @type {Map<string, Scale>} */
   #scales = new Map();
   /** The frame that each pixel shows. @type {Int32Array} */
   #shown = new Int32Array(0);
@@ -54,9 +54,9 @@ export class Strip {
     new ResizeObserver(() => this.#paintSoon()).observe(this.#canvas);
     this.#select = select;
     this.#legend = legend;
-    /** What goes into the track, behind the scrubber. */
+    /** The element for the track, behind the scrubber. */
     this.backdrop = [this.#canvas, this.#note, this.#hint];
-    /** What stands beside it. */
+    /** The element beside the track. */
     this.chooser = h("span", { class: "strip-chooser" }, select, legend);
   }
 
@@ -105,7 +105,7 @@ export class Strip {
     this.#showStale();
   }
 
-  /** Where the pointer means to go: to the frame that its pixel shows and the hint names. @param {number} frame as the scrubber tells */
+  /** The frame for a click: the one that the pixel shows and the hint names. @param {number} frame as the scrubber tells */
   snap(frame) {
     const { survey } = this.frames;
     const shown = this.#shown;

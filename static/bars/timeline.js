@@ -18,8 +18,8 @@ const USUAL_SPEED = 10;
  * @typedef {object} Handlers
  * @property {(frame: number) => void} onFrame
  * @property {(score: string) => void} onScore
- * @property {() => void} onScores the strip shows other values
- * @property {(live: boolean) => void} onFollow of a live recording
+ * @property {() => void} onScores the values of the strip changed
+ * @property {(live: boolean) => void} onFollow a live recording is followed, or no longer
  * @property {() => boolean} settled
  * @property {HTMLElement} pill shows whether it is followed
  */
@@ -28,9 +28,9 @@ const USUAL_SPEED = 10;
 export class Timeline {
   #frame = 0;
   #frames = 0;
-  /** Number of the first frame: of a live recording the oldest scans are gone. */
+  /** Number of the first frame; a live recording drops its oldest scans. */
   #first = 0;
-  /** Whether a live recording is followed; null of another. @type {boolean | null} */
+  /** Whether the live recording is followed; null if the recording is not live. @type {boolean | null} */
   #live = null;
   #bar;
   #text;
@@ -69,7 +69,7 @@ export class Timeline {
       onPlace: (place) => this.#go(this.#strip.snap(Math.round(place * Math.max(0, this.#frames - 1)))),
       onSteps: (steps) => this.move(steps),
     });
-    // Where the thumb stands already the scrubber tells nothing, yet the pixel may show another frame.
+    // A click on the thumb itself moves nothing, but the pixel may show another frame.
     slider.element.addEventListener("click", () => this.#go(this.#strip.snap(this.#frame)));
     const stamp = h("span", { class: "stamp" });
     tooltip(stamp, text.stamp);
@@ -112,7 +112,7 @@ export class Timeline {
     else this.#go(this.#frame + steps);
   }
 
-  /** Play or pause. Who stands at the end of a live recording that was paused follows it again. */
+  /** Plays or pauses. At the end of a paused live recording, follows it again. */
   toggle() {
     const atEnd = !this.#player.playing && this.#frame >= this.#frames - 1;
     if (this.#live) this.#handlers.onFollow(false);
@@ -120,19 +120,19 @@ export class Timeline {
     else if (this.#frames > 1) this.#player.toggle();
   }
 
-  /** To the next or former of the frames in the order of their score, the worst first. @param {1 | -1} by */
+  /** Goes to the next or previous frame in the order of the score, worst first. @param {1 | -1} by */
   doubtful(by) {
     this.#player.stop();
     const next = this.#strip.frames.doubtful(this.#frame, by);
     if (next !== null) this.#go(next);
   }
 
-  /** The next frame in which A and B differ; null if there is none. */
+  /** The next frame where A and B differ; null if there is none. */
   different() {
     return this.#strip.frames.different(this.#frame);
   }
 
-  /** What the scores say of the frames. */
+  /** The scores of the frames. */
   get scored() {
     return this.#strip.frames;
   }

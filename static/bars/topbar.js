@@ -12,7 +12,7 @@ const THEMES = /** @type {const} */ (["auto", "light", "dark"]);
 /** @typedef {(typeof THEMES)[number]} Theme */
 
 /**
- * The menu of what can be opened.
+ * The menu of recordings that can be opened.
  * @param {typeof import("../text/page.js").pageText} words
  * @param {{onOpen: () => void, onRecording: (id: string) => void}} handlers
  */
@@ -62,7 +62,7 @@ function createRecordings(words, { onOpen, onRecording }) {
 }
 
 /**
- * The button that goes through the themes.
+ * The button that switches to the next theme.
  * @param {typeof import("../text/page.js").pageText.top} text
  * @param {Theme} theme
  * @param {(theme: Theme) => void} onTheme

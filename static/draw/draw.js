@@ -1,5 +1,5 @@
 // @ts-check
-// The editor of a world: its card, its undo, and the recording that its text is the id of.
+// The editor of a world: its card, its undo, and the recording, whose id is the text of the world.
 import { h, setText } from "../widgets/dom.js";
 import { iconButton } from "../widgets/icon.js";
 import { Fields } from "./fields.js";
@@ -82,13 +82,13 @@ class Draw {
     this.#show();
   }
 
-  /** A thing under the hand has other numbers. @param {Thing} thing @param {number[]} numbers @param {boolean} done */
+  /** Shows the new numbers of the thing that is being dragged. @param {Thing} thing @param {number[]} numbers @param {boolean} done */
   #drag(thing, numbers, done) {
     if (!this.#world) return;
     const next = withNumbers(this.#world, thing, numbers);
     this.#past.begin(idOf(this.#world));
     if (thing.kind === "laser" && !done) {
-      // The plan is the laser's: it would turn and move under the hand. It follows when the hand lets go.
+      // The plan is the frame of the laser, so it would turn and move during the drag. It follows at the end of the drag.
       this.#handles.set(next, this.#chosen);
       return;
     }
@@ -140,7 +140,7 @@ class Draw {
     this.#commit(without(this.#world, thing));
   }
 
-  /** The middle of what is on the screen. @param {World} world @returns {Point} */
+  /** The middle of the visible plan. @param {World} world @returns {Point} */
   #middle(world) {
     const { clientWidth, clientHeight } = this.#view.frame;
     const at = this.#view.unproject(clientWidth / 2, clientHeight / 2);
@@ -167,7 +167,7 @@ class Draw {
     setText(this.#message, this.#text.full(MOST_WALLS, MOST_CIRCLES));
   }
 
-  /** The same world with other noise. */
+  /** The same world with new noise. */
   #another() {
     if (this.#world) this.#commit({ ...this.#world, seed: this.#world.seed + 1 });
   }
@@ -189,7 +189,7 @@ class Draw {
     this.#set(to);
   }
 
-  /** The laser is chosen where the chosen thing is gone. @param {World} world */
+  /** Selects the laser if the selected thing is gone. @param {World} world */
   #keepChoice(world) {
     if (!world[this.#chosen.kind][this.#chosen.index]) this.#chosen = LASER;
   }
@@ -214,7 +214,7 @@ class Draw {
       this.#world = null;
       this.#past.forget();
     } else {
-      // It came from elsewhere: a link, the menu, the way back.
+      // It came from a link, the menu or the browser's history.
       if (!this.#past.open) this.#world = next;
       this.#keepChoice(next);
     }

@@ -1,5 +1,5 @@
 // @ts-check
-// The numbers of a thing of the world, typed.
+// Fields for typing the numbers of a thing of the world.
 import { h } from "../widgets/dom.js";
 import { createNumberField } from "../widgets/number.js";
 

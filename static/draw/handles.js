@@ -13,7 +13,7 @@ import { inPlan, inWorld } from "./world.js";
 /**
  * @typedef {object} Handlers
  * @property {(thing: Thing) => void} onChoose
- * @property {(thing: Thing, numbers: number[], done: boolean) => void} onNumbers other numbers for a thing; done: the gesture ends with them
+ * @property {(thing: Thing, numbers: number[], done: boolean) => void} onNumbers new numbers for a thing; done: they end the gesture
  * @property {(thing: Thing) => void} onRemove
  */
 
@@ -26,7 +26,7 @@ export class Handles {
   #handlers;
   /** @type {World | null} */ #world = null;
   /** @type {Thing | null} */ #chosen = null;
-  /** The drag under way; its handle stands for the thing as it was. @type {{handle: Handle, from: Point, world: World} | null} */
+  /** The drag under way, with the handle and the world as they were when it began. @type {{handle: Handle, from: Point, world: World} | null} */
   #drag = null;
   #shapes = svg("g");
   #knobs = svg("g");
@@ -102,7 +102,7 @@ export class Handles {
     event.stopPropagation();
   }
 
-  /** Where the pointer is in the world as it was when the drag began. @param {PointerEvent} event @returns {Point | null} */
+  /** Position of the pointer in the world as it was when the drag began. @param {PointerEvent} event @returns {Point | null} */
   #pointOf(event) {
     const box = this.#element.getBoundingClientRect();
     const at = this.#view.unproject(event.clientX - box.left, event.clientY - box.top);

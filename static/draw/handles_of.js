@@ -1,5 +1,5 @@
 // @ts-check
-// Where a world is taken hold of, and what a pull at each place does.
+// The handles of a world, and what dragging each of them does.
 
 /** @typedef {import("./world.js").World} World */
 /** @typedef {import("./world.js").Thing} Thing */

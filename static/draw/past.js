@@ -1,12 +1,12 @@
 // @ts-check
-// The undo of a drawn world: ids of worlds, one for each gesture.
+// The undo of a drawn world: ids of worlds, one per gesture.
 
 const LONGEST = 200;
 
 export class Past {
   /** @type {string[]} */ #past = [];
   /** @type {string[]} */ #future = [];
-  /** What the present gesture began with. @type {string | null} */ #before = null;
+  /** The world before the current gesture. @type {string | null} */ #before = null;
 
   get canUndo() {
     return this.#past.length > 0;
@@ -21,12 +21,12 @@ export class Past {
     return this.#before !== null;
   }
 
-  /** A gesture begins, if none is under way. @param {string} now */
+  /** Starts a gesture, unless one is under way. @param {string} now */
   begin(now) {
     this.#before ??= now;
   }
 
-  /** The gesture ends. @param {string} now */
+  /** Ends the gesture. @param {string} now */
   end(now) {
     if (this.#before !== null && this.#before !== now) {
       this.#past = [...this.#past.slice(-LONGEST), this.#before];

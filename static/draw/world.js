@@ -1,5 +1,5 @@
 // @ts-check
-// A drawn world and its text, which is the id of the recording (lineseg/simulate/drawing.py).
+// A drawn world and its text form, which is the id of the recording (lineseg/simulate/drawing.py).
 
 export const DRAWN = "drawn:";
 export const MOST_WALLS = 80;
@@ -23,7 +23,7 @@ export function worldOf(id) {
   for (const part of id.slice(DRAWN.length).split(";").filter(Boolean)) {
     const numbers = part.slice(1).split(",").map(Number);
     const kind = LETTERS[part[0]];
-    // What cannot be is for the server to say.
+    // The server says what is not allowed.
     if (kind && (numbers.length !== COUNTS[kind] || !numbers.every(Number.isFinite))) return null;
     if (kind) world[kind].push(numbers);
     else if (part[0] === "s") world.seed = numbers[0];
@@ -43,7 +43,7 @@ export function idOf(world) {
   return `${DRAWN}${[...parts, `s${world.seed}`].join(";")}`;
 }
 
-/** The world with other numbers for a thing; the same if they cannot be. @param {World} world @param {Thing} thing @param {number[]} numbers @returns {World} */
+/** The world with new numbers for a thing; unchanged if they are not allowed. @param {World} world @param {Thing} thing @param {number[]} numbers @returns {World} */
 export function withNumbers(world, { kind, index }, numbers) {
   if (kind === "wall" && Math.hypot(numbers[2] - numbers[0], numbers[3] - numbers[1]) < SHORTEST) return world;
   if (kind === "circle" && numbers[2] < SHORTEST) return world;
@@ -55,7 +55,7 @@ export function without(world, { kind, index }) {
   return { ...world, [kind]: world[kind].filter((_, k) => k !== index) };
 }
 
-/** Where a point of the world is in the plan, which is the laser's frame. @param {World} world @param {Point} point @returns {Point} */
+/** Position of a point of the world in the plan, which is the frame of the laser. @param {World} world @param {Point} point @returns {Point} */
 export function inPlan(world, [x, y]) {
   const [x0, y0, heading] = world.laser[0];
   const [c, s] = [Math.cos((heading * Math.PI) / 180), Math.sin((heading * Math.PI) / 180)];

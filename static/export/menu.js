@@ -1,5 +1,5 @@
 // @ts-check
-// The menu of what is taken along: the frame, segments, parameters, and what goes to a robot, to rerun, to a class.
+// The Export menu: the frame, segments, parameters, and what is sent to a robot, to rerun or to a class.
 import { showPublish, showSend, stopPublishing } from "../live/robot.js";
 import { addressOf, record } from "../rerun/run.js";
 import { createExchange } from "../tune/exchange.js";
@@ -13,7 +13,7 @@ import { createTake } from "./take.js";
  * @param {typeof import("../text/words.js").words} text
  * @param {{status: () => import("../wire.js").LiveStatus | null, work: ReturnType<typeof import("../open/work.js").createWork>,
  *          onImport: (file: string) => Promise<string | null>, onFollowLink: () => void}} handlers
- *   status: of the live source; onImport: applies the text of a parameter file, or says why not
+ *   status: of the live source; onImport: applies the text of a parameter file or says why it cannot
  */
 export function createExportMenu(page, text, { status, work, onImport, onFollowLink }) {
   /** @returns {Group} */

@@ -1,5 +1,5 @@
 // @ts-check
-// Where the frame of a failure pack came from, and what was said of it.
+// Where the frame of a failure pack came from, and its note.
 import { h, setText } from "../widgets/dom.js";
 import { toast } from "../widgets/toast.js";
 import { tooltip } from "../widgets/tooltip.js";
@@ -26,7 +26,7 @@ export function createPackCard(page, text) {
   /** @type {Pack | null} */
   let pack = null;
 
-  /** The frame of a failure pack, as it was looked at. @param {Pack} pack */
+  /** Shows where the frame of a failure pack came from. @param {Pack} pack */
   function take({ method, params }) {
     if (page.looksAt(method, params)) return;
     page.change({ method, params });

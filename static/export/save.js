@@ -1,5 +1,5 @@
 // @ts-check
-// Files that the server makes, fetched so that the page knows how far they are and why they fail.
+// Files made by the server, fetched in a way that shows progress and the reason of a failure.
 import { messageOf } from "../fetch.js";
 
 // A row of segments begins with its frame in CSV; in JSON lines and GeoJSON it is the first field of this name.
@@ -38,7 +38,7 @@ export async function fetchFile(url, broken, options = {}, onFrame = () => {}) {
   }
 }
 
-/** The last row that is whole in a piece of text. @param {string} piece */
+/** The last complete row in a piece of text. @param {string} piece */
 function lastRow(piece) {
   const end = piece.lastIndexOf("\n");
   return piece.slice(piece.lastIndexOf("\n", end - 1) + 1, Math.max(end, 0));

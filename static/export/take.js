@@ -1,5 +1,5 @@
 // @ts-check
-// What is taken along of the frame and of the recording: pictures, failure packs, segments.
+// Exports of the frame and of the recording: pictures, failure packs, segments.
 import { download } from "../widgets/clipboard.js";
 import { openDialog } from "../widgets/dialog.js";
 import { h } from "../widgets/dom.js";
@@ -13,7 +13,7 @@ import { fetchFile } from "./save.js";
  * @param {typeof import("../text/export.js").exportText} text
  * @param {{session: () => string, state: () => State | null,
  *          work: (words: string, run: (show: Progress, signal: AbortSignal) => Promise<void>) => void}} handlers
- *   work: does something long, where it can be seen and cancelled
+ *   work: runs something long, with progress and a way to cancel it
  */
 export function createTake(text, { session, state, work }) {
   /** @param {string} what @param {Record<string, string>} [more] */

@@ -1,5 +1,5 @@
 // @ts-check
-// A, a result that was pinned, beside B, the present one.
+// A, the pinned result, beside B, the current one.
 import { keyOf } from "../view/key.js";
 import { h, setText } from "../widgets/dom.js";
 import { iconButton } from "../widgets/icon.js";
@@ -53,7 +53,7 @@ export function createAb(text, { onToggle, onSwap, onAdopt, onNext }) {
   let drawn = null;
   /** @type {Method[]} */
   let methods = [];
-  /** What the totals belong to. */
+  /** Key of the totals. */
   let counted = "";
 
   return {
@@ -84,7 +84,7 @@ export function createAb(text, { onToggle, onSwap, onAdopt, onNext }) {
 }
 
 /**
- * How A differs from B: "ε 0.030 m, P_min 10", and its method if that is another.
+ * How A differs from B: "ε 0.030 m, P_min 10", and its method if it differs.
  * @param {Against} against @param {State} state @param {Method[]} methods @param {typeof import("../text/inspect.js").inspectText.ab} text
  */
 function words(against, state, methods, text) {

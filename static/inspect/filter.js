@@ -8,14 +8,14 @@ import { h, setText } from "../widgets/dom.js";
 /** @typedef {typeof import("../text/inspect.js").inspectText.filter} Text */
 /**
  * @typedef {object} Handlers
- * @property {(frame: number) => string[] | undefined} words what looks wrong in a frame; undefined while it is not known
+ * @property {(frame: number) => string[] | undefined} words what looks wrong in a frame; undefined while unknown
  * @property {() => void} onChange
- * @property {(tags: string[]) => void} onTags all that there are
+ * @property {(tags: string[]) => void} onTags all existing tags
  */
 
 const REST_MS = 200;
 const ANY = "";
-// A tag may have any name; these are no tags.
+// A tag can have any name, so these values are not tags.
 const LABELLED = "kind:lines";
 const NOTED = "kind:note";
 
@@ -27,7 +27,7 @@ export function createFilter(text, handlers) {
 class Filter {
   #text;
   #handlers;
-  /** What people have said, by frame. @type {Record<string, Brief>} */ #said = {};
+  /** Labels by frame. @type {Record<string, Brief>} */ #said = {};
   #key = "";
   #frames = 0;
   #timer = 0;
@@ -65,7 +65,7 @@ class Filter {
     return this.#field.value.trim().toLowerCase();
   }
 
-  /** Words are looked for. */
+  /** Whether the filter has words. */
   get searching() {
     return this.#wanted !== "";
   }
@@ -79,13 +79,13 @@ class Filter {
     return brief?.tags.includes(value.slice(1)) ?? false;
   }
 
-  /** What people have said of a frame, in one line. @param {number} frame */
+  /** Tags and note of a frame, in one line. @param {number} frame */
   line(frame) {
     const { tags = [], note = "" } = this.#said[frame] ?? {};
     return [...tags.map((tag) => `#${tag}`), note.replace(/\s+/g, " ")].filter(Boolean).join(" ");
   }
 
-  /** Frames whose words are not known and could be looked for. */
+  /** Frames whose words are unknown and may be needed. */
   unknown() {
     if (!this.searching) return [];
     return [...Array(this.#frames).keys()].filter(
@@ -100,7 +100,7 @@ class Filter {
     return !this.searching || `${this.line(frame)} ${words}`.toLowerCase().includes(this.#wanted);
   }
 
-  /** Says how far the search has come. */
+  /** Shows the progress of the search. */
   tell() {
     const missing = this.unknown().length;
     this.#searching.hidden = missing === 0;

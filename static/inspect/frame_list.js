@@ -1,14 +1,14 @@
 // @ts-check
-// A list of thousands of frames, of which only the rows in view are there.
+// A list of thousands of frames that keeps only the visible rows in the document.
 import { h, setText } from "../widgets/dom.js";
 import { clamp } from "../widgets/scale.js";
 
 /**
  * @typedef {object} Handlers
- * @property {(frame: number) => number} number what a frame is called
+ * @property {(frame: number) => number} number the number of a frame
  * @property {(frame: number) => string} value its score, in words
  * @property {(frame: number) => string} words what looks wrong in it
- * @property {() => void} onRows other frames came into view
+ * @property {() => void} onRows other frames became visible
  * @property {(frame: number) => void} onTake
  */
 

@@ -1,5 +1,5 @@
 // @ts-check
-// The frames of the recording, the most doubtful first.
+// The frames of the recording, most doubtful first.
 import { h, setText } from "../widgets/dom.js";
 import { createNumberField } from "../widgets/number.js";
 import { clamp } from "../widgets/scale.js";
@@ -12,11 +12,11 @@ import { FrameList } from "./frame_list.js";
  * @typedef {object} Handlers
  * @property {(frame: number) => void} onFrame
  * @property {(score: string) => void} onScore
- * @property {(frame: number) => number} number what a frame is called
+ * @property {(frame: number) => number} number the number of a frame
  * @property {(frame: number) => string} value its score, in words
  * @property {(frame: number) => string} words what looks wrong in it
  * @property {(frame: number) => boolean} passes whether it is listed
- * @property {() => void} onRows other frames came into view
+ * @property {() => void} onRows other frames became visible
  * @property {HTMLElement} extra below the score
  * @property {HTMLElement} filter below the range
  */
@@ -33,8 +33,8 @@ class Frames {
   /** @type {Scored | null} */ #scored = null;
   /** @type {Score[]} */ #scores = [];
   #frame = 0;
-  /** The frame that the list led to last. */ #led = -1;
-  /** Scores are listed from … to. */ #low = -Infinity;
+  /** The last frame that was opened from the list. */ #led = -1;
+  /** Range of the listed scores. */ #low = -Infinity;
   #high = Infinity;
   #select;
   #help = h("p", { class: "hint" });
@@ -92,7 +92,7 @@ class Frames {
     return field;
   }
 
-  /** Other frames may be listed. */
+  /** Updates which frames are listed. */
   sort() {
     const what = this.#scores.find(({ name }) => name === this.#scored?.score);
     const known = this.#scored?.complete ? this.#scored.values : new Float32Array(0);
@@ -114,7 +114,7 @@ class Frames {
     this.#onFrame(frame);
   }
 
-  /** What is said of the frames may have changed. */
+  /** The words about frames may have changed. */
   paint() {
     this.#list.paint();
   }
@@ -124,7 +124,7 @@ class Frames {
     return this.#list.inView;
   }
 
-  /** The next or former frame of the list, its first to begin with. @param {1 | -1} by */
+  /** The next or previous frame of the list, starting with its first. @param {1 | -1} by */
   next(by) {
     const { order } = this.#list;
     const at = this.#led === this.#frame ? order.indexOf(this.#frame) : -1;

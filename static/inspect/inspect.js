@@ -12,7 +12,7 @@ import { createWords } from "./words.js";
  * @param {import("../page.js").Page} page
  * @param {typeof import("../text/inspect.js").inspectText} text
  * @param {{timeline: () => import("../bars/timeline.js").Timeline, onTags: (tags: string[]) => void}} handlers
- *   onTags: all that there are
+ *   onTags: all existing tags
  */
 export function createInspect(page, text, { timeline, onTags }) {
   const inspecting = () => page.view.mode === "inspect";
@@ -46,7 +46,7 @@ export function createInspect(page, text, { timeline, onTags }) {
     onReference: (reference) => page.change({ reference }),
   });
 
-  /** What people and the server say of a frame. @param {number} frame */
+  /** Tags, note and remarks of a frame. @param {number} frame */
   function said(frame) {
     const wrong = words.of(frame);
     const looks = wrong?.join(" · ") || (wrong ? text.nothingWrong : timeline().scored.summary(frame));
@@ -59,7 +59,7 @@ export function createInspect(page, text, { timeline, onTags }) {
     if (inspecting()) words.need();
   }
 
-  /** What B is, as A would be pinned. */
+  /** The current result, in the form in which it would be pinned as A. */
   function present() {
     return { method: page.view.method, params: page.view.params };
   }
@@ -85,7 +85,7 @@ export function createInspect(page, text, { timeline, onTags }) {
     frames,
     togglePin,
     nextDifference,
-    /** The strip shows other values, or the mode was entered. */
+    /** The values of the strip changed, or the mode was entered. */
     showScored: () => inspecting() && frames.setScored(timeline().scored.current),
   };
 }

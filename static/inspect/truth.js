@@ -12,7 +12,7 @@ import { TruthTable } from "./truth_table.js";
 const REST_MS = 300;
 const PARTS = /** @type {const} */ (["recording", "method", "params", "judgedBy", "labelled"]);
 
-/** What the numbers of the recording belong to. @param {State} state */
+/** Key of the numbers of the recording. @param {State} state */
 function keyOfAll(state) {
   return keyOf({ ...state, labelled: state.judgedBy === "labels" ? state.labels?.stamp : "" }, ...PARTS);
 }
@@ -26,7 +26,7 @@ class Truth {
   #text;
   #session;
   /** @type {State | null} */ #state = null;
-  /** What the numbers of the recording were asked for. */ #asked = "";
+  /** Key of the last request for numbers of the recording. */ #asked = "";
   #waiting = 0;
   #show;
   #by;
@@ -85,13 +85,13 @@ class Truth {
     this.#waiting = setTimeout(() => this.#ask(), REST_MS);
   }
 
-  /** Asks for the numbers of the recording. */
+  /** Requests the numbers of the recording. */
   async #ask() {
     const query = new URLSearchParams({ session: this.#session() });
     const { words, trouble } = await fetchText(`/api/truth?${query}`);
     if (trouble) return;
     const answer = /** @type {import("../wire.js").Truth} */ (JSON.parse(words));
-    // It may belong to what was on the screen a moment ago; then the next answer is on its way, or is asked for again.
+    // The answer may belong to an earlier state; then the next one is on its way or is requested again.
     if (keyOf(answer, ...PARTS) !== this.#asked) {
       if (this.#state && this.#asked === keyOfAll(this.#state)) this.#wait();
       return;

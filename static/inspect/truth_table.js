@@ -29,7 +29,7 @@ export class TruthTable {
     );
   }
 
-  /** What the column of the recording is of. @param {string} words */
+  /** Says which frames the column of the recording covers. @param {string} words */
   nameAll(words) {
     setText(this.#all, words);
   }

@@ -1,5 +1,5 @@
 // @ts-check
-// What would change the answer for the selected beam: asked for once things rest.
+// What would change the answer for the selected beam; requested once nothing changes any more.
 import { keyOf } from "../view/key.js";
 import { fetchText } from "../fetch.js";
 
@@ -20,7 +20,7 @@ export function createWhatIf({ session, onChanges }) {
     const { words, trouble } = await fetchText(`/api/what-if?${new URLSearchParams({ session: session() })}`);
     if (trouble) return;
     const answer = /** @type {import("../wire.js").WhatIfs} */ (JSON.parse(words));
-    // It may belong to what was on the screen a moment ago.
+    // The answer may belong to an earlier state.
     if (asked.endsWith(keyOf(answer, ...PARTS))) onChanges(answer.changes);
   }
 

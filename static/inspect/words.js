@@ -1,5 +1,5 @@
 // @ts-check
-// What looks wrong in the frames that are in view, in words of the server.
+// What looks wrong in the visible frames, as the server says it.
 import { keyOf } from "../view/key.js";
 import { fetchText } from "../fetch.js";
 
@@ -40,7 +40,7 @@ export function createWords({ session, wanted, onWords }) {
     need();
   }
 
-  /** Asks for what is in view and not known, once things rest. */
+  /** Requests the words of visible frames that are unknown, once nothing changes any more. */
   function need() {
     if (!waiting && !asking && wanted().some((frame) => !known.has(frame))) waiting = setTimeout(ask, REST_MS);
   }

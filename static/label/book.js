@@ -1,11 +1,11 @@
 // @ts-check
-// What is said of the frames of one recording: as its file has it, and what is still to be saved.
+// The labels of one recording: as its file has them, and what is still to be saved.
 
 /** @typedef {import("./lines.js").Line} Line */
 /** Everything said of a frame; lines null: nobody has said which are true. @typedef {{lines: Line[] | null, tags: string[], note: string}} Said */
 /** code 0: no answer. @typedef {{code: number, body: any}} Answer */
 
-// Browsers take no more along when the page is left.
+// Browsers send no more than this when the page is closed.
 const KEPT_ALIVE = 60_000;
 
 /** @param {Said} one @param {Said} other */
@@ -15,9 +15,9 @@ const wordsOf = ({ lines, tags, note }) =>
   JSON.stringify([lines?.map(({ first, last }) => [first, last]) ?? null, tags, note]);
 
 export class Book {
-  /** As its file has it. @type {Map<number, Said & {revision: number}>} */ known = new Map();
-  /** What is to be saved. @type {Map<number, Said>} */ wanted = new Map();
-  /** Revisions that are saved and were not in a picture yet: older pictures under way must not bring back what was. @type {Map<number, number>} */
+  /** As in the file. @type {Map<number, Said & {revision: number}>} */ known = new Map();
+  /** Still to be saved. @type {Map<number, Said>} */ wanted = new Map();
+  /** Saved revisions that no drawn state has shown yet: an older state still on its way must not bring back old labels. @type {Map<number, number>} */
   unseen = new Map();
 
   /** @param {string} recording @param {string | null} topic */
@@ -31,7 +31,7 @@ export class Book {
     return this.wanted.get(frame) ?? this.known.get(frame) ?? { lines: null, tags: [], note: "" };
   }
 
-  /** Asks the server to save what is said of a frame. @param {number} frame @param {Said} said @returns {Promise<Answer>} */
+  /** Asks the server to save the labels of a frame. @param {number} frame @param {Said} said @returns {Promise<Answer>} */
   async put(frame, { lines, tags, note }) {
     const { recording, topic, known } = this;
     const revision = known.get(frame)?.revision ?? 0;
@@ -44,7 +44,7 @@ export class Book {
     }
   }
 
-  /** The picture of a frame tells what is said of it. @param {number} frame @param {Said & {revision: number}} told */
+  /** Takes the labels that the drawn state of a frame contains. @param {number} frame @param {Said & {revision: number}} told */
   see(frame, told) {
     if (told.revision < (this.unseen.get(frame) ?? 0)) return;
     this.unseen.delete(frame);

@@ -1,5 +1,5 @@
 // @ts-check
-// A grip of the chosen line, for the pointer and the keyboard.
+// A grip of the selected line, for pointer and keyboard.
 import { svg } from "../widgets/dom.js";
 import { clamp } from "../widgets/scale.js";
 
@@ -7,9 +7,9 @@ export const GRIPS = /** @type {const} */ (["first", "cut", "last"]);
 /** cut: where a chosen line would be split. @typedef {typeof GRIPS[number]} Grip */
 /**
  * @typedef {object} Handlers
- * @property {() => number[]} places beams at which it may stand
- * @property {() => number} now the beam at which it stands
- * @property {(event: PointerEvent, places: number[]) => number | null} nearest that of the beams nearest to the pointer
+ * @property {() => number[]} places beams to which it can move
+ * @property {() => number} now its current beam
+ * @property {(event: PointerEvent, places: number[]) => number | null} nearest the one of the beams that is nearest to the pointer
  * @property {(beam: number, done: boolean) => void} onGrip
  */
 

@@ -1,5 +1,5 @@
 // @ts-check
-// What is said of frames: its undo, and its way into the file, one edit after the other, none lost.
+// Labels of frames: their undo, and saving them to the file, one edit after the other, without losing any.
 import { Book, same } from "./book.js";
 
 /** @typedef {import("./book.js").Said} Said */
@@ -13,13 +13,13 @@ const LONGEST_PAST = 500;
 export class Keep {
   #onChange;
   #book = new Book("", null);
-  /** Of every recording that was looked at: what could not be saved waits, whatever is looked at meanwhile. @type {Map<string, Book>} */
+  /** One book for each recording that was opened: unsaved labels are kept while another recording is open. @type {Map<string, Book>} */
   #books = new Map();
   /** @type {Edit[]} */ #past = [];
   /** @type {Edit[]} */ #future = [];
   /** @type {Status} */ #status = "saved";
   #message = "";
-  /** What was not saved, because another has changed the frame. @type {{frame: number, mine: Said} | null} */
+  /** Labels that were not saved because another tab changed the frame. @type {{frame: number, mine: Said} | null} */
   #conflict = null;
   #busy = false;
   #timer = 0;
@@ -46,7 +46,7 @@ export class Keep {
     this.#run();
   }
 
-  /** Saves one frame after the other, until all are or one cannot be. */
+  /** Saves one frame after the other until all are saved or one fails. */
   async #run() {
     clearTimeout(this.#timer);
     if (this.#busy) return this.#onChange();
@@ -74,7 +74,7 @@ export class Keep {
     const now = theirs ?? body;
     book.known.set(frame, now);
     book.unseen.set(frame, now.revision);
-    // If theirs is the same, it had been saved and the answer was lost.
+    // If the other version is the same, this edit was saved and only the answer was lost.
     const clash = theirs && !same(theirs, said);
     if (clash || mine === said) book.wanted.delete(frame);
     if (clash && book === this.#book) this.#clashed(frame, mine);
@@ -92,7 +92,7 @@ export class Keep {
   #travel(from, to, back) {
     const edit = from.pop();
     if (!edit) return null;
-    // What another has changed since is not undone.
+    // An edit is not undone if another tab has changed the frame since.
     if (same(this.of(edit.frame), edit[back === "before" ? "after" : "before"])) {
       to.push(edit);
       this.#want(edit.frame, edit[back]);
@@ -119,18 +119,18 @@ export class Keep {
     return this.#travel(this.#future, this.#past, "after");
   }
 
-  /** Another has changed the frame meanwhile: it stays, and mine waits for a word. @param {number} frame @param {Said} mine */
+  /** Another tab changed the frame meanwhile: keeps that version; this tab's version waits for a decision. @param {number} frame @param {Said} mine */
   clash(frame, mine) {
     this.#conflict = { frame, mine };
     this.#onChange();
   }
 
-  /** Mine instead of what another has saved. */
+  /** Saves this tab's version over the other one. */
   insist() {
     if (this.#conflict) this.edit(this.#conflict.frame, this.#conflict.mine);
   }
 
-  /** Saves what could not be saved. */
+  /** Tries again to save. */
   retry() {
     if (this.#unsaved && !this.#busy) this.#run();
   }

@@ -1,5 +1,5 @@
 // @ts-check
-// The page "Labels" of the mode Inspect: what people say of the frame, and the tool that edits its true lines.
+// The page "Labels" of the mode Inspect: the labels of the frame, and the tool that edits its true lines.
 import { h, setText } from "../widgets/dom.js";
 import { Keep } from "./keep.js";
 import { drawn, merged, moved, seenOf, split, without } from "./lines.js";
@@ -31,10 +31,10 @@ class Labels {
   #onFrame;
   /** @type {State | null} */ #state = null;
   #sweep = new FrameSweep(() => this.choose(this.#chosen));
-  /** The chosen line; −1: none. */ #chosen = -1;
+  /** Index of the selected line; −1: none. */ #chosen = -1;
   /** The beam at which it would be split. */ #cut = 0;
   #drawing = false;
-  /** Lines under the hand, not yet said. @type {Line[] | null} */ #dragged = null;
+  /** Lines during a drag, not saved yet. @type {Line[] | null} */ #dragged = null;
   #keep = new Keep({ onChange: () => this.#show() });
   #overlay;
   #tags;
@@ -101,7 +101,7 @@ class Labels {
     return this.#state?.labels !== null && !this.#state?.labels?.trouble;
   }
 
-  /** The present result. @returns {Line[]} */
+  /** The lines of the current result. @returns {Line[]} */
   get #proposal() {
     return this.#state?.segments.map(({ first, last, start, end }) => ({ first, last, start, end })) ?? [];
   }
@@ -136,7 +136,7 @@ class Labels {
     this.#say({ lines }, gesture);
   }
 
-  /** The edited lines, or why they cannot be. @param {{lines: Line[], chosen: number} | null} edited @param {string} why */
+  /** Keeps the edited lines, or says why they are not allowed. @param {{lines: Line[], chosen: number} | null} edited @param {string} why */
   #take(edited, why) {
     if (edited) this.#commit(edited.lines, edited.chosen);
     else setText(this.#message, why);
@@ -159,7 +159,7 @@ class Labels {
 
   /** @param {import("./overlay.js").Grip} grip @param {number} beam @param {boolean} done */
   #grip(grip, beam, done) {
-    // Another may have changed the lines under the hand.
+    // Another tab may have changed the lines during the drag.
     if (!this.#editable || !this.#lines[this.#chosen]) return;
     if (grip === "cut") {
       this.#cut = beam;
@@ -185,12 +185,12 @@ class Labels {
     this.#show();
   }
 
-  /** Begins, or ends, drawing a new line. */
+  /** Starts or stops drawing a new line. */
   draw() {
     this.#setDrawing(!this.#drawing);
   }
 
-  /** Edits the chosen line, if there is one. @param {(lines: Line[], chosen: number, sweep: import("./lines.js").Sweep) => {lines: Line[], chosen: number} | null} edit @param {string} why it cannot be */
+  /** Edits the selected line, if there is one. @param {(lines: Line[], chosen: number, sweep: import("./lines.js").Sweep) => {lines: Line[], chosen: number} | null} edit @param {string} why it is not possible */
   #edit(edit, why) {
     const { now } = this.#sweep;
     if (now && this.#lines[this.#chosen]) this.#take(edit(this.#lines, this.#chosen, now), why);
@@ -201,7 +201,7 @@ class Labels {
     this.#edit((lines, chosen, sweep) => split(lines, chosen, this.#cut, sweep), this.#text.tooShort);
   }
 
-  /** With the next (1) or the previous (−1); the last line has a neighbour before it only. @param {1 | -1} by */
+  /** Merges with the next (1) or previous (−1) line; the last line has only a previous one. @param {1 | -1} by */
   merge(by) {
     const other = by === 1 ? -1 : 1;
     this.#edit(
@@ -223,7 +223,7 @@ class Labels {
     this.#arrive(this.#keep.redo());
   }
 
-  /** To the frame whose edit was undone. @param {number | null} there */
+  /** Goes to the frame whose edit was undone. @param {number | null} there */
   #arrive(there) {
     if (there === null) return;
     if (there !== this.#frame) this.#onFrame(there);
@@ -231,7 +231,7 @@ class Labels {
     this.#show();
   }
 
-  /** Leaves the innermost thing. @returns {boolean} false if there was nothing to leave */
+  /** Closes the innermost thing. @returns {boolean} false if there was nothing to leave */
   leave() {
     if (!this.active || (!this.#drawing && this.#chosen < 0)) return false;
     this.#chosen = -1;
@@ -239,7 +239,7 @@ class Labels {
     return true;
   }
 
-  /** The server is there, perhaps again. */
+  /** The server is connected, perhaps again. */
   setWelcome() {
     this.#keep.retry();
   }
@@ -281,7 +281,7 @@ class Labels {
     const before = this.#state;
     const { frame, recording, topic } = state;
     const other = !before || frame !== before.frame || recording !== before.recording || topic !== before.topic;
-    // What is typed belongs to the frame that was shown then.
+    // Typed text belongs to the frame that was shown while typing.
     if (other) this.#tags.commit();
     const changed = this.#keep.setState(state);
     if (other || changed) [this.#dragged, this.#chosen] = [null, -1];

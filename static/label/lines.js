@@ -1,25 +1,25 @@
 // @ts-check
-// Edits of true lines. A line is a run of beams, first to last; no beam is on two. All here is pure.
+// Edits of true lines. A line is a run of beams, first to last; no beam is on two lines. All functions are pure.
 
 /** @typedef {import("../wire.js").Point} Point */
 /** Without its ends the server fits them. @typedef {import("../wire.js").SaidLine} Line */
 /** points: of each beam, null without a return. @typedef {import("../wire.js").Sweep} Sweep */
 /** @typedef {"first" | "last"} End */
 
-// Fewer points are no line.
+// The fewest points of a line.
 const LEAST_POINTS = 2;
 
-/** The beams of a run; past the last beam the first follows. @param {Line} line @param {number} n */
+/** The beams of a run, which may continue from the last beam to the first. @param {Line} line @param {number} n */
 export function beamsOf({ first, last }, n) {
   return Array.from({ length: ((last - first + n) % n) + 1 }, (_, k) => (first + k) % n);
 }
 
-/** Those beams of a line that have a point. @param {Line} line @param {Sweep} sweep */
+/** The beams of a line that have a point. @param {Line} line @param {Sweep} sweep */
 export function seenOf(line, { points }) {
   return beamsOf(line, points.length).filter((beam) => points[beam]);
 }
 
-/** The line over these beams, from point to point; null if they are too few. @param {number[]} beams @param {Sweep} sweep @returns {Line | null} */
+/** The line over these beams, from its first point to its last; null if there are too few points. @param {number[]} beams @param {Sweep} sweep @returns {Line | null} */
 function lineOver(beams, { points }) {
   const seen = beams.filter((beam) => points[beam]);
   return seen.length < LEAST_POINTS ? null : { first: seen[0], last: seen[seen.length - 1] };
@@ -32,7 +32,7 @@ function ordered(lines, chosen) {
 }
 
 /**
- * The beams at which an end of a line may stand, in the order of the beams: up to its neighbours.
+ * The beams to which an end of a line can move, in scan order, up to its neighbours.
  * @param {Line[]} lines @param {number} k @param {End} end @param {Sweep} sweep
  */
 export function placesOf(lines, k, end, sweep) {
@@ -60,7 +60,7 @@ function inPlaceOf(lines, k, ...instead) {
   return ordered([...lines.slice(0, k), ...instead, ...lines.slice(k + 1)], instead[0]);
 }
 
-/** Two lines instead of one: up to a beam, and from the next. Null if one had too few points. @param {Line[]} lines @param {number} k @param {number} beam @param {Sweep} sweep */
+/** Splits a line after a beam. Null if one of the two lines would have too few points. @param {Line[]} lines @param {number} k @param {number} beam @param {Sweep} sweep */
 export function split(lines, k, beam, sweep) {
   const beams = beamsOf(lines[k], sweep.points.length);
   const cut = beams.indexOf(beam) + 1;
@@ -68,7 +68,7 @@ export function split(lines, k, beam, sweep) {
   return before && after ? inPlaceOf(lines, k, before, after) : null;
 }
 
-/** One line instead of two neighbours. Null if there is none on that side. @param {Line[]} lines @param {number} k @param {1 | -1} by @param {Sweep} sweep */
+/** Merges a line with a neighbour. Null if there is none on that side. @param {Line[]} lines @param {number} k @param {1 | -1} by @param {Sweep} sweep */
 export function merged(lines, k, by, { fullCircle }) {
   const other = fullCircle ? (k + by + lines.length) % lines.length : k + by;
   if (!lines[other] || other === k) return null;
@@ -82,14 +82,14 @@ export function without(lines, k) {
   return { lines: lines.filter((_, each) => each !== k), chosen: Math.min(k, lines.length - 2) };
 }
 
-/** The beams between two, on a full circle the shorter way. @param {number} from @param {number} to @param {Sweep} sweep */
+/** The beams between two beams, the shorter way round on a full circle. @param {number} from @param {number} to @param {Sweep} sweep */
 export function runBetween(from, to, { points, fullCircle }) {
   const n = points.length;
   const [first, last] = [Math.min(from, to), Math.max(from, to)];
   return beamsOf(fullCircle && 2 * (last - first) > n ? { first: last, last: first } : { first, last }, n);
 }
 
-/** A new line over a run; of others the rest stays. Null if it had too few points. @param {Line[]} lines @param {number[]} run @param {Sweep} sweep */
+/** Adds a line over a run and takes its beams from other lines. Null if it would have too few points. @param {Line[]} lines @param {number[]} run @param {Sweep} sweep */
 export function drawn(lines, run, sweep) {
   const line = lineOver(run, sweep);
   if (!line) return null;
@@ -102,7 +102,7 @@ export function drawn(lines, run, sweep) {
   return ordered([...rest, line], line);
 }
 
-/** Runs of those beams that are not taken. @param {number[]} beams @param {Set<number>} taken */
+/** Runs of the beams that are not taken. @param {number[]} beams @param {Set<number>} taken */
 function pieces(beams, taken) {
   /** @type {number[][]} */
   const found = [[]];

@@ -1,5 +1,5 @@
 // @ts-check
-// The true lines of the frame as a table; a row chooses its line.
+// The true lines of the frame as a table; a click on a row selects its line.
 import { h, setText } from "../widgets/dom.js";
 import { seenOf } from "./lines.js";
 

@@ -1,5 +1,5 @@
 // @ts-check
-// True lines over the plan: chosen, dragged by their ends, drawn from point to point.
+// True lines over the plan. They can be selected, dragged by their ends, and drawn from point to point.
 import { svg } from "../widgets/dom.js";
 import { createGrip, GRIPS } from "./grip.js";
 import { placesOf, runBetween, seenOf } from "./lines.js";
@@ -9,12 +9,12 @@ import { putLine, Sketch } from "./sketch.js";
 /** @typedef {import("./lines.js").Point} Point */
 /** @typedef {import("./lines.js").Sweep} Sweep */
 /** @typedef {import("./grip.js").Grip} Grip */
-/** proposed: the lines are the present result's. @typedef {{lines: Line[], chosen: number, cut: number, proposed: boolean, sweep: Sweep | null, drawing: boolean}} Shown */
+/** proposed: the lines come from the current result. @typedef {{lines: Line[], chosen: number, cut: number, proposed: boolean, sweep: Sweep | null, drawing: boolean}} Shown */
 /** @typedef {{project: (x: number, y: number) => Point | null, onMove: (listener: () => void) => void, pass: (event: WheelEvent) => void}} PlanView */
 /**
  * @typedef {object} Handlers
  * @property {(line: number, beam: number | null) => void} onChoose a line, and its beam under the pointer
- * @property {(grip: Grip, beam: number, done: boolean) => void} onGrip a grip of the chosen line at another beam; done: the gesture ends there
+ * @property {(grip: Grip, beam: number, done: boolean) => void} onGrip a grip of the selected line moved to a beam; done: the gesture ends there
  * @property {(run: number[]) => void} onDrawn
  */
 
@@ -60,13 +60,13 @@ export class Overlay {
     view.onMove(() => this.#draw());
   }
 
-  /** Where a beam's point is on the stage. @param {number} beam */
+  /** Position of the point of a beam on the stage. @param {number} beam */
   #place(beam) {
     const point = this.#shown?.sweep?.points[beam];
     return point ? this.#view.project(...point) : null;
   }
 
-  /** That of these beams whose point is nearest to the pointer. @param {PointerEvent} event @param {number[]} beams @param {number} reach [px] */
+  /** The one of these beams whose point is nearest to the pointer. @param {PointerEvent} event @param {number[]} beams @param {number} reach [px] */
   #nearest({ clientX, clientY }, beams, reach = Infinity) {
     const box = this.#element.getBoundingClientRect();
     let [best, least] = [/** @type {number | null} */ (null), reach];
@@ -78,7 +78,7 @@ export class Overlay {
     return best;
   }
 
-  /** Where a grip of the chosen line may stand. @param {Grip} name */
+  /** Beams to which a grip of the selected line can move. @param {Grip} name */
   #placesFor(name) {
     if (!this.#shown?.sweep) return [];
     const { lines, chosen, sweep } = this.#shown;
@@ -139,7 +139,7 @@ export class Overlay {
   }
 }
 
-/** The beam at which a grip of the chosen line stands. @param {Shown} shown @param {Grip} name */
+/** The beam of a grip of the selected line. @param {Shown} shown @param {Grip} name */
 function beamOf({ lines, chosen, cut }, name) {
   return name === "cut" ? cut : lines[chosen][name];
 }

@@ -5,17 +5,17 @@ import { svg } from "../widgets/dom.js";
 /** @typedef {import("./lines.js").Point} Point */
 /**
  * @typedef {object} Handlers
- * @property {() => boolean} drawing whether a new line may begin
+ * @property {() => boolean} drawing whether a new line can start
  * @property {(event: PointerEvent, reach?: number) => number | null} nearest the beam whose point is nearest to the pointer
- * @property {(beam: number) => Point | null} place where a beam's point is on the stage
+ * @property {(beam: number) => Point | null} place position of the point of a beam on the stage
  * @property {(from: number, to: number) => void} onDrawn
  */
 
-// So far from a point a new line may begin [px].
+// A new line can start this far from a point [px].
 const REACH = 30;
 
 export class Sketch {
-  /** The beam at which it began. @type {number | null} */ #from = null;
+  /** Its first beam. @type {number | null} */ #from = null;
   #handlers;
 
   /** @param {SVGElement} surface on which it is drawn @param {Handlers} handlers */

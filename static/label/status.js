@@ -1,5 +1,5 @@
 // @ts-check
-// Where labels are kept, whether they are, and why not.
+// Where labels are saved, whether they are saved, and why not.
 import { h, setText } from "../widgets/dom.js";
 
 /** @typedef {import("./keep.js").Status} Status */
@@ -26,7 +26,7 @@ export function createStatus(text, { onRetry, onMine, number }) {
 
   return {
     element,
-    /** Above everything: why nothing can be saved, or what was not. */
+    /** Shown above everything: why nothing can be saved, or what was not saved. */
     trouble,
     /**
      * @param {{status: Status, message: string, conflict: number | null}} kept @param {import("../wire.js").Labels | null} labels

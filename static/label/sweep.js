@@ -1,11 +1,11 @@
 // @ts-check
-// The points of the frame that is labelled, asked for when it is.
+// The points of the labelled frame, requested when needed.
 import { fetchText } from "../fetch.js";
 
 /** @typedef {import("./lines.js").Sweep} Sweep */
 
 export class FrameSweep {
-  /** Of the frame, once it is known. @type {Sweep | null} */ now = null;
+  /** The sweep of the frame, once it is known. @type {Sweep | null} */ now = null;
   #onCome;
   #asked = "";
 

@@ -11,14 +11,14 @@ const LONGEST_NOTE = 20_000;
  * @typedef {object} Handlers
  * @property {(tags: string[]) => void} onTags
  * @property {(note: string, from: string, gesture: string) => void} onNote
- *   from: the note that was typed in; gesture: what is typed while the field is in use is one
+ *   from: the note before it was edited; gesture: one per use of the field
  */
 
 export class Tags {
   #text;
   #handlers;
   /** @type {string[]} */ #tags = [];
-  /** The note before what is being typed. */ #from = "";
+  /** The note before it was edited. */ #from = "";
   #gesture = 0;
   #timer = 0;
   #known = h("datalist", { id: "known-tags" });
@@ -78,14 +78,14 @@ export class Tags {
     else if (event.key === "Escape") this.#add.blur();
   }
 
-  /** The tag that is typed. */
+  /** Adds the typed tag. */
   #take() {
     const tag = this.#add.value.trim();
     this.#add.value = "";
     if (tag && !this.#tags.includes(tag)) this.#handlers.onTags([...this.#tags, tag]);
   }
 
-  /** What is typed of the note is said. */
+  /** Reports the typed note. */
   commit() {
     clearTimeout(this.#timer);
     if (this.#note.value === this.#from) return;

@@ -8,13 +8,13 @@ import { tooltip } from "../widgets/tooltip.js";
  * @typedef {object} Runs
  * @property {() => void} undo
  * @property {() => void} redo
- * @property {() => void} draw begins, or ends, drawing a line
+ * @property {() => void} draw starts or stops drawing a line
  * @property {() => void} split
  * @property {() => void} merge
  * @property {() => void} remove
- * @property {() => void} accept the lines that are proposed are true
- * @property {() => void} restart from the lines that are proposed
- * @property {() => void} forget nobody has said which lines are true
+ * @property {() => void} accept saves the proposed lines as the true ones
+ * @property {() => void} restart starts over from the proposed lines
+ * @property {() => void} forget removes the true lines of the frame
  */
 
 export class Tools {

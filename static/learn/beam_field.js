@@ -4,7 +4,7 @@ import { createNumberField } from "../widgets/number.js";
 import { tooltip } from "../widgets/tooltip.js";
 
 /**
- * Where a beam is typed; Enter runs to the next decision about it, as often as it is pressed.
+ * The field for a beam; each press of Enter goes to the next decision about it.
  * @param {typeof import("../text/learn.js").learnText.steps} text
  * @param {{beams: () => number, onBeam: (beam: number) => void}} handlers
  */

@@ -26,7 +26,7 @@ export function createCharts(text, onBeam, onRun) {
   /** @type {{event: Event, trace: Trace, params: Params} | null} */
   let shown = null;
 
-  // Sizes are kept, because asking for them after the text has changed would lay the page out once more.
+  // Sizes are cached, because reading them after a text change would force another layout.
   let visible = false;
 
   function draw() {
@@ -94,7 +94,7 @@ function around({ index, first, last, beam }, trace) {
   return beams;
 }
 
-/** Points and length of the growing line, step for step from its seed on. @param {Event} event @param {Trace} trace */
+/** Points and length of the growing line, step by step from its seed. @param {Event} event @param {Trace} trace */
 function growthOf({ index, candidate, phase }, trace) {
   if (phase !== "growth" && phase !== "seed") return [];
   const { columns: c } = trace;

@@ -1,5 +1,5 @@
 // @ts-check
-// The page's colours as a canvas takes them: custom properties with light-dark() are resolved by the browser.
+// The page's colours in the form that a canvas needs: custom properties with light-dark() are resolved by the browser.
 
 /** @type {Map<string, string>} */
 const known = new Map();

@@ -1,5 +1,5 @@
 // @ts-check
-// Values by beam against a threshold; a beam is pointed at and chosen by the pointer or the keyboard.
+// Values by beam and a threshold; pointer and keyboard can highlight and select a beam.
 import { createWalk } from "../widgets/walk.js";
 import { colour } from "./colours.js";
 import { Plot } from "./plot.js";
@@ -8,9 +8,9 @@ import { Plot } from "./plot.js";
 /** @typedef {{x: number, y: number, inside: boolean, now: boolean}} Dot x: its beam */
 /** @typedef {{onBeam: (beam: number | null) => void, onRun: (beam: number) => void, say: (beam: number, value: number) => string}} Beams onBeam: pointed at; onRun: chosen */
 
-// Values are drawn up to so many times the threshold; what is above is shown as an arrow at the edge.
+// Values are drawn up to this many times the threshold; larger ones are shown as an arrow at the edge.
 const REACH = 3;
-// So far from a dot it is pointed at [px].
+// The pointer hits a dot within this distance [px].
 const NEAR = 20;
 
 export class DotChart {
@@ -63,7 +63,7 @@ export class DotChart {
     return best;
   }
 
-  /** Where the k-th dot lies. @param {number} k @param {Box} box */
+  /** Position of the k-th dot. @param {number} k @param {Box} box */
   #x(k, { left, right }) {
     return left + 6 + (k / Math.max(1, this.#dots.length - 1)) * (right - left - 12);
   }
@@ -91,7 +91,7 @@ export class DotChart {
     this.#label(pen, box);
   }
 
-  /** The beams at both ends, and the one that is pointed at instead of the last. @param {CanvasRenderingContext2D} pen @param {Box} box */
+  /** The beams at both ends; the highlighted beam replaces the last. @param {CanvasRenderingContext2D} pen @param {Box} box */
   #label(pen, box) {
     const below = box.bottom + 12;
     const [first, last] = [this.#dots.at(0), this.#dots.at(-1)];

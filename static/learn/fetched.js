@@ -1,5 +1,5 @@
 // @ts-check
-// JSON of the server; where it does not come, the place that waits for it says so and offers to try again.
+// JSON from the server; if it cannot be loaded, the place that needs it says so and offers to try again.
 import { fetchText } from "../fetch.js";
 import { h } from "../widgets/dom.js";
 

@@ -39,7 +39,7 @@ export function createFormulas(text, onTerm) {
     element,
     /** @type {string[]} the terms of the present formulas */
     names: [],
-    /** Lights a term, as if the pointer were on it. @param {string | null} name */
+    /** Highlights a term, as if the pointer were on it. @param {string | null} name */
     light(name) {
       light(name);
       if (name) body.querySelector(`[data-term="${name}"]`)?.scrollIntoView({ block: "nearest" });
@@ -238,7 +238,7 @@ function spread({ value, limit }, text) {
 
 /** @param {Event} event @param {Text} text @returns {Formula} */
 function cut({ value, limit, beam, last }, text) {
-  // Where the first line keeps all shared points, the numbers are those of the last of them.
+  // If the first line keeps all shared points, the numbers are those of the last one.
   const kept = value < limit;
   return {
     title: text.cut,

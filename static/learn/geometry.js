@@ -13,7 +13,7 @@ export function foot([x, y], [a, b, c]) {
 }
 
 /**
- * The line fitted to points by total least squares, with what it is made of (Eqs. 1, 2).
+ * The line fitted to points by total least squares, with its moments (Eqs. 1, 2).
  * @param {Trace} trace @param {number[]} beams
  */
 export function fit(trace, beams) {
@@ -41,7 +41,7 @@ export function stretch(trace, beams, line) {
   return [feet[0], feet[feet.length - 1]];
 }
 
-/** Length between the projected outermost points, as L_min is compared with. @param {Trace} trace @param {number} first @param {number} last @param {Line} line */
+/** Length between the projected outermost points, which is compared with L_min. @param {Trace} trace @param {number} first @param {number} last @param {Line} line */
 export function lengthOf(trace, first, last, line) {
   const one = trace.point(first);
   const other = trace.point(last);

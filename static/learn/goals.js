@@ -8,7 +8,7 @@
 /** @typedef {import("../wire.js").Goal} Goal */
 /** @typedef {typeof import("../text/learn.js").learnText.goals} Text */
 
-/** Every decision a description fits. @param {Trace} trace @param {Find} find */
+/** All decisions that match a description. @param {Trace} trace @param {Find} find */
 export function matches(trace, { kind, check, direction, beam }) {
   const { columns: c } = trace;
   const [kindAt, checkAt] = [c.kinds.indexOf(kind), check === null ? -1 : c.checks.indexOf(check)];
@@ -22,13 +22,13 @@ export function matches(trace, { kind, check, direction, beam }) {
   );
 }
 
-/** The decision that is described, or −1. @param {Trace} trace @param {Find} find */
+/** The described decision, or −1. @param {Trace} trace @param {Find} find */
 export function find(trace, find) {
   return matches(trace, find).at(find.nth) ?? -1;
 }
 
 /**
- * What is still missing, in sentences; none: the task is done.
+ * What is still missing, in sentences; the task is done if there are none.
  * @param {Goal} goal @param {State} state @param {Trace} trace @param {Params} start thresholds at the beginning of the task
  * @param {number | null} step @param {Text} text @returns {string[]}
  */

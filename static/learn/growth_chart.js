@@ -1,5 +1,5 @@
 // @ts-check
-// Length and count of a growing line, each in units of what is asked for, so that one dashed line stands for both.
+// Length and count of a growing line, each divided by its threshold, so that one dashed line serves both.
 import { colour } from "./colours.js";
 import { Plot } from "./plot.js";
 

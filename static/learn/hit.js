@@ -1,5 +1,5 @@
 // @ts-check
-// The other way round: which term of the formulas is meant by a place in the scene.
+// Finds the term of the formulas that belongs to a place in the scene.
 import { shapeOf } from "./overlay.js";
 
 /** @typedef {import("./trace.js").Event} Event */
@@ -8,7 +8,7 @@ import { shapeOf } from "./overlay.js";
 /** @typedef {(x: number, y: number) => Point | null} Project */
 
 const REACH_PX = 10;
-// Points lie on lines: near a point, the point is meant.
+// Points lie on lines, so a point takes precedence.
 const DOT_AHEAD_PX = 5;
 
 /**

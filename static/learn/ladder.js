@@ -1,5 +1,5 @@
 // @ts-check
-// From one step to all steps: every window tried, and one threshold over its whole range.
+// All steps at once: every window tried, and the results over the whole range of one threshold.
 import { h } from "../widgets/dom.js";
 import { Sweep } from "./sweep.js";
 import { Windows } from "./windows.js";

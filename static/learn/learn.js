@@ -42,7 +42,7 @@ class Learn {
   /** @type {Trace | null} */ #trace = null;
   /** @type {number | null} */ #step = null;
   /** @type {import("../wire.js").Params} */ #params = {};
-  /** Whether the method is the one that pseudocode, formulas and charts are of. */ #own = true;
+  /** Whether the method is region growing, which pseudocode, formulas and charts belong to. */ #own = true;
   #overlay;
   #formulas;
   #charts;
@@ -137,7 +137,7 @@ class Learn {
     this.#overlay.set("term", term && this.#trace && event ? shapeOf(term, event, this.#trace) : null);
   }
 
-  /** The term that is under the pointer in the scene. @param {[number, number] | null} at */
+  /** Highlights the term under the pointer in the scene. @param {[number, number] | null} at */
   #lightTerm(at) {
     const event = this.#own ? this.#event : null;
     const { names } = this.#formulas;
@@ -151,7 +151,7 @@ class Learn {
     this.#overlay.set("beam", at ? { dots: [at], lines: [[[0, 0], at]] } : null);
   }
 
-  /** Holds a step back while there is something to guess about it. @param {number} next */
+  /** Makes a step wait for the answer to its question. @param {number} next */
   #mayStep(next) {
     const trace = this.#trace;
     if (!trace || !this.#own || !this.#predict.on) return true;
@@ -174,7 +174,7 @@ class Learn {
     this.stepper.say(`${right ? predict.right : predict.wrong} ${event.text}`);
   }
 
-  /** To the next decision about a beam; after the last one, to the first. @param {number} beam */
+  /** Goes to the next decision about a beam; after the last, to the first. @param {number} beam */
   #runTo(beam) {
     if (!this.#trace) return;
     const next = this.#trace.nextAbout(beam, this.#step ?? -1);

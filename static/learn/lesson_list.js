@@ -1,5 +1,5 @@
 // @ts-check
-// The list of lessons, with a mark at those that are done.
+// The list of lessons, with a mark at completed ones.
 import { drawText } from "../text/draw.js";
 import { h } from "../widgets/dom.js";
 import { icon } from "../widgets/icon.js";
@@ -11,7 +11,7 @@ const DONE_KEY = "lineseg.lessons";
 
 export class LessonList {
   /** @type {Lesson[]} */ lessons = [];
-  /** Where it says that there are no lessons. */
+  /** Says why there are no lessons. */
   trouble = h("div");
   #done = new Set(load());
   #text;
@@ -21,7 +21,7 @@ export class LessonList {
 
   /**
    * @param {typeof import("../text/learn.js").learnText.lesson} text
-   * @param {{onOpen: (id: string) => void, onDraw: () => void}} handlers onDraw: a world of one's own is wanted
+   * @param {{onOpen: (id: string) => void, onDraw: () => void}} handlers onDraw: the user wants to draw a world
    */
   constructor(text, { onOpen, onDraw }) {
     this.#text = text;
@@ -44,7 +44,7 @@ export class LessonList {
     );
   }
 
-  /** @param {Lesson[]} lessons @param {string[]} broken why other files are no lessons */
+  /** @param {Lesson[]} lessons @param {string[]} broken why other files are not valid lessons */
   set(lessons, broken) {
     this.lessons = lessons;
     this.#broken.replaceChildren(...broken.map((why) => h("p", {}, why)));

@@ -1,5 +1,5 @@
 // @ts-check
-// Lessons: texts that drive the page, and one task that the page checks. They are data, from /api/lessons.
+// Lessons: texts that control the page, and one task that the page checks. They are data from /api/lessons.
 import { Threshold } from "../tune/threshold.js";
 import { h } from "../widgets/dom.js";
 import { gestureCount } from "../widgets/slider.js";
@@ -32,14 +32,14 @@ import { Reader } from "./reader.js";
 /** @typedef {{lessons: Lesson[], broken: string[]}} Told */
 /** @typedef {{onChange: (patch: Patch, gesture?: string | null) => void, onGo: (step: number | null) => void, onDraw: () => void}} Handlers */
 
-// Every lesson is about this one; a step may show another beside it.
+// Every lesson is about this method; a step may show another for comparison.
 const METHOD = "region-growing";
 
 export class Lessons {
   #words;
   #handlers;
   /** @type {Lesson | null} */ #lesson = null;
-  /** Which text is shown; lesson.steps.length: the task. */
+  /** Index of the shown text; lesson.steps.length means the task. */
   #at = 0;
   /** What is to be shown once the lesson's frame and thresholds are drawn. @type {{find: Find | null} | null} */
   #pending = null;
@@ -47,7 +47,7 @@ export class Lessons {
   /** @type {Readonly<View> | null} */ #view = null;
   /** @type {Knob[]} */ #knobs = [];
   /** @type {Map<string, Threshold>} */ #sliders = new Map();
-  /** What a link with ?lesson=… waits for before it is opened. */
+  /** What must have loaded before a link with ?lesson=… is opened. */
   #awaited = new Set(["lessons", "knobs"]);
   #list;
   #reader;
@@ -147,14 +147,14 @@ export class Lessons {
     this.#reader.show({
       words: step?.text ?? task.text,
       isTask: !step,
-      // Elsewhere the sliders would only take room.
+      // On other pages the sliders would only take up space.
       sliders: !step || Object.keys(step.params).length > 0,
       at: this.#at,
       count: steps.length + 1,
       next: this.#nextWords(this.#lesson),
     });
     this.#pending = { find: step?.find ?? null };
-    // Without a change nothing would be drawn, and so nothing be shown.
+    // Without a change nothing is drawn, so nothing would be shown.
     this.#handlers.onChange(this.#patchFor(this.#lesson, step, this.#view));
   }
 

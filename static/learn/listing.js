@@ -1,5 +1,5 @@
 // @ts-check
-// The pseudocode, with the line lit that the present decision comes from (listing.json says which).
+// The pseudocode; the line of the current decision is highlighted (listing.json says which).
 import { h, setText } from "../widgets/dom.js";
 import { tooltip } from "../widgets/tooltip.js";
 import { symbols } from "./symbols.js";
@@ -97,7 +97,7 @@ export class Listing {
     if (!this.#lit) return;
     this.#lit.classList.add("lit");
     this.#lit.setAttribute("aria-current", "step");
-    // It lays the page out, so not at every step.
+    // Scrolling forces a layout, so it is not done at every step.
     if (this.#lit !== before) this.#lit.scrollIntoView({ block: "nearest" });
     setText(/** @type {Element} */ (this.#lit.querySelector(".code-value")), compared);
   }
@@ -118,7 +118,7 @@ function noteMark(k, note, phase, misprint) {
   return mark;
 }
 
-/** Words of a line of code: keywords bold, symbols as the paper sets them. @param {string} words */
+/** Words of a line of code: keywords bold, symbols set as in the paper. @param {string} words */
 function rich(words) {
   return words.split(/(\s+)/).flatMap((word) => {
     const bare = word.replace(/,$/, "");

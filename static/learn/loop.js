@@ -1,12 +1,12 @@
 // @ts-check
-// A stretch of decisions that is played over and over: begun, closed, ended.
+// A loop over a stretch of decisions: started, closed, removed.
 
 /** to null: begun, not closed. @typedef {{from: number, to: number | null}} Range */
 
 export class Loop {
   /** @type {Range | null} */ range = null;
 
-  /** The next of begun, closed, ended. @param {number | null} at the present decision */
+  /** Moves on to the next of started, closed, removed. @param {number | null} at the present decision */
   toggle(at) {
     if (!this.range) this.range = { from: at ?? 0, to: null };
     else if (this.range.to === null) this.range = ordered(this.range.from, at ?? this.range.from);
@@ -17,12 +17,12 @@ export class Loop {
     this.range = null;
   }
 
-  /** Where playing begins; null while there is no closed loop. */
+  /** The start of the loop; null unless the loop is closed. */
   get start() {
     return this.range && this.range.to !== null ? this.range.from : null;
   }
 
-  /** The same decision, or the beginning of the loop instead of one outside of it. @param {number} next */
+  /** The same decision, or the start of the loop if it lies outside. @param {number} next */
   inside(next) {
     if (!this.range || this.range.to === null) return next;
     return next > this.range.to || next < this.range.from ? this.range.from : next;

@@ -1,5 +1,5 @@
 // @ts-check
-// What happens where in a trace, as a strip under the scrubber: the procedures as bands, events as ticks.
+// A strip under the scrubber that shows what happens where in a trace: phases as bands, events as ticks.
 import { freshCanvas } from "../widgets/canvas.js";
 import { colour, onTheme } from "./colours.js";
 

@@ -17,7 +17,7 @@ function element(tag, ...children) {
 function token(word) {
   if (OPERATOR.test(word)) {
     const made = element("mo", word);
-    // Brackets that grow need a font with mathematics in it.
+    // Stretching brackets need a mathematical font.
     made.setAttribute("stretchy", "false");
     return made;
   }
@@ -52,7 +52,7 @@ export function power(base, power) {
 
 /** @param {string} words */
 export function words(words) {
-  // Ordinary spaces at its ends would be lost.
+  // Ordinary spaces at the ends would be lost.
   return element(
     "mtext",
     words.replace(/^ +| +$/g, (spaces) => "\u00a0".repeat(spaces.length)),
@@ -77,12 +77,12 @@ export function math(...parts) {
 /** A number with a real minus sign. @param {number} value @param {number} [digits] */
 export function num(value, digits = 3) {
   if (!Number.isFinite(value)) return "∞";
-  // + 0: no negative zero.
+  // + 0 avoids a negative zero.
   return (Number(value.toFixed(digits)) + 0).toFixed(digits).replace("-", "−");
 }
 
 /** In brackets if it is negative, as after an operator. @param {number} value @param {number} [digits] */
 export function signed(value, digits = 3) {
-  // What is rounded to zero has no sign.
+  // A number rounded to zero has no sign.
   return num(value, digits).startsWith("−") ? row("(", num(value, digits), ")") : row(num(value, digits));
 }

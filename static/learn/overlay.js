@@ -1,5 +1,5 @@
 // @ts-check
-// What a term of a formula, or a question, means in the scene: drawn over the plan view, above the scene's frame.
+// Shows in the plan view what a term of a formula, or a question, refers to.
 import { svg } from "../widgets/dom.js";
 import { foot, stretch } from "./geometry.js";
 

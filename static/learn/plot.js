@@ -1,5 +1,5 @@
 // @ts-check
-// The canvas of a chart: its size, its axes, the dashed line of a threshold, and words where there is nothing to draw.
+// The canvas of a chart: its size, its axes, the dashed line of a threshold, and text if there is nothing to draw.
 import { freshCanvas } from "../widgets/canvas.js";
 import { h, setText } from "../widgets/dom.js";
 import { colour } from "./colours.js";
@@ -19,7 +19,7 @@ export class Plot {
     this.element = h("figure", { class: "chart" }, h("figcaption", {}, title), this.canvas, this.#note, this.#said);
   }
 
-  /** The size is kept: asking for it after the text has changed would lay the page out once more. */
+  /** The size is cached: reading it after a text change would force another layout. */
   measure() {
     this.#size = { width: this.canvas.clientWidth, height: this.canvas.clientHeight };
   }
@@ -30,7 +30,7 @@ export class Plot {
     return { left: PAD.left, right: width - PAD.right, top: PAD.top, bottom: height - PAD.bottom };
   }
 
-  /** Nothing is drawn. @param {string} why */
+  /** Shows text instead of a drawing. @param {string} why */
   blank(why) {
     this.canvas.classList.add("blank");
     setText(this.#note, why);
@@ -44,7 +44,7 @@ export class Plot {
     setText(this.#said, words);
   }
 
-  /** A pen over fresh axes. */
+  /** Draws new axes and returns the pen. */
   begin() {
     const { pen } = freshCanvas(this.canvas, this.#size);
     const { box } = this;

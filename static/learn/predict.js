@@ -8,7 +8,7 @@ import { h, setText } from "../widgets/dom.js";
 const YES = new Set(["seed found", "point added", "line kept", "lines merged"]);
 const NO = new Set(["seed rejected", "growth stopped", "line dropped", "lines kept apart"]);
 
-/** The question about a decision that is not shown yet; null where there is nothing to guess. @param {Event} event @param {Text} text */
+/** The question about a decision that is not shown yet; null if there is nothing to guess. @param {Event} event @param {Text} text */
 export function questionOf(event, text) {
   const { kind, check, phase } = event;
   if (check === "end" || check === "nearer" || (phase === "overlap" && kind === "line dropped")) return null;

@@ -1,5 +1,5 @@
 // @ts-check
-// The page of a lesson that is read: a text or the task, sliders, and the way on.
+// One page of a lesson: a text or the task, sliders, and the buttons to the next page.
 import { h, setText } from "../widgets/dom.js";
 import { iconButton } from "../widgets/icon.js";
 import { symbols } from "./symbols.js";
@@ -11,7 +11,7 @@ import { symbols } from "./symbols.js";
  * @property {boolean} sliders whether they are shown
  * @property {number} at from 0
  * @property {number} count
- * @property {string} next words of the way on
+ * @property {string} next label of the button to the next page
  */
 
 export class Reader {

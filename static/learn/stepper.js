@@ -1,5 +1,5 @@
 // @ts-check
-// The dock of mode Learn: the sentence of the present decision, and every way to another one.
+// The dock of mode Learn: the sentence of the current decision, and all ways to move to another.
 import { Decision } from "../stepping/decision.js";
 import { Steps } from "../stepping/steps.js";
 import { h } from "../widgets/dom.js";
@@ -24,7 +24,7 @@ const LEVELS = /** @type {Level[]} */ (["decision", "phase", "line"]);
  * @property {(beam: number) => void} onBeam
  * @property {() => void} onZoom
  * @property {() => boolean} settled
- * @property {(next: number) => boolean} mayStep asked before a step forward by one; false holds it back
+ * @property {(next: number) => boolean} mayStep asked before one step forward; false makes it wait
  * @property {HTMLElement} answers beside the sentence
  * @property {HTMLElement[]} extras below everything
  */
@@ -150,7 +150,7 @@ export class Stepper {
     this.#decision.set(event?.phase ?? "whole", sentence, event && !this.#instead ? comparedOf(event) : null);
   }
 
-  /** What is said of the whole result. */
+  /** The sentence about the whole result. */
   #idle() {
     if (!this.#trace) return this.#words.waiting;
     const { length, columns } = this.#trace;
@@ -191,7 +191,7 @@ export class Stepper {
     this.#steps.stop();
   }
 
-  /** Says something else than the decision until the next step; null: the decision again. @param {string | null} what */
+  /** Shows another sentence until the next step; null: that of the decision again. @param {string | null} what */
   say(what) {
     this.#instead = what;
     this.#show();

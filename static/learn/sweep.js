@@ -1,5 +1,5 @@
 // @ts-check
-// One threshold over its whole range: the lines that each of its values gives, as a picture.
+// One threshold over its whole range: a picture of the lines for each value.
 import { freshCanvas } from "../widgets/canvas.js";
 import { h, setText } from "../widgets/dom.js";
 import { clamp, format, placeOf, valueAt, withUnit } from "../widgets/scale.js";
@@ -20,7 +20,7 @@ export class Sweep {
   #frame = "";
   #name = "epsilon";
   /** @type {Swept | null} */ #swept = null;
-  /** What the picture was made from; it is made anew when that changes. */
+  /** What the picture was made from; a change makes a new picture. */
   #made = "";
   #busy = false;
   #shown = false;
@@ -82,7 +82,7 @@ export class Sweep {
     this.#onParams({ [this.#name]: value }, `sweep ${this.#name} ${gestureCount()}`);
   }
 
-  /** The value whose column was clicked. @param {MouseEvent} event */
+  /** Sets the value of the clicked column. @param {MouseEvent} event */
   #take({ offsetX }) {
     if (!this.#swept) return;
     const { values } = this.#swept;
@@ -129,7 +129,7 @@ export class Sweep {
       this.#draw();
     });
     this.#busy = false;
-    // What changed meanwhile.
+    // Something changed meanwhile.
     return this.#refresh();
   }
 

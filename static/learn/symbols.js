@@ -4,7 +4,7 @@ import { h } from "../widgets/dom.js";
 const SYMBOL = /((?<!\w)[A-Za-zαγ]′?_[a-z0-9]+|\b[ijkdn]\b(?!')|[εδρθ]′?|\bP′)/u;
 
 /**
- * Text with the symbols of the paper in italics and their indices set lower: P_min, S_num, ε, ρ′.
+ * Text with the symbols of the paper in italics and their indices as subscripts: P_min, S_num, ε, ρ′.
  * @param {string} words
  * @returns {(Node | string)[]}
  */

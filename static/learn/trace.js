@@ -25,12 +25,12 @@
  * @property {string} text its sentence
  */
 
-/** Where one may jump to; the columns say where that is. */
+/** Kinds of decisions to jump to; the columns say where they are. */
 export const JUMPS = /** @type {const} */ (["seed", "refusal", "line", "drop", "merge", "cut"]);
 /** @typedef {(typeof JUMPS)[number]} Jump */
 /** @typedef {"decision" | "phase" | "line"} Level */
 
-/** What is decided on all points of a line at once. */
+/** Decisions about all points of a line at once. */
 const OF_A_LINE = new Set(["line kept", "line dropped", "lines merged", "overlap cut"]);
 
 export class Trace {
@@ -73,7 +73,7 @@ export class Trace {
   }
 
   /**
-   * The first of two lines that were compared, as it was then: a merge records the line that came of it.
+   * The first of two lines that were compared, as it was before: a merge records the resulting line.
    * @param {Event} event @returns {Line | null}
    */
   compared({ index, kind, candidate, line }) {
@@ -130,7 +130,7 @@ export class Trace {
   }
 
   /**
-   * The next decision after `from` that is about the beam: it decides on it or on its line, or first tries it in a seed.
+   * The next decision after `from` that is about the beam: about the beam itself, about its line, or about the first seed window that includes it.
    * @param {number} beam @param {number} from @returns {number} −1 if there is none
    */
   nextAbout(beam, from) {
@@ -144,7 +144,7 @@ export class Trace {
     return -1;
   }
 
-  /** Steps on from `from` by stretches of a level. @param {number} from @param {number} by @param {Level} level */
+  /** Steps from `from` to the next start of this level. @param {number} from @param {number} by @param {Level} level */
   moved(from, by, level) {
     const last = this.length - 1;
     const starts = this.starts[level];

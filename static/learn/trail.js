@@ -6,7 +6,7 @@ import { stretch } from "./geometry.js";
 /** @typedef {import("./trace.js").Trace} Trace */
 /** @typedef {[[number, number], [number, number]]} Part */
 
-// Beyond some hundred they could not be told apart.
+// More than some hundred could not be distinguished.
 const MOST = 120;
 
 /** @param {Trace} trace @param {Event} event @returns {{lines: Part[]} | null} null where no line grows */
@@ -28,7 +28,7 @@ function fitOf(trace, { kind, first, last, line }) {
   return stretch(trace, trace.span(first, last), line);
 }
 
-/** The part, somewhat longer at both ends, so that its direction shows. @param {Part} part @returns {Part} */
+/** The segment, extended at both ends so that its direction is visible. @param {Part} part @returns {Part} */
 function longer([[x1, y1], [x2, y2]]) {
   const length = Math.hypot(x2 - x1, y2 - y1) || 1;
   const reach = Math.max(0.25 * length, 0.2) / length;

@@ -1,5 +1,5 @@
 // @ts-check
-// What stands in the variables of the pseudocode at a decision, and what its lit line compares.
+// The values of the pseudocode's variables at a decision, and what its highlighted line compares.
 
 import { num } from "./mathml.js";
 
@@ -54,7 +54,7 @@ export function symbolOf(check) {
   return SYMBOL[check] ?? "";
 }
 
-/** What a decision compared, for the bar of value and limit; null where its sentence says it all. @param {Event} event */
+/** The value and limit that a decision compared; null if its sentence is enough. @param {Event} event */
 export function comparedOf({ kind, check: refused, value, limit }) {
   if (WITHOUT_BAR.has(kind)) return null;
   const check = kind === "line kept" ? "min_length" : refused;

@@ -1,5 +1,5 @@
 // @ts-check
-// Every window that was tried as a seed, over the beams, in four lanes: one a fate.
+// Every window that was tried as a seed, over the beams, in four lanes, one for each outcome.
 import { freshCanvas } from "../widgets/canvas.js";
 import { h, setText } from "../widgets/dom.js";
 import { createWalk } from "../widgets/walk.js";
@@ -22,7 +22,7 @@ export class Windows {
   /** Decisions about windows. @type {number[]} */ #tried = [];
   #canvas = h("canvas", { class: "chart-canvas" });
   #said = h("span", { class: "off-screen" });
-  /** The window that is pointed at. */
+  /** The window under the pointer. */
   #named = h("span", { class: "muted", "aria-hidden": "true" });
   #walk;
 
@@ -119,7 +119,7 @@ export class Windows {
   }
 }
 
-/** Where a window lies on a picture: as wide as its beams. @param {number} first @param {number} last @param {number} beams @param {number} width */
+/** Position of a window in a picture; it is as wide as its beams. @param {number} first @param {number} last @param {number} beams @param {number} width */
 function placeOf(first, last, beams, width) {
   const count = ((last - first + beams) % beams) + 1;
   return { from: (first / beams) * width, wide: Math.max((count / beams) * width, 1) };

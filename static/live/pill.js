@@ -8,7 +8,7 @@ import { tooltip } from "../widgets/tooltip.js";
 
 /** @typedef {typeof import("../text/live.js").liveText} Text */
 
-/** How the source fares, for the status line. @param {Text} text */
+/** The state of the source, for the status line. @param {Text} text */
 function createFigures(text) {
   /** @type {LiveStatus | null} */
   let status = null;

@@ -1,5 +1,5 @@
 // @ts-check
-// What goes to a robot when somebody asks for it: parameters of a node, and segments of live scans.
+// Dialogs that send to a robot: parameters of a node, and segments of live scans.
 import { openDialog } from "../widgets/dialog.js";
 import { h } from "../widgets/dom.js";
 import { messageOf } from "../fetch.js";
@@ -10,7 +10,7 @@ const KEY = "lineseg.robot";
 /** @typedef {import("../wire.js").Sent} Sent */
 
 /**
- * Sends the thresholds to a node and shows what the robot has afterwards.
+ * Sends the thresholds to a node and shows its values afterwards.
  * @param {Words} words
  * @param {import("../wire.js").Params} params
  */
@@ -60,7 +60,7 @@ export function showSend(words, params) {
 }
 
 /**
- * Begins to publish the segments of this tab.
+ * Starts publishing the segments of this tab.
  * @param {Words} words
  * @param {string} session
  */
@@ -113,7 +113,7 @@ function table(text, sent) {
   ];
 }
 
-/** What came of it, in the dialog. */
+/** Shows the outcome in the dialog. */
 function createAnswer() {
   const element = h("div", { class: "robot-answer", "aria-live": "polite" });
   return {

@@ -32,7 +32,7 @@ export function catchDrops(target, { onHover, onFiles }) {
 }
 
 /**
- * The files of a drop; of a folder (a ROS 2 bag) those directly in it.
+ * The dropped files; for a folder (a ROS 2 bag), the files directly in it.
  * @param {DataTransfer} data
  */
 async function filesIn(data) {
@@ -55,7 +55,7 @@ async function filesInFolder(folder) {
 }
 
 /**
- * Which of some files is to be opened. The metadata.yaml beside a bag is not a parameter file.
+ * Which of several files to open. The metadata.yaml beside a bag is not a parameter file.
  * @param {File[]} files
  * @returns {{kind: "recording" | "parameters", file: File} | null}
  */

@@ -10,7 +10,7 @@ import { catchDrops, chooseFile, pick, upload } from "./files.js";
  * @param {{work: ReturnType<typeof import("./work.js").createWork>, notices: ReturnType<typeof import("../stage/notices.js").mountNotices>}} shown
  * @param {typeof import("../text/page.js").pageText} text
  * @param {{onSweep: (file: File) => void, rest: (name: string) => import("../view/store.js").Patch}} handlers
- *   rest: what a link says of the file of this name besides
+ *   rest: what else a link says about the file of this name
  */
 export function createOpening(page, { work, notices }, text, { onSweep, rest }) {
   /** @param {File[]} files */
@@ -49,7 +49,7 @@ export function createOpening(page, { work, notices }, text, { onSweep, rest }) 
     page.adoptDrawn();
   }
 
-  /** Takes the text of a parameter file, or says why not. @param {string} file @returns {Promise<string | null>} */
+  /** Applies the text of a parameter file or says why it cannot. @param {string} file @returns {Promise<string | null>} */
   async function importParams(file) {
     const query = new URLSearchParams({ method: page.view.method });
     const { words, trouble } = await fetchText(`/api/params?${query}`, { method: "POST", body: file });
@@ -63,10 +63,10 @@ export function createOpening(page, { work, notices }, text, { onSweep, rest }) 
 
   return {
     importParams,
-    /** What a person asked for, or else what the server opens. */
+    /** Cancels what a person asked for, or else what the server opens. */
     cancel,
     choose: () => chooseFile(open),
-    /** Takes what is dropped in a window. @param {Window} target */
+    /** Opens what is dropped on a window. @param {Window} target */
     acceptDrops: (target) => catchDrops(target, { onHover: notices.setDropping, onFiles: open }),
   };
 }

@@ -1,5 +1,5 @@
 // @ts-check
-// Long work that a person asked for: one at a time, told of over the scene, and cancelled there or by the next.
+// Long work that a person started: one at a time, shown over the scene, and cancelled there or by the next.
 
 /** @typedef {(done: number, total: number) => void} Show */
 

@@ -5,7 +5,7 @@ import { messageOf } from "../fetch.js";
 /** @typedef {{recording: string, bytes: number}} Recorded */
 
 /**
- * Has the server record what this tab looks at.
+ * Lets the server record what this tab shows.
  * @param {string} session
  * @param {boolean} steps every decision of the frame under view; without, all frames
  * @param {(done: number, total: number) => void} onProgress

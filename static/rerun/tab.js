@@ -1,5 +1,5 @@
 // @ts-check
-// The tab Rerun: over the scene, rerun's viewer with a recording of the present view.
+// The tab Rerun: over the scene, rerun's viewer with a recording of the current view.
 import { keyOf } from "../view/key.js";
 import { h, setText } from "../widgets/dom.js";
 import { iconButton } from "../widgets/icon.js";
@@ -24,7 +24,7 @@ export class RerunTab {
   /** Where the cursor is, and where it was last sent. */
   #cursor = -1;
   #asked = -1;
-  /** Counts the frames of the page that were opened, so that a viewer that comes too late is not taken. */
+  /** Counts the opened iframes, so that a viewer that loads too late is ignored. */
   #generation = 0;
   #text;
   #handlers;
@@ -104,7 +104,7 @@ export class RerunTab {
     this.#cancel.hidden = this.#bar.hidden = true;
   }
 
-  /** A new frame with a new viewer: one that has run keeps what it had loaded. */
+  /** Opens a new iframe with a new viewer, because an old viewer keeps what it has loaded. */
   async #start() {
     setText(this.#words, this.#text.starting);
     this.#viewer = null;

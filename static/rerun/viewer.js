@@ -1,5 +1,5 @@
 // @ts-check
-// In a frame of its own: rerun's web viewer, told what to show, and telling where its time cursor is.
+// rerun's web viewer in its own iframe: it is told what to show, and it reports its time cursor.
 
 const TIMELINE = "frame";
 const RETRY_MS = 100;
@@ -33,7 +33,7 @@ function cursorAt(frame) {
   return new Uint8Array(nested(6, [...timeline, ...nested(3, [8, ...varint(frame)])]));
 }
 
-/** Whether this browser can draw it at all. */
+/** Whether this browser can run the viewer. */
 export function canDraw() {
   return "gpu" in navigator || document.createElement("canvas").getContext("webgl2") !== null;
 }
@@ -71,7 +71,7 @@ export async function start(url, dark, onFrame) {
   await open;
   return {
     /**
-     * Moves the cursor, unless somebody looks at another timeline; a recording that has just opened has none yet.
+     * Moves the cursor unless another timeline is selected; a recording that was just opened has none yet.
      * @param {number} frame
      */
     async setFrame(frame) {

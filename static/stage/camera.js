@@ -1,5 +1,5 @@
 // @ts-check
-// What of the plan is looked at: all of a recording when it is opened, or what a link says.
+// The visible part of the plan: a whole recording when it is opened, or what a link says.
 import { iconButton } from "../widgets/icon.js";
 
 /** @typedef {import("../view/store.js").Look} Look */
@@ -9,10 +9,10 @@ import { iconButton } from "../widgets/icon.js";
  * @param {import("./stage.js").Stage} stage
  * @param {typeof import("../text/page.js").pageText.stage} text
  * @param {{drawing: () => boolean, names: (recording: string) => boolean, onLook: () => void}} handlers
- *   drawing: the recording is a world that is being drawn; names: it is that of the link; onLook: something else is looked at
+ *   drawing: the recording is a world that is being drawn; names: the recording is the one in the link; onLook: the visible part changed
  */
 export function createCamera(page, stage, text, { drawing, names, onLook }) {
-  /** What a link says of the plan, until the plan is there. @type {Look | null} */
+  /** The part of the plan that a link shows, until the plan is loaded. @type {Look | null} */
   let wanted = null;
   let fitted = "";
   const fitButton = iconButton("fit", text.fit, fit);
@@ -36,7 +36,7 @@ export function createCamera(page, stage, text, { drawing, names, onLook }) {
     buttons: [fitButton, freeButton],
     fit,
     toggle,
-    /** What to look at once the plan is there. @param {Look | null} look */
+    /** Sets the part to show once the plan is loaded. @param {Look | null} look */
     want(look) {
       wanted = look;
     },

@@ -1,5 +1,5 @@
 // @ts-check
-// Switches of what is drawn, which are the legend as well.
+// Switches for the layers; they also serve as the legend.
 import { h } from "../widgets/dom.js";
 import { iconButton } from "../widgets/icon.js";
 import { popUnder } from "../widgets/menu.js";
@@ -37,7 +37,7 @@ export function createLayers(words, onLayers) {
   return {
     button,
     list,
-    /** Offers the true walls only where they are known. @param {import("../wire.js").State} state */
+    /** Offers the true walls only if they are known. @param {import("../wire.js").State} state */
     setState({ truth }) {
       rows[names.indexOf("truth")].hidden = !truth;
     },

@@ -1,16 +1,16 @@
 // @ts-check
-// What lies over the scene: empty and loading states, errors, the lost connection, the drop target.
+// Notices over the scene: empty and loading states, errors, the lost connection, the drop target.
 import { h, setText } from "../widgets/dom.js";
 import { icon, iconButton } from "../widgets/icon.js";
 
-// A load that is over at once should not flash.
+// A short load should not flash.
 const LOADING_DELAY_MS = 150;
-// Nor should a connection that is there again at once.
+// Nor should a connection that is lost only briefly.
 const LOST_DELAY_MS = 600;
 
 /** @typedef {typeof import("../text/page.js").pageText.stage} Text */
 
-/** What is shown while there is no picture. @param {Text} text */
+/** Shown while there is no picture. @param {Text} text */
 function createEmpty(text) {
   const [title, hint] = [h("p", { class: "empty-title" }, text.starting), h("p", { class: "hint" })];
   return {

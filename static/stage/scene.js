@@ -1,5 +1,5 @@
 // @ts-check
-// The stage and what belongs to it: notices, its tools, the card that explains a point.
+// The stage with its notices, its tools and the card that explains a point.
 import { createExplanation } from "../tune/explanation.js";
 import { h } from "../widgets/dom.js";
 import { createCamera } from "./camera.js";

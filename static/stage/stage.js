@@ -15,7 +15,7 @@ import { cameraIn, clip, lockPlan, NEAREST, PLAN_FOV_DEG, planOf, rad, unlock } 
 const MARGIN = 1.12;
 const BAR_PX = 110;
 const CAMERA_KEYS = new Set(["KeyW", "KeyA", "KeyS", "KeyD", "KeyQ", "KeyE"]);
-// viser's own panel and notices go, because connection and values are the page's to show; and so does its slow fade-in.
+// viser's own panel and notices go, because the page shows connection and values; its slow fade-in goes, too.
 const OVERRULED = `
   [data-floating-window], .mantine-Paper-root:has(.mantine-ScrollArea-root), .mantine-Notifications-root { display: none !important; }
   canvas { opacity: 1 !important; }
@@ -28,7 +28,7 @@ export class Stage {
   #mode = "plan";
   /** What the plan shows. @type {Plan | null} */
   #plan = null;
-  /** What it shows after a fit. @type {Plan | null} */
+  /** The plan after a fit. @type {Plan | null} */
   #whole = null;
   /** @type {Box | null} */
   #pendingFit = null;
@@ -92,7 +92,7 @@ export class Stage {
     for (const listener of this.#hoverListeners) listener(at);
   }
 
-  /** Locks the camera as soon as there is one. */
+  /** Locks the camera as soon as it exists. */
   #settle() {
     const found = cameraIn(this.frame);
     if (!found) {
@@ -155,7 +155,7 @@ export class Stage {
     setText(this.#barWords, metres >= 1 ? `${metres} m` : `${Math.round(metres * 100)} cm`);
   }
 
-  /** Of the plan; null while there is none, and in the free view. */
+  /** The scale of the plan; null before it is loaded and in the free view. */
   get #scale() {
     const plan = this.#plan;
     if (this.#mode !== "plan" || !plan) return null;
@@ -180,7 +180,7 @@ export class Stage {
     this.#apply();
   };
 
-  /** What the plan shows, where a person has moved it. @returns {Look | null} */
+  /** The visible part of the plan, if a person has moved it. @returns {Look | null} */
   get look() {
     const [plan, whole] = [this.#plan, this.#whole];
     if (!plan || !whole || this.#pendingFit) return null;
@@ -196,7 +196,7 @@ export class Stage {
     this.#apply();
   }
 
-  /** Where a point of the plan is on the stage [px]; null in the free view. @param {number} x @param {number} y @returns {[number, number] | null} */
+  /** Position of a point of the plan on the stage [px]; null in the free view. @param {number} x @param {number} y @returns {[number, number] | null} */
   project = (x, y) => {
     if (!this.#scale) return null;
     const { plan, pxPerMetre } = this.#scale;
@@ -204,7 +204,7 @@ export class Stage {
     return [clientWidth / 2 + (x - plan.x) * pxPerMetre, clientHeight / 2 - (y - plan.y) * pxPerMetre];
   };
 
-  /** The point of the plan under a place on the stage [px]; null in the free view. @param {number} left @param {number} top @returns {[number, number] | null} */
+  /** The point of the plan at a place on the stage [px]; null in the free view. @param {number} left @param {number} top @returns {[number, number] | null} */
   unproject = (left, top) => {
     if (!this.#scale) return null;
     const { plan, pxPerMetre } = this.#scale;
@@ -212,7 +212,7 @@ export class Stage {
     return [plan.x + (left - clientWidth / 2) / pxPerMetre, plan.y - (top - clientHeight / 2) / pxPerMetre];
   };
 
-  /** Gives the scene a turn of the wheel that something over it has received. @param {WheelEvent} event */
+  /** Passes to the scene a wheel event that an element over it received. @param {WheelEvent} event */
   pass = (event) => {
     this.frame.contentDocument?.querySelector("canvas")?.dispatchEvent(new WheelEvent("wheel", event));
   };
@@ -242,12 +242,12 @@ export class Stage {
   }
 }
 
-/** Whether the camera stands elsewhere than it was set. @param {Plan} now @param {Plan} wanted */
+/** Whether the camera is not where it was set. @param {Plan} now @param {Plan} wanted */
 function isApart(now, wanted) {
   return Math.hypot(now.x - wanted.x, now.y - wanted.y, now.height - wanted.height) > 1e-3 * now.height;
 }
 
-/** The greatest of 1, 2, 5 · 10ⁿ that is at most `most`. @param {number} most */
+/** The largest of 1, 2, 5 · 10ⁿ that is at most `most`. @param {number} most */
 function niceLength(most) {
   const power = 10 ** Math.floor(Math.log10(most));
   const factor = most / power >= 5 ? 5 : most / power >= 2 ? 2 : 1;

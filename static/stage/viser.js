@@ -6,13 +6,13 @@
 
 export const PLAN_FOV_DEG = 10;
 const FREE_FOV_DEG = 45;
-/** The least distance of the camera to the plan [m]. */
+/** The smallest distance of the camera from the plan [m]. */
 export const NEAREST = 0.5;
 const WHEEL_SPEED = 1;
 // camera-controls' actions
 const ACTION = { ROTATE: 1, TRUCK: 2, DOLLY: 16, TOUCH_ROTATE: 64, TOUCH_TRUCK: 128, TOUCH_DOLLY_TRUCK: 4096 };
 
-/** viser's camera, once its scene stands. @param {HTMLIFrameElement} frame @returns {Found | null} */
+/** viser's camera, once its scene is loaded. @param {HTMLIFrameElement} frame @returns {Found | null} */
 export function cameraIn(frame) {
   const mutable = /** @type {any} */ (frame.contentWindow)?.__viserMutable;
   const control = mutable?.cameraControl;
@@ -20,7 +20,7 @@ export function cameraIn(frame) {
   return control && camera ? { control, camera, mutable } : null;
 }
 
-/** What it looks at from straight above; null if it does not. @param {Found} found @returns {Plan | null} */
+/** The point it looks at from straight above; null if it looks from elsewhere. @param {Found} found @returns {Plan | null} */
 export function planOf({ control, camera }) {
   const up = toWorld(camera.up);
   const eye = control.getPosition(camera.position.clone());
@@ -40,7 +40,7 @@ export function clip({ camera }, height) {
   camera.updateProjectionMatrix();
 }
 
-/** Only panning and zooming are possible. @param {Found} found @param {Plan} plan */
+/** Allows only panning and zooming. @param {Found} found @param {Plan} plan */
 export function lockPlan(found, { x, y, height }) {
   const { control, camera, mutable } = found;
   allowAnyAngle(control);
@@ -60,7 +60,7 @@ export function lockPlan(found, { x, y, height }) {
   mutable.requestRender();
 }
 
-/** Turns freely, beginning with a look from the south at what the plan shows. @param {Found} found @param {Plan} plan */
+/** Allows free rotation, starting with a view of the plan from the south. @param {Found} found @param {Plan} plan */
 export function unlock({ control, camera, mutable }, { x, y, height }) {
   const away = (height * Math.tan(rad(PLAN_FOV_DEG / 2))) / Math.tan(rad(FREE_FOV_DEG / 2));
   allowAnyAngle(control);
@@ -100,7 +100,7 @@ export function rad(degrees) {
   return (degrees * Math.PI) / 180;
 }
 
-// viser shows z up; three.js, which its camera lives in, has y up.
+// In viser z points up; in three.js, which its camera uses, y does.
 /** @param {number[]} point @returns {[number, number, number]} */
 function toThree([x, y, z]) {
   return [-y, z, -x];

@@ -1,5 +1,5 @@
 // @ts-check
-// What the present decision says: its phase, its sentence, and what it compared.
+// The current decision: its phase, its sentence, and what it compared.
 import { steppingText } from "../text/stepping.js";
 import { h, sentenceCase, setText } from "../widgets/dom.js";
 import { iconButton } from "../widgets/icon.js";

@@ -28,7 +28,7 @@ export class Jumps {
     if (button) setText(button, label);
   }
 
-  /** Only these kinds are shown. @param {Set<string>} names */
+  /** Shows only these kinds. @param {Set<string>} names */
   offer(names) {
     for (const [name, button] of this.#buttons) button.hidden = !names.has(name);
   }

@@ -1,5 +1,5 @@
 // @ts-check
-// The number of the present decision, typed or dragged to.
+// The number of the current decision, to type or to drag.
 import { steppingText as text } from "../text/stepping.js";
 import { h, setText } from "../widgets/dom.js";
 import { createNumberField } from "../widgets/number.js";

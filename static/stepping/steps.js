@@ -1,5 +1,5 @@
 // @ts-check
-// Steps through the decisions of one frame: which one is shown, and every way to another. Tune and Learn share it.
+// Steps through the decisions of one frame: which one is shown, and all ways to move to another. Tune and Learn share this.
 import { Player } from "../widgets/player.js";
 import { steppingText as text } from "../text/stepping.js";
 import { iconButton } from "../widgets/icon.js";
@@ -12,10 +12,10 @@ import { Scrubber } from "./scrubber.js";
 /**
  * @typedef {object} Course
  * @property {() => boolean} settled the last decision was drawn
- * @property {(at: number | null) => void} onStep another decision is wanted; null: the whole result
+ * @property {(at: number | null) => void} onStep another decision is requested; null: the whole result
  * @property {(playing: boolean) => void} onPlaying
- * @property {(from: number, by: number, playing: boolean) => number | null} [moved] where a move leads; null: it is held back
- * @property {() => number | null} [loopStart] where playing begins over and over; null: it ends at the last decision
+ * @property {(from: number, by: number, playing: boolean) => number | null} [moved] where a move leads; null: the move must wait
+ * @property {() => number | null} [loopStart] where playing starts again after the end; null: it stops at the last decision
  */
 
 export class Steps {
@@ -28,7 +28,7 @@ export class Steps {
 
   /**
    * @param {{speed: string, usualSpeed: number, kinds: [name: string, label: string][], backdrop?: HTMLElement}} parts
-   *   speed: words of the menu of speeds; kinds: of decisions that one may jump to; backdrop: behind the scrubber
+   *   speed: words of the menu of speeds; kinds: decisions that have a button to jump to; backdrop: shown behind the scrubber
    * @param {Course} course
    */
   constructor({ speed, usualSpeed, kinds, backdrop }, course) {
@@ -77,13 +77,13 @@ export class Steps {
     this.#course.onStep(wanted);
   }
 
-  /** A hand stops the clock. @param {number} at */
+  /** Moves by hand, which stops playing. @param {number} at */
   #goByHand(at) {
     this.stop();
     this.go(at);
   }
 
-  /** As a hand does. @param {number} by ±Infinity: to the ends */
+  /** Moves like a person does, which stops playing. @param {number} by ±Infinity: to the ends */
   move(by) {
     this.stop();
     this.#move(by, false);
@@ -98,7 +98,7 @@ export class Steps {
     return this.go(next);
   }
 
-  /** To the next decision of a kind. @param {string} name */
+  /** Goes to the next decision of a kind. @param {string} name */
   jump(name) {
     this.stop();
     const next = this.#marks[name]?.find((index) => index > (this.#at ?? -1));
@@ -116,12 +116,12 @@ export class Steps {
     this.#player.stop();
   }
 
-  /** Into the replay, or back to the whole result. */
+  /** Enters the replay, or goes back to the whole result. */
   toggle() {
     this.go(this.#at === null ? 0 : null);
   }
 
-  /** Other decisions. @param {number} count @param {Marks} marks */
+  /** The decisions changed. @param {number} count @param {Marks} marks */
   setDecisions(count, marks) {
     this.#count = count;
     this.#marks = marks;

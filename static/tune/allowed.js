@@ -4,7 +4,7 @@
 /** @typedef {import("../wire.js").Knob} Knob */
 /** @typedef {typeof import("../text/page.js").pageText.tune} Text */
 
-/** Why a typed value cannot be, or null. @param {Knob} knob @param {string} typed @param {Text} text */
+/** Why a typed value is not allowed, or null. @param {Knob} knob @param {string} typed @param {Text} text */
 export function refused(knob, typed, text) {
   const value = typed === "" ? NaN : Number(typed);
   const range = allowedRange(knob, text);

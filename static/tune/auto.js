@@ -1,5 +1,5 @@
 // @ts-check
-// Auto-tuning: the trials as they come, what matters, and whether anything was gained.
+// Auto-tuning: the trials as they arrive, which thresholds matter, and whether anything was gained.
 import { h, setText } from "../widgets/dom.js";
 import { withUnit } from "../widgets/scale.js";
 import { toast } from "../widgets/toast.js";
@@ -71,7 +71,7 @@ export class Auto {
     toast(this.#text.adopted);
   }
 
-  /** Other trials begin: of another recording, or for another objective. */
+  /** Clears the trials for another recording or objective. */
   forget() {
     if (this.#running) this.#handlers.stop();
     this.#trials = [];

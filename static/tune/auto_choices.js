@@ -13,7 +13,7 @@ export class AutoChoices {
   #objective;
   #count;
   #boxes;
-  /** Whether a person has chosen what is maximised. */ #chosen = false;
+  /** Whether a person has chosen the objective. */ #chosen = false;
 
   /** @param {typeof import("../text/tuning.js").tuningText.auto} text @param {() => void} onObjective */
   constructor(text, onObjective) {
@@ -49,7 +49,7 @@ export class AutoChoices {
     }
   }
 
-  /** As the server is asked. */
+  /** The request to the server. */
   get wish() {
     const thresholds = this.#ticks.filter(({ checked }) => checked).map(({ value }) => value);
     return { objective: this.#objective.value, thresholds, trials: Number(this.#count.value) };
@@ -69,7 +69,7 @@ export class AutoChoices {
     this.#tickUsual();
   }
 
-  /** Truth is what is maximised where there is any, until something else is chosen. @param {boolean} truth @param {boolean} running */
+  /** Selects the truth as objective if there is any, until a person chooses another. @param {boolean} truth @param {boolean} running */
   setTruth(truth, running) {
     const objective = this.#objective;
     for (const option of objective.options) option.disabled = option.value === "truth" && !truth;

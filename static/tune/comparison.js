@@ -3,7 +3,7 @@
 /** @typedef {import("../wire.js").Knob} Knob */
 
 /**
- * What a decision compared, for the bar of value and limit; null if it compared nothing.
+ * The value and limit that a decision compared; null if it compared nothing.
  * @param {{check: string, value: number | null, limit: number | null}} decision
  * @param {Knob[]} knobs
  */

@@ -3,7 +3,7 @@
 /** @typedef {[number, number, number, number]} Stroke x1, y1, x2, y2 in cells */
 
 /**
- * Lines of one height over a grid of heights (marching squares); cells with a hole have none.
+ * Lines of one height over a grid of heights (marching squares); cells with an unknown corner have none.
  * @param {(number | null)[][]} heights rows of equal length
  * @param {number} level
  * @returns {Stroke[]}

@@ -1,5 +1,5 @@
 // @ts-check
-// What the recording gives over the range of one threshold.
+// A curve of the results over the range of one threshold.
 import { h, svg } from "../widgets/dom.js";
 import { placeOf, valueAt, withUnit } from "../widgets/scale.js";
 

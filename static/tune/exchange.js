@@ -1,5 +1,5 @@
 // @ts-check
-// The menu of what is taken along; parameters as text, out and in.
+// The Export menu, and parameters as text in both directions.
 import { createMenu } from "../widgets/menu.js";
 import { showImport, showParams } from "./params_dialogs.js";
 
@@ -9,7 +9,7 @@ import { showImport, showParams } from "./params_dialogs.js";
  * @param {typeof import("../text/page.js").pageText} words
  * @param {{params: () => Params, method: () => import("../wire.js").Method, onImport: (file: string) => Promise<string | null>,
  *          first: () => import("../widgets/menu.js").Group[], more: () => import("../widgets/menu.js").Group[]}} handlers
- *   onImport: applies the text of a parameter file, or says why not; first, more: what the menu holds before and after
+ *   onImport: applies the text of a parameter file or says why it cannot; first, more: entries of the menu before and after
  */
 export function createExchange(words, { params, method, onImport, first, more }) {
   const text = words.exchange;

@@ -11,10 +11,10 @@ import { symbol } from "./symbol.js";
 /** @typedef {import("../wire.js").Knob} Knob */
 
 /**
- * The card that says why the selected point is, or is not, in a line.
+ * The card that says why the selected point is in a line or not.
  * @param {typeof import("../text/page.js").pageText.explanation} text
  * @param {{project: (x: number, y: number) => [number, number] | null, onMove: (listener: () => void) => void}} stage
- *   project: where a point is on the stage [px]
+ *   project: position of a point on the stage [px]
  * @param {{onClose: () => void, onChange: (name: string, value: number) => void}} handlers
  */
 export function createExplanation(text, stage, { onClose, onChange }) {
@@ -42,7 +42,7 @@ export function createExplanation(text, stage, { onClose, onChange }) {
   let knobs = [];
   stage.onMove(place);
 
-  /** Whether the card, at its usual place, would hide what is there. @param {number} left @param {number} top */
+  /** Whether the card would hide this point at its usual place. @param {number} left @param {number} top */
   function isUnder(left, top) {
     const holder = element.offsetParent;
     if (!holder) return false;
@@ -50,7 +50,7 @@ export function createExplanation(text, stage, { onClose, onChange }) {
     return !beside && top > holder.clientHeight - element.offsetHeight - 48;
   }
 
-  /** Puts the card where it does not hide its point; where it is, it stays until another point is explained. */
+  /** Puts the card where it does not hide its point. It stays there until another point is explained. */
   function place() {
     const spot = shown?.at && !placed ? stage.project(...shown.at) : null;
     if (!spot) return;
@@ -76,7 +76,7 @@ export function createExplanation(text, stage, { onClose, onChange }) {
       versus.set(comparison(explanation, knobs));
       place();
     },
-    /** What would change the answer, as buttons that do it. @param {import("../wire.js").WhatIf[]} found */
+    /** Buttons for the changes that would give another answer. @param {import("../wire.js").WhatIf[]} found */
     setChanges(found) {
       const buttons = found.flatMap(({ name, value, text: why }) => {
         const knob = knobs.find((each) => each.name === name);

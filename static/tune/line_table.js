@@ -1,5 +1,5 @@
 // @ts-check
-// A table of lines; each row is a way to ask why.
+// A table of lines; a click on a row asks why.
 import { h, setText } from "../widgets/dom.js";
 
 /** beam: that is asked about; note: in words, what the cells do not say. @typedef {{cells: string[], current: boolean, beam: number, note: string}} Row */

@@ -7,7 +7,7 @@ import { LineTable } from "./line_table.js";
 /** @typedef {import("../wire.js").Dropped} Dropped */
 
 /**
- * The segments of the frame and the candidates that were dropped, each a way to ask why.
+ * The segments of the frame and the dropped candidates; a click on one asks why.
  * @param {typeof import("../text/page.js").pageText.lines} text
  * @param {(beam: number) => void} onSelect
  */
@@ -70,7 +70,7 @@ function covers({ first, last }, beam) {
   return first <= last ? first <= beam && beam <= last : beam >= first || beam <= last;
 }
 
-/** A beam in the middle; a line may run across the seam of a full circle. @param {{first: number, last: number}} line @param {number} beams */
+/** The middle beam of a line, which may cross the seam of a full circle. @param {{first: number, last: number}} line @param {number} beams */
 function middle({ first, last }, beams) {
   const span = last >= first ? last - first : last + beams - first;
   return (first + Math.floor(span / 2)) % beams;

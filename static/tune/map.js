@@ -1,5 +1,5 @@
 // @ts-check
-// A measure over two thresholds; a click sets both. Of the recording on the screen, or of a sweep that was opened.
+// A measure over two thresholds, of the open recording or of an opened sweep; a click sets both thresholds.
 import { chooseFile } from "../open/files.js";
 import { h, setText } from "../widgets/dom.js";
 import { withUnit } from "../widgets/scale.js";
@@ -79,7 +79,7 @@ export class TuningMap {
     return /** @type {Knob} */ (this.#knobs.find((knob) => knob.name === name));
   }
 
-  /** What an axis spans: the slider, or the values that were swept. @param {string} name @returns {Knob} */
+  /** The range of an axis: that of the slider, or the swept values. @param {string} name @returns {Knob} */
   #spanOf(name) {
     const knob = this.#knobOf(name);
     const values = this.#table?.axes[name];
@@ -87,7 +87,7 @@ export class TuningMap {
     return { ...knob, low: values[0], high: values[values.length - 1], log: knob.log && values[0] > 0 };
   }
 
-  /** What the map depends on: all but the two thresholds that it spans. */
+  /** What the map depends on: everything except the thresholds on its axes. */
   #key() {
     const { x, y, measure } = this.#choices;
     const rest = Object.entries(this.#params).filter(([name]) => name !== x && name !== y);
@@ -104,7 +104,7 @@ export class TuningMap {
     this.#handlers.ask(x, y, measure);
   }
 
-  /** Asks for the map if it is seen and belongs to something else. */
+  /** Requests the map if it is visible and out of date. */
   #renew() {
     if (!this.#table && !this.element.hidden && this.#key() !== this.#asked) this.#begin();
   }
@@ -153,7 +153,7 @@ export class TuningMap {
     setText(this.#state, words);
   }
 
-  /** What is painted; null if there is nothing. */
+  /** The heights to paint; null if there are none. */
   get #painted() {
     const { x = "", y = "", xs = [], ys = [], heights = [] } = this.#shown ?? {};
     return heights.length ? { x: this.#spanOf(x), y: this.#spanOf(y), xs, ys, heights } : null;
@@ -175,7 +175,7 @@ export class TuningMap {
     this.#canvas.setAttribute("aria-label", this.#text.picture(label, x.symbol, y.symbol));
   }
 
-  /** The setting under the pointer, of a sweep the whole of it, and the height there. @param {MouseEvent} event @returns {{params: Params, height: number | null}} */
+  /** The setting under the pointer (for a sweep, all its thresholds) and the height there. @param {MouseEvent} event @returns {{params: Params, height: number | null}} */
   #under({ clientX, clientY }) {
     const { left, top, width, height } = this.#canvas.getBoundingClientRect();
     const { x, y } = this.#choices;
@@ -222,7 +222,7 @@ export class TuningMap {
     this.#renew();
   }
 
-  /** Another recording: all is to be computed anew. */
+  /** Forgets the map of another recording, so that it is computed again. */
   forget() {
     if (this.#table) return;
     this.#asked = "";

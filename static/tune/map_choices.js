@@ -1,12 +1,12 @@
 // @ts-check
-// What a map is of: a measure over two thresholds, and of a sweep perhaps one file.
+// What a map shows: a measure over two thresholds and, for a sweep, all files or one.
 import { h } from "../widgets/dom.js";
 
 /** @typedef {import("../wire.js").Knob} Knob */
 /** @typedef {import("../wire.js").Measure} Measure */
 /** @typedef {import("./sweep_table.js").SweepTable} SweepTable */
 
-// What is measured of the recording on the screen; a sweep may know more.
+// The measures of the open recording; a sweep may have more.
 const LIVE = ["coverage", "segments", "true_rate", "false_rate", "completeness", "f_score"];
 
 export class MapChoices {
@@ -48,12 +48,12 @@ export class MapChoices {
     return this.#measure.value;
   }
 
-  /** Of a sweep: the chosen file; null: all of them. */
+  /** The selected file of a sweep; null means all. */
   get file() {
     return this.#file.value ? Number(this.#file.value) : null;
   }
 
-  /** A map is of two thresholds. */
+  /** A map needs two different thresholds. */
   keepApart() {
     if (this.x !== this.y) return;
     this.#y.value = [...this.#y.options].find((option) => option.value !== this.x)?.value ?? "";
@@ -68,7 +68,7 @@ export class MapChoices {
     );
   }
 
-  /** The thresholds and measures that there are. @param {Knob[]} knobs @param {Measure[]} measures @param {SweepTable | null} table */
+  /** Sets the available thresholds and measures. @param {Knob[]} knobs @param {Measure[]} measures @param {SweepTable | null} table */
   offer(knobs, measures, table) {
     const axes = knobs.filter(({ name }) => !table || table.axes[name]);
     for (const [k, select] of [this.#x, this.#y].entries()) {
@@ -87,7 +87,7 @@ export class MapChoices {
     this.#measure.value = there.some(({ name }) => name === chosen) ? chosen : (usual?.name ?? "");
   }
 
-  /** The measure that says most, until another is chosen. @param {boolean} truth @param {Measure[]} measures */
+  /** Selects the most informative measure, until a person chooses another. @param {boolean} truth @param {Measure[]} measures */
   setTruth(truth, measures) {
     if (!this.#chosen && measures.length) this.#measure.value = truth ? "f_score" : "coverage";
     for (const option of this.#measure.options)

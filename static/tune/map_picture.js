@@ -1,5 +1,5 @@
 // @ts-check
-// Heights over two thresholds as shades, with contours and a ring at the present values.
+// Heights over two thresholds as shades, with contours and a ring at the current values.
 import { placeOf, valueAt } from "../widgets/scale.js";
 import { contour } from "./contours.js";
 
@@ -9,7 +9,7 @@ import { contour } from "./contours.js";
 /** @typedef {{low: number, high: number}} Range */
 
 const LEVELS = 8;
-// Dark to light, as viridis: lightness alone tells heights apart.
+// Dark to light, like viridis, so that lightness alone distinguishes heights.
 const STOPS = [
   [68, 1, 84],
   [59, 82, 139],
@@ -18,7 +18,7 @@ const STOPS = [
   [253, 231, 37],
 ];
 
-/** The least and the greatest height; null if none is known. @param {Relief} relief @returns {Range | null} */
+/** The smallest and the largest height; null if none is known. @param {Relief} relief @returns {Range | null} */
 export function rangeOf({ heights }) {
   const known = heights.flat().filter((height) => height !== null);
   return known.length ? { low: Math.min(...known), high: Math.max(...known) } : null;
@@ -44,7 +44,7 @@ export function paintRelief(canvas, relief, range, params) {
 }
 
 /**
- * The setting under a place of the picture, and the cell that it is in.
+ * The setting at a place of the picture, and its cell.
  * @param {{x: Knob, y: Knob, xs: number[], ys: number[]}} axes @param {number} across 0 to 1 @param {number} down 0 to 1
  */
 export function settingAt({ x, y, xs, ys }, across, down) {
@@ -76,7 +76,7 @@ function paintContours(pen, { heights }, { low, high }, px, py) {
   pen.stroke();
 }
 
-/** Whether the present value of a threshold is on its axis. @param {Knob} knob @param {Params} params */
+/** Whether the current value of a threshold is on its axis. @param {Knob} knob @param {Params} params */
 function within({ name, low, high }, params) {
   return params[name] >= low && params[name] <= high;
 }
@@ -88,7 +88,7 @@ function shade(place) {
   return `rgb(${STOPS[from].map((one, k) => Math.round(one + (at - from) * (STOPS[from + 1][k] - one))).join(" ")})`;
 }
 
-/** The borders of a cell, half way to its neighbours. @param {number[]} places @param {number} k @param {number} first @param {number} last */
+/** The borders of a cell, halfway to its neighbours. @param {number[]} places @param {number} k @param {number} first @param {number} last */
 function edges(places, k, first, last) {
   return [
     k === 0 ? first : (places[k - 1] + places[k]) / 2,

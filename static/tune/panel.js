@@ -58,7 +58,7 @@ class Panel {
     this.#tabs.setMode(mode);
   }
 
-  /** The row of a threshold, for what else stands there. @param {string} name */
+  /** The row of a threshold, so that others can add to it. @param {string} name */
   row(name) {
     return this.#thresholds.row(name);
   }

@@ -1,5 +1,5 @@
 // @ts-check
-// Dialogs in which parameters are text: shown in a format, or pasted.
+// Dialogs that show parameters as text in a format, or take pasted text.
 import { copy, download } from "../widgets/clipboard.js";
 import { openDialog } from "../widgets/dialog.js";
 import { h } from "../widgets/dom.js";

@@ -1,5 +1,5 @@
 // @ts-check
-// Lasers and the range precision their data sheets state, from which ε is taken: the greatest stated error at the
+// Lasers and the range precision of their data sheets, from which ε is taken: the largest stated error at the
 // distances where walls usually stand (to about 5 m), rounded.
 
 /** @type {readonly {laser: string, range: string, params: {epsilon: number}}[]} */

@@ -1,5 +1,5 @@
 // @ts-check
-// Under each slider a small curve of what the recording gives over its range, and the legend in which lines are switched.
+// A small curve under each slider of the results over its range, and the legend that switches the lines of the curves.
 import { h, setText } from "../widgets/dom.js";
 import { tooltip } from "../widgets/tooltip.js";
 import { createCurve, LINES } from "./curve.js";
@@ -8,14 +8,14 @@ import { createCurve, LINES } from "./curve.js";
 /** @typedef {typeof import("../text/tuning.js").tuningText.curves} Text */
 
 const KEY = "lineseg.curves";
-// Without truth only the first lines are known.
+// Without truth, only the first lines are known.
 const WITHOUT_TRUTH = 2;
 
 export class Sensitivity {
   #text;
   #onSet;
   #onShow;
-  /** Lines that are not drawn; "all": none is. @type {Set<string>} */ #hidden;
+  /** Lines that are not drawn; "all" means that none is drawn. @type {Set<string>} */ #hidden;
   #note = h("span", { class: "curves-note muted", role: "status" });
   #all;
   #keys;

@@ -9,7 +9,7 @@ import { messageOf } from "../fetch.js";
 
 const HEAD = "file,epsilon,";
 
-/** Whether a file is the table of a sweep, by its name or its first words. @param {File} file */
+/** Whether a file is the table of a sweep, judged by its name or first words. @param {File} file */
 export async function isSweepTable(file) {
   if (/\.parquet$/i.test(file.name)) return true;
   return (
@@ -57,7 +57,7 @@ export class SweepTable {
   }
 
   /**
-   * A measure over two thresholds, of the others whatever is best; a row for each value of y, null where there is nothing.
+   * A measure over two thresholds, with the best value over the others; one row for each value of y, null where there is none.
    * @param {string} x @param {string} y @param {string} measure @param {boolean} lower is better
    * @param {number | null} file null: the mean over the files, by their frames
    */

@@ -7,7 +7,7 @@ import { symbol } from "./symbol.js";
 /** @typedef {import("../wire.js").Knob} Knob */
 
 /**
- * The same as Threshold, as a checkbox.
+ * A checkbox with the same methods as Threshold.
  * @param {Knob} knob
  * @param {typeof import("../text/page.js").pageText.tune} text
  * @param {(name: string, value: number) => void} onChange 1 for on, 0 for off

@@ -1,5 +1,5 @@
 // @ts-check
-// The tabs of the panel. Some are there in one mode only.
+// The tabs of the panel. Some exist in one mode only.
 import { h, setText } from "../widgets/dom.js";
 
 /** mode: the only one in which it is there. @typedef {{name: string, label: string, content: HTMLElement, mode?: string}} Page */

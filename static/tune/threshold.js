@@ -20,7 +20,7 @@ export function hasHistogram(knob) {
   return WITH_HISTOGRAM.has(knob.name);
 }
 
-/** One threshold: symbol, typed value, slider and, where it cuts something that is measured, its histogram. */
+/** One threshold: symbol, typed value, slider and, if measured values are compared with it, their histogram. */
 export class Threshold {
   #knob;
   #text;
@@ -111,7 +111,7 @@ export class Threshold {
     if (!Number.isFinite(steps)) return steps < 0 ? low : high;
     const wanted = this.#value + (Math.abs(steps) === 1 ? steps : Math.sign(steps) * PAGE) * step;
     const next = snap(this.#knob, clamp(wanted, low, high));
-    // A typed value beyond the slider's ends must not jump back over the key's direction.
+    // From a typed value beyond the ends of the slider, a key must not move in the opposite direction.
     return Math.sign(next - this.#value) === Math.sign(steps) ? next : this.#value;
   }
 

@@ -1,5 +1,5 @@
 // @ts-check
-// The page of thresholds: presets, undo, a row for each, the extensions folded away.
+// The page of thresholds: presets, undo, and a row for each threshold, with the extensions folded.
 import { h, setText } from "../widgets/dom.js";
 import { iconButton } from "../widgets/icon.js";
 import { gestureCount } from "../widgets/slider.js";
@@ -77,7 +77,7 @@ export class Thresholds {
     this.#more.replaceChildren(...rows(true));
     this.#extensions.hidden = !knobs.some((knob) => knob.extension);
     this.#legend.hidden = !knobs.some(hasHistogram);
-    // They are the authors' and set ε for lasers; others' thresholds are other numbers.
+    // Presets set ε for a laser; the thresholds of other methods mean something else.
     this.#presets.hidden = !["epsilon", "delta"].every((name) => knobs.some((knob) => knob.name === name));
   }
 
@@ -102,7 +102,7 @@ export class Thresholds {
     this.#message.hidden = true;
   }
 
-  /** The row of a threshold, for what else stands there. @param {string} name */
+  /** The row of a threshold, so that others can add to it. @param {string} name */
   row(name) {
     return this.#rows.get(name)?.element ?? null;
   }
@@ -117,7 +117,7 @@ export class Thresholds {
     for (const [name, row] of this.#rows) row.setMark(changes.find((change) => change.name === name));
   }
 
-  /** Shows why the server refused thresholds: at the field it names, else above them. @param {string} why */
+  /** Shows why the server refused thresholds: at the field that it names, or else above all fields. @param {string} why */
   refuse(why) {
     const row = this.#rows.get(why.split(" ")[0]);
     if (row) return row.refuse(why);

@@ -1,5 +1,5 @@
 // @ts-check
-// The trials of auto-tuning as pictures: their scores as they came, their thresholds side by side, what matters.
+// The trials of auto-tuning as pictures: their scores in order, their thresholds side by side, and which thresholds matter.
 import { h, svg } from "../widgets/dom.js";
 import { placeOf } from "../widgets/scale.js";
 
@@ -99,7 +99,7 @@ function paintHistory(element, scores) {
   ]);
 }
 
-/** The better a trial, the stronger its line, and the later it is drawn. @param {Element} element @param {Scored[]} trials @param {Knob[]} axes */
+/** Better trials have stronger lines and are drawn later. @param {Element} element @param {Scored[]} trials @param {Knob[]} axes */
 function paintParallel(element, trials, axes) {
   const sorted = [...trials].sort((one, other) => one.score - other.score);
   const x = (/** @type {number} */ k) => ((k + 0.5) / axes.length) * WIDTH;

@@ -1,5 +1,5 @@
 // @ts-check
-// Mode Tune: the panel of thresholds with its pages, the replay, and what a change of a threshold would do.
+// Mode Tune: the panel of thresholds with its pages, the replay, and the effect of changing a threshold.
 import { createWhatIf } from "../inspect/what_if.js";
 import { mountPanel } from "./panel.js";
 import { mountReplay } from "./replay.js";
@@ -10,7 +10,7 @@ import { createTuner } from "./tuner.js";
  * @param {{panel: HTMLElement, replay: HTMLElement}} places
  * @param {typeof import("../text/words.js").words} text
  * @param {{pages: {name: string, label: string, content: HTMLElement}[], explanation: ReturnType<typeof import("./explanation.js").createExplanation>}} others
- *   pages: further ones of the panel, in the mode Inspect
+ *   pages: further pages of the panel, for the mode Inspect
  */
 export function createTune(page, places, text, { pages, explanation }) {
   const tuner = createTuner(text.tuning, {

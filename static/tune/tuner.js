@@ -11,9 +11,9 @@ import { Workbench } from "./workbench.js";
 /** @typedef {import("../wire.js").Answer} Answer */
 /** row: of a threshold's slider. @typedef {{session: () => string | null, onParams: (params: Params) => void, row: (name: string) => HTMLElement | null}} Handlers */
 
-// A hand that moves a slider pauses for less.
+// Pauses while a slider is being dragged are shorter than this.
 const PAUSE_MS = 120;
-// Whole recordings are measured by this method only.
+// Only this method is run over whole recordings.
 const METHOD = "region-growing";
 
 /**
@@ -31,10 +31,10 @@ class Tuner {
   #map;
   #auto;
   /** @type {Params} */ #params = {};
-  /** Of the recording that is drawn. */ #place = "";
-  /** What the curves were asked for. */ #asked = "";
+  /** Identifies the drawn recording. */ #place = "";
+  /** What the last request for curves was for. */ #asked = "";
   #timer = 0;
-  /** Whether the chosen method is the one that is measured. */ #able = true;
+  /** Whether the selected method can be run over whole recordings. */ #able = true;
 
   /** @param {typeof import("../text/tuning.js").tuningText} text @param {Handlers} handlers */
   constructor(text, { session, onParams, row }) {
@@ -78,7 +78,7 @@ class Tuner {
     this.#auto.setTruth(this.#sensitivity.hasTruth);
   }
 
-  /** Asks for the curves. */
+  /** Requests the curves. */
   #ask() {
     const wanted = JSON.stringify([this.#place, this.#params]);
     if (!this.#place || wanted === this.#asked || !this.#sensitivity.shown) return;

@@ -1,5 +1,5 @@
 // @ts-check
-// The socket of long work. Each kind of work has a number that rises: answers of older numbers are dropped.
+// The socket for long work. Requests of each kind are numbered; answers to older requests are dropped.
 
 /** @typedef {import("../wire.js").Params} Params */
 /** @typedef {import("../wire.js").Job} Kind */
@@ -26,7 +26,7 @@ export class Workbench {
     this.#onMeasures = onMeasures;
   }
 
-  /** Begins work of a kind, and stops what was under way of it. @param {Kind} kind @param {object} wish */
+  /** Starts work of a kind and stops earlier work of this kind. @param {Kind} kind @param {object} wish */
   ask(kind, wish) {
     const job = ++this.#job;
     const full = { type: kind, job, ...wish };
@@ -64,7 +64,7 @@ export class Workbench {
   #receive(answer) {
     if (answer.type === "measures") return this.#onMeasures(answer.measures);
     if (answer.type === "error") {
-      // Refused before it began: of whatever was asked last.
+      // Refused before it started, so it belongs to the latest request.
       const open = [...this.#latest]
         .filter(([, { wish }]) => wish)
         .sort(([, one], [, other]) => other.job - one.job)[0];

@@ -21,7 +21,7 @@ export function createAddress(page, text, { following, onLook }) {
   /** Of the last drawn state. @type {{recording: string, topic: string | null} | null} */
   let shown = null;
   addEventListener("hashchange", ({ newURL }) => {
-    // The address may have been written since.
+    // The page may have written the address since.
     const { hash } = new URL(newURL);
     if (!presenterIn(hash)) return read(hash);
     history.replaceState(null, "", hash);
@@ -81,7 +81,7 @@ export function createAddress(page, text, { following, onLook }) {
     /** @param {import("../wire.js").State} state */
     setState({ recording, topic, label }) {
       page.store.name = label;
-      // What is shown instead of a link that cannot be opened must not hide why.
+      // A recording shown instead of the one in the link must not hide the reason.
       const opened = shown !== null && (recording !== shown.recording || topic !== shown.topic);
       shown = { recording, topic };
       if (!opened) return;

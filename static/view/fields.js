@@ -1,5 +1,5 @@
 // @ts-check
-// The fields of the View as the server declares them (app/view.py), and what follows from that in the page.
+// The fields of the View as the server declares them (app/view.py), and what the page derives from them.
 import { VIEW } from "../declared.js";
 
 /** @typedef {import("../wire.js").View} View */
@@ -7,7 +7,7 @@ import { VIEW } from "../declared.js";
 /** @typedef {Partial<View>} Patch */
 /** A View or a patch of one, by the names of its fields. @typedef {Record<string, any>} Named */
 
-/** What a follower keeps. */
+/** The fields that a follower keeps for itself. */
 export const OWN = new Set(VIEW.filter(({ mirrored }) => !mirrored).map(({ name }) => name));
 
 /** @param {string} name */
@@ -17,7 +17,7 @@ export function fieldOf(name) {
   return field;
 }
 
-/** What a View begins with. @param {Field[]} [fields] @returns {View} */
+/** The default View. @param {Field[]} [fields] @returns {View} */
 export function freshView(fields = VIEW) {
   const fresh = Object.fromEntries(fields.map(({ name, default: value }) => [name, structuredClone(value)]));
   return /** @type {any} */ (fresh);
@@ -26,14 +26,14 @@ export function freshView(fields = VIEW) {
 /** Whether a patch may name only some of its entries. @param {Field} field */
 export const isPartial = ({ written }) => ["thresholds", "numbers", "switches"].includes(written);
 
-/** The fields that begin afresh after such a change. @param {Named} before @param {Named} after @param {Field[]} [fields] */
+/** The fields that this change resets. @param {Named} before @param {Named} after @param {Field[]} [fields] */
 export function resets(before, after, fields = VIEW) {
   const changed = (/** @type {string} */ name) => after[name] !== undefined && after[name] !== before[name];
   return fields.filter(({ resetBy }) => resetBy.some(changed));
 }
 
 /**
- * `after` on top of `before`: what may be partial is merged, and what begins afresh is left out unless `after` has it.
+ * `after` on top of `before`: partial fields are merged, and fields that are reset are left out unless `after` has them.
  * @template {Patch} T
  * @param {T} before
  * @param {Patch} after
@@ -47,7 +47,7 @@ export function merged(before, after, fields = VIEW) {
   return /** @type {T} */ (overlaid(base, after, fields));
 }
 
-/** `after` on top of `before`, where nothing begins afresh. @param {Named} before @param {Named} after @param {Field[]} [fields] */
+/** `after` on top of `before`, without resetting any field. @param {Named} before @param {Named} after @param {Field[]} [fields] */
 export function overlaid(before, after, fields = VIEW) {
   const result = { ...before, ...after };
   for (const { name } of fields.filter(isPartial))

@@ -7,10 +7,10 @@ import { OWN } from "./fields.js";
 /** @typedef {"here" | "away" | "gone"} Presence */
 
 const HASH = /^#follow=([\w-]+)$/;
-// The server takes no longer id; a cut one is nobody's.
+// The server accepts no longer id; a shortened id belongs to nobody.
 const LONGEST_ID = 64;
 
-/** The presenter that a link names. @param {string} hash @returns {string | null} */
+/** The presenter in a link. @param {string} hash @returns {string | null} */
 export function presenterIn(hash) {
   return HASH.exec(hash)?.[1].slice(0, LONGEST_ID) ?? null;
 }
@@ -55,7 +55,7 @@ export function createFollow(text, { presenter, onFollow }) {
     get presenter() {
       return active ? presenter : null;
     },
-    /** Whether this tab may change so much. @param {Patch} patch */
+    /** Whether this tab may make this change. @param {Patch} patch */
     allows(patch) {
       const allowed = !active || Object.keys(patch).every((name) => OWN.has(name));
       if (!allowed)

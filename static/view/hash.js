@@ -1,5 +1,5 @@
 // @ts-check
-// The View as a readable link, and back: how each kind of field is written. What is as usual is left out.
+// The View as a readable link, and back: how each kind of field is written. Defaults are left out.
 /** @typedef {import("../wire.js").View} View */
 /** @typedef {import("../wire.js").Params} Params */
 /** @typedef {import("../wire.js").Field} Field */
@@ -7,7 +7,7 @@
 /** The middle of the plan and how high it is [m]. @typedef {{x: number, y: number, span: number}} Look */
 /** What a link says besides the View. name: of the file, where its id does not tell; look: at what of the plan, where it is not all. @typedef {{name: string, look: Look | null}} Aside */
 
-// The server takes no message that is much longer.
+// The server accepts no message that is much longer.
 const LONGEST = 25_000;
 const FARTHEST = 1e6;
 const EACH = "*";
@@ -40,7 +40,7 @@ export function hashOf(view, fields, thresholds, { name, look }) {
 }
 
 /**
- * What a hash says. patch: what fits the View; odd: the rest, for the server to say why not.
+ * Reads a hash. patch: what fits the View; odd: the rest, so that the server can say what is wrong.
  * @param {string} hash
  * @param {Field[]} fields
  * @param {(method: string | undefined) => Params | undefined} thresholdsOf the defaults of a method, where they are known
@@ -112,7 +112,7 @@ function parsed(field, text) {
 }
 
 /**
- * Entries by whether they fit.
+ * Separates the entries that fit from the others.
  * @param {[string, any][]} entries
  * @param {(name: string, value: any) => boolean} fits
  * @returns {Parsed}
@@ -127,7 +127,7 @@ function sorted(entries, fits) {
   };
 }
 
-/** "region-growing,epsilon:0.03,…"; half of A would be another. @param {string} text @returns {Parsed} */
+/** "region-growing,epsilon:0.03,…"; half of A would be another result. @param {string} text @returns {Parsed} */
 function pinnedOf(text) {
   const [method, ...words] = text.split(",");
   const { good = {}, bad } = sorted(colons(words), (_, value) => Number.isFinite(numberOf(value)));

@@ -1,7 +1,7 @@
 // @ts-check
 
 /**
- * What results belong to: those parts of a View, as words that are equal where all of them are; of thresholds the order
+ * Key of results: a text that is equal if these parts of two Views are equal; the order of thresholds
  * does not matter.
  * @template {string} Name
  * @param {Record<Name, any>} view

@@ -1,5 +1,5 @@
 // @ts-check
-// The WebSocket. At most one change is under way; newer ones replace each other meanwhile, and the last one always goes.
+// The WebSocket. At most one change is under way; newer ones replace each other meanwhile, and the last one is always sent.
 import { merged } from "./fields.js";
 import { messageOf } from "./message.js";
 
@@ -11,7 +11,7 @@ const FIRST_RETRY_MS = 250;
 const SLOWEST_RETRY_MS = 4000;
 // A server that lost an answer must not block the page for good.
 const PATIENCE_MS = 3000;
-// How the server closes: this tab was idle for long; too many tabs.
+// Close codes of the server: this tab was idle too long; too many tabs.
 const IDLE = 4001;
 const TOO_MANY = 4002;
 
@@ -51,7 +51,7 @@ export class Link {
     return this.#rev;
   }
 
-  /** Nothing that was changed here is still to be drawn. */
+  /** Whether every change made here is drawn. */
   get settled() {
     return this.#underWay === null && this.#waiting === null;
   }
@@ -70,7 +70,7 @@ export class Link {
     this.#post({ type: "cancel" });
   }
 
-  /** Mirrors the tab that shows itself under this id; null: no more. @param {string | null} id */
+  /** Mirrors the tab with this presenter id; null stops mirroring. @param {string | null} id */
   follow(id) {
     this.#post({ type: "follow", id });
   }
@@ -81,7 +81,7 @@ export class Link {
     this.#socket?.close();
   }
 
-  /** Connects at once instead of after the present pause. */
+  /** Connects at once instead of after the current pause. */
   retry() {
     if (this.#socket || this.#closed) return;
     clearTimeout(this.#retryTimer);
@@ -120,7 +120,7 @@ export class Link {
     this.#socket = socket;
     this.#onConnection("connecting", "");
     socket.onopen = () => {
-      // hello carries the whole View and what was waiting.
+      // hello contains the whole View, including waiting changes.
       if (this.#underWay) clearTimeout(this.#underWay.timer);
       this.#underWay = null;
       const hello = this.#hello(this.#waiting?.patch ?? {});
@@ -135,7 +135,7 @@ export class Link {
       this.#welcomed = false;
       if (this.#closed) return;
       this.#onConnection("lost", event.reason);
-      // An idle tab comes back when somebody does.
+      // An idle tab reconnects when someone returns to it.
       if (event.code === IDLE) return;
       if (event.code === TOO_MANY) this.#retryMs = SLOWEST_RETRY_MS;
       this.#retryTimer = setTimeout(() => this.retry(), this.#retryMs * (0.8 + 0.4 * Math.random()));

@@ -1,6 +1,6 @@
 // @ts-check
-// The link that this page was opened with, as long as its recording cannot be had: the address stays as it was, and what
-// the link says goes with the file once that is opened.
+// The link that opened this page, while its recording is not available: the address stays unchanged, and the settings of
+// the link are applied to the file once it is opened.
 
 /** @typedef {import("../wire.js").View} View */
 /** @typedef {import("./fields.js").Patch} Patch */
@@ -8,7 +8,7 @@
 export function createLinked() {
   /** @type {Readonly<View> | null} */
   let link = null;
-  /** What its file is called, where the link says so. */
+  /** The name of its file, if the link contains it. */
   let name = "";
   let lost = false;
   let held = false;
@@ -18,7 +18,7 @@ export function createLinked() {
     open(view, called) {
       [link, name, lost, held] = [view, called, false, false];
     },
-    /** Whether a recording is shown, or wanted, because the link says so. @param {string | null} recording */
+    /** Whether a recording is shown or requested because of the link. @param {string | null} recording */
     names: (recording) => link !== null && link.recording === recording,
     get name() {
       return name;
@@ -26,11 +26,11 @@ export function createLinked() {
     lose() {
       lost = held = true;
     },
-    /** The address still says what cannot be shown. */
+    /** Whether the address still names a recording that cannot be shown. */
     get held() {
       return held;
     },
-    /** The person goes on with something else. */
+    /** The person moved on to something else. */
     release() {
       held = false;
     },
@@ -39,7 +39,7 @@ export function createLinked() {
       lost = false;
       if (link && recording !== link.recording) link = null;
     },
-    /** What the link says besides its recording, if this is the file. @param {string} file @returns {Patch} */
+    /** The other settings of the link, if this is its file. @param {string} file @returns {Patch} */
     rest(file) {
       if (!lost || !link || (name && name !== file)) return {};
       const { recording, dark, ...rest } = link;

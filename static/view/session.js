@@ -1,11 +1,11 @@
 // @ts-check
-// Which session this tab resumes. It rests in sessionStorage only between two loads of the page: a duplicated tab copies
-// the storage of a living one, finds nothing there, and so gets a session of its own.
+// Which session this tab resumes. It is in sessionStorage only between two loads of the page: a duplicated tab copies
+// the storage of an open tab, finds nothing there, and so gets its own session.
 
 const KEY = "lineseg.session";
 
 /**
- * The former session, and the hash to begin with: the address bar may lag a moment behind the View that was left.
+ * The previous session and the initial hash: the address bar may lag behind the last View.
  * @returns {{id: string | null, rev: number, hash: string}}
  */
 export function takeSession() {
@@ -23,7 +23,7 @@ export function takeSession() {
   }
 }
 
-/** A reload begins with the address of the moment when it was asked for, and the page may have written a newer one since. */
+/** A reload uses the address at the time of the request; the page may have written a newer one since. */
 function reloaded() {
   const [navigation] = /** @type {PerformanceNavigationTiming[]} */ (performance.getEntriesByType("navigation"));
   return navigation?.type === "reload";

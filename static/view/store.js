@@ -44,7 +44,7 @@ export class Store {
     return this.#future.length > 0;
   }
 
-  /** What the file of the recording is called, where its id does not tell; a part of the hash only. */
+  /** The name of the recording's file if the id does not contain it; only in the hash. */
   name = "";
   /** What of the plan is looked at, where it is not all of it; a part of the hash only. @type {Look | null} */
   look = null;
@@ -58,7 +58,7 @@ export class Store {
   }
 
   /**
-   * The thresholds of the methods, whose defaults fill what the View leaves open.
+   * The thresholds of the methods, whose defaults complete the View.
    * @param {Method[]} methods
    */
   declare(methods) {
@@ -79,7 +79,7 @@ export class Store {
    * @param {string | null} gesture
    */
   change(patch, gesture = null) {
-    // Controls that moved go back to what is.
+    // Controls that moved go back to the current View.
     if (!this.allows(patch)) return this.#tell(null);
     const afresh = resets(this.#view, patch, this.#fields).map(({ name, written, default: usual }) => [
       name,
@@ -93,7 +93,7 @@ export class Store {
   }
 
   /**
-   * What the server says the View is; not sent back.
+   * Takes over the View from the server; it is not sent back.
    * @param {Patch} patch
    */
   adopt(patch) {
@@ -141,7 +141,7 @@ export class Store {
     this.#future.length = 0;
   }
 
-  /** As they were when another method was chosen, or as they usually are. @param {string | undefined} method */
+  /** The thresholds as they were when another method was selected, or else the defaults. @param {string | undefined} method */
   #thresholds(method = this.#view.method) {
     return this.#kept[method] ?? this.#defaults[method] ?? {};
   }
@@ -151,13 +151,13 @@ export class Store {
     for (const listener of this.#listeners) listener(this.#view, patch, linked);
   }
 
-  /** The View as a readable hash; what is as usual is left out. */
+  /** The View as a readable hash; defaults are left out. */
   get hash() {
     return hashOf(this.#view, this.#fields, this.defaults, this);
   }
 
   /**
-   * Takes the View from a hash; what the hash leaves out is as usual, but for what is a person's own and in no link.
+   * Takes the View from a hash; what the hash leaves out gets its default, except for personal settings, which no link contains.
    * @param {string} hash
    * @returns {boolean} whether the hash names a recording
    */

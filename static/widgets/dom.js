@@ -34,7 +34,7 @@ export function svg(tag, attributes = {}) {
   return element;
 }
 
-/** Sets text only where it changed, so that live regions and selections stay undisturbed. @param {Element} element @param {string} value */
+/** Sets text only if it changed, so that live regions and selections are not disturbed. @param {Element} element @param {string} value */
 export function setText(element, value) {
   if (element.textContent !== value) element.textContent = value;
 }

@@ -121,7 +121,7 @@ function placeUnder(button, box, atEnd) {
   box.style.maxHeight = `${innerHeight - at.bottom - 16}px`;
 }
 
-/** Closes what is open; clicks into the scene's frame do not reach this document. */
+/** Closes the open menu; clicks in the scene's frame do not reach this document. */
 export function closePopovers() {
   for (const open of document.querySelectorAll(":popover-open")) {
     if (open instanceof HTMLElement && open.getAttribute("popover") === "auto") open.hidePopover();

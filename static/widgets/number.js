@@ -2,7 +2,7 @@
 import { h } from "./dom.js";
 
 /**
- * A typed number. What is refused shows why at the field, and the old value comes back when the field is left.
+ * A field for a number. A refused value shows the reason at the field; the old value returns when the field loses focus.
  * @param {object} options
  * @param {string} options.label
  * @param {(typed: string) => string | null} options.accept takes the text, or says why not
@@ -50,7 +50,7 @@ export function createNumberField({ label, accept, className = "", repeats = fal
     event.stopPropagation();
     if (event.key === "Enter") {
       commit(repeats && shown !== "");
-      // What was taken is done with, and the page's keys work again; what was refused is to be mended.
+      // After an accepted value the page's keys work again; a refused value stays in the field to be corrected.
       if (error.hidden) input.blur();
       else input.select();
     } else if (event.key === "Escape") {

@@ -1,5 +1,5 @@
 // @ts-check
-// A clock that asks for the next frame or decision, but never before the last one was drawn.
+// A clock that asks for the next frame or decision, but never before the last one is drawn.
 
 /**
  * @typedef {object} Track

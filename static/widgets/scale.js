@@ -1,5 +1,5 @@
 // @ts-check
-// Between the value of a threshold, its place on a slider (0 to 1) and its text.
+// Converts between the value of a threshold, its place on a slider (0 to 1) and its text.
 
 /** @typedef {import("../wire.js").Knob} Knob */
 
@@ -45,7 +45,7 @@ function decimals(knob) {
 }
 
 /**
- * A value as text: with the digits of the step, and with more only if it was typed finer.
+ * A value as text: with the digits of the step, and with more only if more were typed.
  * @param {Knob} knob
  * @param {number} value
  */

@@ -12,7 +12,7 @@ addEventListener("pointerdown", () => gestures++, true);
 addEventListener("keydown", (event) => !event.repeat && gestures++, true);
 
 /**
- * A native range input over places 0 to 1; what a place means is the caller's.
+ * A native range input over places 0 to 1; the caller decides what a place means.
  * @param {object} options
  * @param {string} options.label
  * @param {(place: number) => void} options.onPlace while it is dragged

@@ -5,7 +5,7 @@ import { tooltip } from "./tooltip.js";
 const SPEEDS = [1, 2, 5, 10, 20, 40];
 
 /**
- * The menu of how many things a second are played.
+ * The menu of playing speeds, in things per second.
  * @param {{speed: string, perSecond: (n: number) => string}} text
  * @param {number} usual
  * @param {(perSecond: number) => void} onSpeed

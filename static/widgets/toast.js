@@ -6,7 +6,7 @@ const SHOWN_MS = 4000;
 let box = null;
 let timer = 0;
 
-/** A passing word. @param {string} words */
+/** Shows a message for a moment. @param {string} words */
 export function toast(words) {
   if (!box) {
     box = h("div", { class: "toast", role: "status", popover: "manual" });

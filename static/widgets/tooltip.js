@@ -11,7 +11,7 @@ let owner = null;
 let timer = 0;
 
 /**
- * A tooltip on hover and on keyboard focus.
+ * Shows a tooltip on hover and on keyboard focus.
  * @param {HTMLElement} element
  * @param {string | (() => string)} content
  * @param {"below" | "left"} side

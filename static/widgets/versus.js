@@ -18,7 +18,7 @@ export function createVersus() {
     element,
     /**
      * @param {{value: number | null, limit: number | null, symbol: string, unit: string, least: boolean} | null} compared
-     *   least: the limit is a least value (P_min, L_min), not a greatest one
+     *   least: the limit is a minimum (P_min, L_min), not a maximum
      */
     set(compared) {
       const known = compared && compared.value !== null && compared.limit !== null;

@@ -1,5 +1,5 @@
 // @ts-check
-// The keyboard on a picture of many things: arrow keys go from one to the next, Enter takes it as a click would.
+// The keyboard on a picture of many things: arrow keys go from one to the next, Enter acts like a click.
 import { clamp } from "./scale.js";
 
 const FAR = 10;
@@ -60,7 +60,7 @@ export function createWalk(element, label, { count, start, say, onAt, onTake }) 
     get at() {
       return at;
     },
-    /** The things have changed. @param {number | null} next where the walk goes on, if it is under way */
+    /** The things changed. @param {number | null} next where the walk goes on, if it is under way */
     renew(next) {
       at = at === null || next === null || next < 0 ? null : next;
       tell();
