@@ -184,6 +184,13 @@ def signed_distance(line, x, y):
     return a * x + b * y + c
 
 
+@kernel
+def squared_distance(line, x, y):
+    """Its square. Not by `** 2`, which numba compiles once for all, with the options of the first that asks for it."""
+    d = signed_distance(line, x, y)
+    return d * d
+
+
 @summing_kernel
 def squares_of(x, y, first, last, line):
     """Sum of the squared distances of the points first..last to a line with unit normal (Eq. 2)."""
@@ -191,7 +198,7 @@ def squares_of(x, y, first, last, line):
     x, y = x[first : last + 1], y[first : last + 1]
     total = 0.0
     for k in range(len(x)):
-        total += signed_distance(line, x[k], y[k]) ** 2
+        total += squared_distance(line, x[k], y[k])
     return total
 
 

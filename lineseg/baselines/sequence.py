@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ..kernel import entry_kernel, summing_kernel
 from ..scan import Scan
-from ..total_least_squares import line_of, moments_of, project, signed_distance
+from ..total_least_squares import line_of, moments_of, project, squared_distance
 
 Line = tuple[float, float, float]
 # Positions in a sequence, in its order; on a full circle they may go on from the last to the first.
@@ -110,5 +110,5 @@ def fit_line(x, y):
 def mean_square(x, y, line):
     total = 0.0
     for k in range(len(x)):
-        total += signed_distance(line, x[k], y[k]) ** 2
+        total += squared_distance(line, x[k], y[k])
     return total / len(x)
