@@ -78,7 +78,7 @@ def test_errors_of_a_wall_across_the_seam_are_as_large_as_the_covariance_says():
     assert low < mean_nees(scene, walls[2], Noise(0.01)) < high
 
 
-def test_who_believes_in_half_the_noise_is_found_out():
+def test_half_the_true_noise_is_detected_as_too_small():
     wall, beams, bearings, noise = SCENES["both noises"]
     nees = mean_nees(seen(wall, beams=beams, bearings=bearings), wall, noise, Noise(noise.range / 2, noise.bearing / 2))
     assert nees > 3 * band()[1]
@@ -146,7 +146,7 @@ def test_a_scan_without_segments_has_no_covariances():
 
 
 @pytest.mark.parametrize("sigma", [-0.1, np.nan, np.inf])
-def test_a_noise_that_is_no_standard_deviation_is_refused(sigma):
+def test_an_invalid_standard_deviation_is_refused(sigma):
     with pytest.raises(ValueError, match=f"the noise of a range is {sigma:g}; a standard deviation is 0 m or more"):
         Noise(sigma)
     with pytest.raises(ValueError, match="the noise of a bearing"):

@@ -57,7 +57,7 @@ def rates(name, **thresholds):
     return 100 * total.true_rate, 100 * total.false_rate
 
 
-def test_the_figures_above_are_those_of_the_samples():
+def test_the_figures_in_the_docstring_are_those_of_the_samples():
     assert rates("hallway") == pytest.approx((95.1, 8.6), abs=0.06)
     assert rates("laboratory") == pytest.approx((96.4, 10.1), abs=0.06)
     assert rates("hallway", max_occluder=0.0, merge_rms=0.0) == pytest.approx((92.2, 8.9), abs=0.06)

@@ -32,6 +32,6 @@ def test_an_example_runs_and_is_short(example: Path, tmp_path: Path, monkeypatch
     assert len(example.read_text().splitlines()) < 40
 
 
-def test_they_are_numbered_without_a_gap():
+def test_examples_are_numbered_without_a_gap():
     assert [int(example.stem[:2]) for example in EXAMPLES] == list(range(1, len(EXAMPLES) + 1))
     assert len(EXAMPLES) == 8

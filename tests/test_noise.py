@@ -84,7 +84,7 @@ def scans_of(*ranges):
         pytest.param(scans_of(*np.random.default_rng(1).uniform(0.5, 20, (40, 400))), id="no wall"),
     ],
 )
-def test_where_no_wall_tells_nothing_is_known(recording):
+def test_without_a_straight_wall_the_noise_is_unknown(recording):
     found = noise(recording)
     assert not found.known
     assert np.isnan(found.at(2.0))

@@ -35,7 +35,7 @@ def test_equal_parameters_are_one_cache_key():
     assert {Params(): 1}[Params(epsilon=0.03, seed_points=6.0)] == 1
 
 
-def test_defaults_are_the_papers():
+def test_defaults_equal_the_paper():
     p = Params()
     assert (p.epsilon, p.delta, p.seed_points, p.min_points, p.min_length) == (0.03, 0.10, 6, 10, 0.6)
 

@@ -14,7 +14,7 @@ ROOT = Path(__file__).parents[1]
 NAMES = [name for name in lineseg.__all__ if not name.startswith("_")]
 
 
-def test_the_docstring_of_the_package_tells_of_each_name_once():
+def test_the_docstring_of_the_package_lists_each_name_once():
     told = re.findall(r"`(\w+)`", lineseg.__doc__ or "")
     assert sorted(told) == sorted(NAMES)
 
@@ -28,7 +28,7 @@ def test_each_name_has_a_docstring_of_its_own(name: str):
     assert not own.startswith(f"{name}(")
 
 
-def test_the_version_is_told_alike_everywhere():
+def test_the_version_is_the_same_everywhere():
     project = tomllib.loads((ROOT / "pyproject.toml").read_text())
     assert project["project"]["dynamic"] == ["version"]
     assert project["tool"]["setuptools"]["dynamic"]["version"] == {"attr": "lineseg.__version__"}

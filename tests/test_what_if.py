@@ -47,7 +47,7 @@ def test_a_run_with_the_value_gives_the_other_answer_and_the_step_before_does_no
             assert not is_another(now, line_of(scan, beam, params.but(**{each.name: before})))
 
 
-def test_a_line_that_is_too_short_is_there_once_it_may_be():
+def test_a_line_that_was_too_short_appears_once_shorter_lines_are_allowed():
     scan = wall_ahead(half_width=0.25, noise=0.001)
     (short,) = extract(scan).dropped
     found = by_name(scan, 90)["min_length"]
@@ -58,7 +58,7 @@ def test_a_line_that_is_too_short_is_there_once_it_may_be():
     )
 
 
-def test_a_line_is_gone_once_more_is_asked_of_it():
+def test_a_line_disappears_once_a_threshold_demands_more():
     scan = wall_ahead(half_width=0.5, noise=0.001)
     (line,) = extract(scan).segments
     found = by_name(scan, 90)
@@ -111,7 +111,7 @@ def test_the_nearest_of_two_changes_is_found_whichever_side_it_is_on(at, data):
         assert abs(round(found * 100) - at) == abs(expected - at)
 
 
-def test_near_is_meant_as_on_the_slider():
+def test_near_means_near_on_the_slider():
     kind, knob = KNOBS["epsilon"]
     assert nearest(0.05, kind, knob, lambda value: value <= 0.02 or value >= 0.1) == pytest.approx(0.1)
 
@@ -122,6 +122,6 @@ def test_a_single_change_is_found_exactly(change, count):
     assert found == (change if change < count else None)
 
 
-def test_a_beam_that_is_not_there_is_refused():
+def test_an_unknown_beam_is_refused():
     with pytest.raises(ValueError, match="beam 180: the scan has the beams 0 to 179"):
         what_if(wall_ahead(), 180)

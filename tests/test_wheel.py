@@ -71,7 +71,7 @@ def run(environment: Path, folder: Path, *arguments: str) -> str:
     return done.stdout
 
 
-def test_it_holds_each_module_page_and_sample_that_the_tree_holds(wheel: Path):
+def test_the_wheel_holds_every_module_page_and_sample_of_the_tree(wheel: Path):
     with zipfile.ZipFile(wheel) as archive:
         names = set(archive.namelist())
     for source, installed in PLACES.items():
@@ -94,14 +94,14 @@ def test_type_checkers_are_told_that_both_packages_have_types(wheel: Path):
         assert {"lineseg/py.typed", "lineseg_app/py.typed"} <= set(archive.namelist())
 
 
-def test_it_extracts_beside_an_app_of_somebody_else(environment: Path, elsewhere: Path):
+def test_the_wheel_extracts_beside_an_app_of_another_project(environment: Path, elsewhere: Path):
     sample = ROOT / "sample_scans" / "lessons" / "1_perfect_corner.npz"
     out = elsewhere / "lines.jsonl"
     run(environment, elsewhere, "python", "-m", "lineseg_app", "extract", str(sample), "-o", str(out))
     assert len(json.loads(out.read_text())["segments"]) == 2
 
 
-def test_it_finds_its_page_and_its_samples(environment: Path, elsewhere: Path):
+def test_the_wheel_finds_its_page_and_its_samples(environment: Path, elsewhere: Path):
     code = (
         "from lineseg_app.places import data_folder\n"
         "print(*data_folder('static').iterdir(), *data_folder('sample_scans').iterdir())"
@@ -112,7 +112,7 @@ def test_it_finds_its_page_and_its_samples(environment: Path, elsewhere: Path):
     assert str(environment) in found
 
 
-def test_its_command_shows_the_page(environment: Path, elsewhere: Path):
+def test_the_command_of_the_wheel_shows_the_page(environment: Path, elsewhere: Path):
     command = [environment / "bin" / "lineseg", "view", "--no-browser", "--port", "0"]
     surroundings = {**os.environ, "XDG_DATA_HOME": str(elsewhere)}
     with subprocess.Popen(command, cwd=elsewhere, env=surroundings, stdout=subprocess.PIPE, text=True) as server:
@@ -129,5 +129,5 @@ def test_its_command_shows_the_page(environment: Path, elsewhere: Path):
             server.terminate()
 
 
-def test_it_tells_its_version(environment: Path, elsewhere: Path, wheel: Path):
+def test_the_wheel_tells_its_version(environment: Path, elsewhere: Path, wheel: Path):
     assert run(environment, elsewhere, "lineseg", "--version") == f"lineseg {wheel.name.split('-')[1]}\n"

@@ -50,7 +50,7 @@ def test_a_foreign_host_is_refused_on_sockets(server: Address):
     assert refused.value.response.status_code == 403
 
 
-def test_the_page_itself_is_welcome(server: Address):
+def test_requests_of_the_page_itself_are_accepted(server: Address):
     with page_of(server, origin=server.http) as page:
         page.hello()
 
@@ -104,7 +104,7 @@ def test_an_unknown_address_is_answered_with_a_message(server: Address):
     assert list(answer.json()) == ["message"]
 
 
-def test_more_than_the_loopback_needs_a_token():
+def test_a_host_other_than_the_loopback_needs_a_token():
     with pytest.raises(ValueError, match=r"0\.0\.0\.0.*token"):
         create_app(Settings(host="0.0.0.0"))
 
@@ -136,11 +136,11 @@ def test_the_token_becomes_a_cookie_that_opens_the_page(public: Address):
         page.hello()
 
 
-def test_a_server_for_others_answers_to_addresses_but_not_to_any_name(public: Address):
+def test_a_public_server_answers_to_addresses_but_not_to_any_name(public: Address):
     assert public.get("/?token=sesame", headers={"Host": "192.168.1.7:8765"}).status_code == 303
     assert public.get("/?token=sesame", headers={"Host": "evil.example"}).status_code == 403
 
 
-def test_a_busy_port_is_told_with_the_way_on(server: Address):
+def test_a_busy_port_is_named_with_a_way_out(server: Address):
     with pytest.raises(OSError, match=rf"port {server.port} .* is taken.*--port"):
         listen("127.0.0.1", server.port)

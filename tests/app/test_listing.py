@@ -41,7 +41,7 @@ def ring(radius: float = 3.0) -> Scan:
     return Scan(ranges.astype(np.float32), bearings)
 
 
-def test_an_event_stands_in_one_line_only():
+def test_each_event_belongs_to_only_one_line():
     assert [event for event, times in Counter(EVENTS).items() if times > 1] == []
 
 
@@ -65,7 +65,7 @@ def test_every_decision_of_a_sample_has_its_line(path):
             assert set(events_of(trace(recording[frame], params))) <= set(EVENTS)
 
 
-def test_nearly_every_line_is_met_somewhere():
+def test_nearly_every_line_occurs_in_some_sample():
     met: Counter[str] = Counter()
     for params in (Params(), Params().but(epsilon=0.15, max_gap=0.2), Params().but(epsilon=0.08, merge_angle=0.001)):
         met += events_of(trace(ring(), params))

@@ -35,7 +35,7 @@ def test_the_types_of_the_page_are_current():
         {"mode": "tune", "recording": "lesson:1_perfect_corner", "layers": {"verdicts": True}},
     ],
 )
-def test_what_is_drawn_is_what_its_types_say(page: Page, view: dict[str, Any]):
+def test_the_drawn_state_matches_its_types(page: Page, view: dict[str, Any]):
     page.hello()
     rev = page.ask(**view)
     check(DrawnState, page.drawn(rev)["state"])
@@ -64,6 +64,6 @@ def test_a_dictionary_becomes_an_interface():
     ]
 
 
-def test_what_has_no_counterpart_is_refused():
+def test_a_type_without_a_counterpart_is_refused():
     with pytest.raises(TypeError, match="no counterpart"):
         written(Callable[[int], int])

@@ -36,20 +36,20 @@ def test_a_patch_changes_what_it_names():
     assert (view.frame, view.params, view.layers.grid, view.layers.points) == (7, Params(epsilon=0.05), False, True)
 
 
-def test_a_view_that_is_patched_with_another_becomes_that():
+def test_a_view_patched_with_another_becomes_the_other():
     other = View(recording="b", topic="/scan", frame=3, step=5, selected=9, params=Params(delta=0.2), dark=True)
     assert View(recording="a", frame=1).patched(other.as_json()) == other
     assert other.patched(OF_EACH_OTHER.as_json()) == OF_EACH_OTHER
 
 
-def test_another_recording_starts_afresh_unless_the_patch_says_otherwise():
+def test_another_recording_resets_the_view_unless_the_patch_says_otherwise():
     view = View(recording="a", topic="/scan", frame=7, step=3, selected=1)
     assert view.patched({"recording": "b"}) == View(recording="b")
     assert view.patched({"recording": "b", "frame": 2}).frame == 2
     assert view.patched({"recording": "a"}) == view
 
 
-def test_another_topic_starts_afresh():
+def test_another_topic_resets_the_view():
     assert View(recording="a", frame=7, step=3).patched({"topic": "/rear"}) == View(recording="a", topic="/rear")
 
 
@@ -63,7 +63,7 @@ def test_another_topic_starts_afresh():
         ({"layers": {"clouds": True}}, "clouds"),
     ],
 )
-def test_what_a_view_has_not_is_named(patch, named):
+def test_an_unknown_field_of_a_view_is_named(patch, named):
     with pytest.raises(ValueError, match=named):
         View().patched(patch)
 
@@ -81,7 +81,7 @@ def test_a_link_with_a_bad_value_keeps_the_rest_and_says_so():
     assert view.salvaged({"params": {"epsilon": 0.05}}) == (view.patched({"params": {"epsilon": 0.05}}), None)
 
 
-def test_who_chooses_a_frame_or_a_step_follows_no_longer():
+def test_choosing_a_frame_or_a_step_stops_following():
     view = View(recording="live:a", frame=5)
     assert view.patched({"params": {"epsilon": 0.05}, "frame": 5}).live
     assert not view.patched({"frame": 4}).live
@@ -106,13 +106,13 @@ def test_every_field_has_a_key_in_the_link_or_says_that_it_has_none():
     assert {name for name, entry in view_fields(View).items() if entry.link is None} == {"live", "dark"}
 
 
-def test_a_field_stands_behind_those_that_reset_it_or_switch_it_off():
+def test_a_field_is_declared_after_those_that_reset_it_or_switch_it_off():
     names = list(view_fields(View))
     for place, entry in enumerate(view_fields(View).values()):
         assert set(names[:place]) >= {*entry.reset_by, *entry.off_by}
 
 
-def test_a_field_more_is_declared_in_one_place():
+def test_a_new_field_is_declared_in_one_place():
     view = Zoomed(recording="a").patched({"zoom": 3})
     assert view == Zoomed(recording="a", zoom=3)
     assert view.patched({"recording": "b"}) == Zoomed(recording="b")
@@ -167,7 +167,7 @@ def test_a_view_says_all_its_weights_so_that_it_replaces_changed_ones():
         ({"x" * 5000: 1}, "xxx"),
     ],
 )
-def test_whatever_a_link_says_what_can_be_had_is_taken_and_the_rest_told(said, named):
+def test_a_link_is_applied_as_far_as_possible_and_the_rest_is_reported(said, named):
     view, complaint = View().salvaged(said | {"frame": 7})
     assert view == View().patched({"frame": 7})
     assert complaint is not None
@@ -175,7 +175,7 @@ def test_whatever_a_link_says_what_can_be_had_is_taken_and_the_rest_told(said, n
     assert len(complaint) < 400
 
 
-def test_of_many_complaints_the_first_are_told():
+def test_only_the_first_of_many_complaints_are_reported():
     _, complaint = View().salvaged({"params": {f"zoom{k}": 1 for k in range(9)}})
     assert complaint is not None
     assert complaint.endswith("; and 6 more")

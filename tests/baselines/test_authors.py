@@ -17,7 +17,7 @@ PAPER = AuthorsParams(**dict.fromkeys(SLIPS, False))
 
 @pytest.mark.parametrize("name", ["hallway", "lab"])
 @pytest.mark.parametrize(("program", "params"), [("authors", AuthorsParams()), ("authors_repaired", REPAIRED)])
-def test_index_ranges_are_the_programs_and_endpoints_lie_within_a_millimetre(printed, name, program, params):
+def test_index_ranges_equal_the_program_and_endpoints_lie_within_a_millimetre(printed, name, program, params):
     equal = 0
     for scan, rows in printed(name, program):
         segments, rows = extract(scan, params).segments, sorted(rows, key=lambda row: row[4:])
@@ -46,7 +46,7 @@ def test_a_line_that_grows_back_to_the_first_beam_starts_at_the_second():
     assert spans(scan) == [(0, 179)]
 
 
-def test_a_line_needs_two_points_more_than_p_min_says():
+def test_a_line_needs_p_min_plus_two_points():
     scan = scan_of([(1.0, -0.5, 1.0, 0.5)], beams=60, field_of_view=2.0)
     points = int(scan.valid.sum())
     assert len(spans(scan, min_points=points)) == 1

@@ -147,7 +147,7 @@ def test_most_of_the_true_lines_of_the_samples_are_found(method):
 
 
 @methods
-def test_real_recordings_are_survived(method, data_dir):
+def test_real_recordings_raise_no_error(method, data_dir):
     seen = 0
     for path in sorted(data_dir.glob("*/*")):
         try:

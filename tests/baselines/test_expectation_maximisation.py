@@ -45,14 +45,14 @@ def test_the_weights_of_a_point_and_the_outliers_are_one():
 
 
 @pytest.mark.parametrize(("scene", "lines"), [(wall_ahead, 1), (corner, 2), (room, 4)])
-def test_of_many_first_pieces_as_many_lines_are_left_as_there_are_walls(scene, lines):
+def test_many_initial_pieces_end_as_one_line_for_each_wall(scene, lines):
     points, params = sequence_of(scene(noise=0.01)), Params(piece=12)
     assert len(first_pieces(points, params, unheard(points)).lines) > 2 * lines
     mixture = settled(points, params, unheard(points))
     assert len(mixture.lines) == lines
 
 
-def test_it_settles_before_its_iterations_are_spent():
+def test_it_converges_before_the_last_iteration():
     scan = room(noise=0.01)
     traced = EM.trace(scan, Params(iterations=200))
     again = EM.trace(scan, Params(iterations=1000))

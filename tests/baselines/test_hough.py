@@ -34,7 +34,7 @@ def test_a_wall_on_the_grid_has_all_the_votes_of_its_cell():
 
 
 @pytest.mark.parametrize("step", [1.0, 5.0])
-def test_a_turn_by_whole_cells_turns_the_segments_and_one_by_half_a_cell_parts_the_votes(step):
+def test_turning_by_whole_cells_turns_the_segments_and_by_half_a_cell_splits_the_votes(step):
     scan = wall_ahead(distance=2.0, beams=400)
     votes = []
     for turn in (0.0, 3.0, 2.5):

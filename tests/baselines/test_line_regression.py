@@ -28,7 +28,7 @@ def test_the_distance_of_two_clusters_is_that_of_mahalanobis():
     assert distance_of(x, y, sigma, exact, *parts[0], *parts[1]) == pytest.approx(expected, rel=1e-9)
 
 
-def test_the_distance_does_not_mind_how_a_line_through_the_laser_is_written():
+def test_the_distance_is_the_same_for_both_forms_of_a_line_through_the_laser():
     x = np.linspace(1, 3, 20)
     for height in (1e-9, -1e-9):
         y = np.where(np.arange(20) < 10, height, -height)

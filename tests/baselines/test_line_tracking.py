@@ -37,7 +37,7 @@ def test_a_gap_ends_the_line_only_if_it_is_wide(lost, lines):
     assert len(spans(scan, max_gap=0.3)) == lines
 
 
-def test_a_rash_start_ends_soon():
+def test_a_start_with_large_errors_ends_soon():
     lines = [
         sum(
             len(TRACKING.trace(wall_ahead(noise=0.02, seed=seed), Params(start_points=n)).jump("seed"))

@@ -16,7 +16,7 @@ REPAIRED = SplitAndMergeParams(loses_points=False, loses_last_beam=False, unwrap
 
 
 @pytest.mark.parametrize("name", ["hallway", "lab"])
-def test_the_programs_segments_are_found_within_five_millimetres(printed, name):
+def test_segments_equal_the_program_within_five_millimetres(printed, name):
     total = found = 0
     for scan, rows in printed(name, "split_and_merge"):
         ends = np.array([(*s.start, *s.end) for s in extract(scan, SplitAndMergeParams()).segments]).reshape(-1, 2, 2)
@@ -112,7 +112,7 @@ def test_repairing_the_slips_finds_more_of_the_true_lines():
 
 
 @pytest.mark.parametrize("name", ["authors", "split-and-merge"])
-def test_real_recordings_are_survived(name, data_dir):
+def test_real_recordings_raise_no_error(name, data_dir):
     method = EXTRACTORS[name]
     seen = 0
     for path in sorted(data_dir.glob("*/*")):

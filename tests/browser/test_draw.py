@@ -62,7 +62,7 @@ def test_the_laser_moves_and_the_world_keeps_its_place(drawing):
     )
 
 
-def test_a_world_is_typed_grown_and_shrunk(drawing):
+def test_a_world_is_edited_by_typing_and_grows_and_shrinks(drawing):
     walls = len(drawing_of(drawing.state).walls)
     drawing.page.get_by_role("button", name="Add wall").click()
     state = drawing.until("true")
@@ -95,7 +95,7 @@ def test_a_drawing_survives_a_reload_and_becomes_a_file_with_truth(drawing, tmp_
     np.testing.assert_array_equal(mine.wall, scan.wall)
 
 
-def test_a_link_to_a_world_that_cannot_be_says_why(new_tab):
+def test_a_link_to_an_invalid_world_says_why(new_tab):
     tab = new_tab("#recording=drawn:w1,2,3")
     alert = tab.page.get_by_role("alert").filter(has_text="a wall needs x1,y1,x2,y2")
     tab.eventually(alert.is_visible, "the broken drawing is not named")

@@ -49,7 +49,7 @@ def test_the_frame_is_taken_along_as_a_picture_and_all_segments_as_files(new_tab
     assert len(rows) == 1 + len(features)
 
 
-def test_an_export_that_breaks_is_told_in_the_page_and_one_that_lasts_can_be_cancelled(new_tab):
+def test_a_failed_export_is_reported_and_a_long_one_can_be_cancelled(new_tab):
     tab = new_tab()
     tab.page.route("**/api/segments?*", lambda route: route.abort())
     choose(tab, "JSON lines")
@@ -145,7 +145,7 @@ def span_of(tab) -> float:
     return 2 * tab.scene.evaluate("() => window.__viserMutable.cameraControl.distance") * np.tan(np.radians(5))
 
 
-def test_a_link_to_a_file_that_is_gone_says_so_and_goes_with_the_file_once_it_is_opened(new_tab):
+def test_a_link_to_a_missing_file_says_so_and_applies_once_the_file_is_opened(new_tab):
     link = "#mode=inspect&recording=file:0123456789ab&name=hallway.npz&frame=17&epsilon=0.02&beam=40"
     tab = new_tab(link)
     assert tab.state["recording"] == "sample:hallway"
@@ -162,7 +162,7 @@ def test_a_link_to_a_file_that_is_gone_says_so_and_goes_with_the_file_once_it_is
     tab.page.wait_for_function("/recording=upload:.*&name=hallway.npz&frame=17/.test(location.hash)")
 
 
-def test_who_goes_on_with_something_else_has_a_link_of_that(new_tab):
+def test_opening_something_else_replaces_the_link(new_tab):
     tab = new_tab("#recording=upload:gone&frame=17&epsilon=0.02")
     assert "no longer on the server" in tab.page.locator(".notice.error").inner_text()
     tab.page.keyboard.press("ArrowRight")

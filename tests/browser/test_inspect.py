@@ -100,7 +100,7 @@ def test_a_pinned_result_stands_beside_the_present_one(new_tab, hallway):
     tab.until("s.params.epsilon === 0.03")
 
 
-def test_the_strip_shows_where_the_two_differ(new_tab, hallway):
+def test_the_strip_shows_where_a_and_b_differ(new_tab, hallway):
     tab = new_tab("#score=difference&epsilon=0.02")
     hint = tab.page.get_by_text("Pin a result as A first")
     tab.eventually(hint.is_visible, "nothing says what to do")

@@ -143,7 +143,7 @@ def test_true_lines_are_begun_with_the_result_and_dragged_split_merged_deleted_d
     labeller.grip("last").wait_for(state="detached")
 
 
-def test_two_tabs_lose_nothing_of_each_other_and_the_same_frame_is_told(label, hall, sidecar):
+def test_two_tabs_lose_no_edit_and_a_conflict_is_reported(label, hall, sidecar):
     one, other = label(), label()
     rest = [(line.first, line.last) for line in extract(hall[FRAME]).segments][1:]
     one.choose(0)
@@ -231,7 +231,7 @@ def test_tags_and_notes_are_kept_undone_and_filter_the_frames(label, hall, sidec
     page.get_by_text("300 frames", exact=True).wait_for()
 
 
-def test_an_edit_that_was_saved_outlives_a_kill_of_the_server_and_one_that_was_not_is_saved_later(
+def test_a_saved_edit_survives_a_kill_of_the_server_and_an_unsaved_one_is_saved_later(
     killable_server, new_tab, tmp_path
 ):
     tab = new_tab(f"#mode=inspect&recording=sample:hallway&frame={FRAME}", at=killable_server.http)
@@ -265,7 +265,7 @@ def test_an_edit_that_was_saved_outlives_a_kill_of_the_server_and_one_that_was_n
         ('{"format": "lineseg labels", "version": 9}', "of version 9, this lineseg reads 1; update lineseg"),
     ],
 )
-def test_labels_that_cannot_be_read_are_told_where_they_would_be_and_stay(label, sidecar, content, sentence):
+def test_unreadable_labels_are_reported_with_their_path_and_kept(label, sidecar, content, sentence):
     sidecar.write_text(content)
     labeller = label()
     labeller.page.get_by_role("alert").filter(has_text=sentence).wait_for()
@@ -290,7 +290,7 @@ def test_a_save_that_is_refused_says_why_and_is_tried_again(label, sidecar, hall
     labeller.tab.forgive("507")
 
 
-def test_segments_are_judged_by_labels_or_by_the_wall_as_one_chooses(label, hall, sidecar):
+def test_segments_are_compared_with_labels_or_walls_as_selected(label, hall, sidecar):
     labeller = label()
     page, tab = labeller.page, labeller.tab
     page.get_by_role("button", name="They are right").click()

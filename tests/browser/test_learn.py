@@ -77,7 +77,7 @@ def test_the_trail_draws_every_fit_of_the_growing_line_up_to_the_step(new_tab):
     tab.eventually(lambda: fits.count() == 0, "no line grows there")
 
 
-def test_nothing_moves_by_itself_for_who_wants_less_motion(new_tab):
+def test_nothing_is_animated_with_reduced_motion(new_tab):
     tab = learn(new_tab, "sample:hallway", step=0)
     moving = """() => [...document.querySelectorAll("*")].filter((part) => {
         const style = getComputedStyle(part);
@@ -144,7 +144,7 @@ def test_the_angle_of_a_merge_follows_from_the_numbers_put_in(new_tab):
     assert re.findall(r"\d\.\d{3}", text_of(tab, ".formulas .formula-row >> nth=1")) == put_in
 
 
-def test_a_merge_that_would_fit_badly_says_by_how_much(new_tab):
+def test_a_refused_merge_says_how_badly_it_fits(new_tab):
     traced = trace(open_recording(data_folder("sample_scans") / "lessons" / "5_shallow_corner.npz")[0])
     (apart,) = traced.indices("lines kept apart")
     value, limit = traced[apart].value, traced[apart].limit
@@ -204,7 +204,7 @@ def test_charts_are_walked_through_by_keyboard(new_tab):
     assert fate.startswith(f"Beams {decision['first']} to {decision['last']}: ")
 
 
-def test_what_does_not_come_is_missed_where_it_belongs_and_comes_when_asked_again(new_tab):
+def test_a_failed_load_is_reported_in_its_place_and_can_be_tried_again(new_tab):
     tab = learn(new_tab, "sample:hallway", step=0)
     places = {
         "**/api/lessons": ("The lessons could not be loaded.", ".lesson-item >> nth=5"),
@@ -230,7 +230,7 @@ def test_what_does_not_come_is_missed_where_it_belongs_and_comes_when_asked_agai
     tab.page.get_by_text("There is no lesson “none_such”").wait_for()
 
 
-def test_a_lesson_opened_from_the_list_goes_on_where_another_method_is_shown(new_tab):
+def test_a_lesson_continues_after_a_step_with_another_method(new_tab):
     tab = learn(new_tab, "sample:hallway", step=0)
     tab.page.locator("[data-lesson='12_split_and_merge']").click()
     tab.page.locator(".lesson-foot .primary").click()

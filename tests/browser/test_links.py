@@ -7,7 +7,7 @@ import pytest
 NOTICE = ".notice-words:visible"
 
 
-def test_a_link_without_weights_has_the_usual_ones(new_tab):
+def test_a_link_without_weights_gives_the_defaults(new_tab):
     tab = new_tab("#mode=inspect&recording=sample:hallway&weights=gap:4")
     assert tab.until("s.weights.gap === 4")["weights"]["gap"] == 4
     tab.page.evaluate("location.hash = '#mode=inspect&recording=sample:hallway&frame=3'")
@@ -15,7 +15,7 @@ def test_a_link_without_weights_has_the_usual_ones(new_tab):
     tab.page.wait_for_function("!location.hash.includes('weights')")
 
 
-def test_weights_that_are_as_usual_again_leave_the_link(new_tab):
+def test_weights_set_back_to_their_defaults_leave_the_link(new_tab):
     tab = new_tab("#mode=inspect&score=suspicion&recording=sample:hallway&weights=gap:4")
     tab.page.get_by_role("tab", name="Frames").click()
     tab.page.locator(".weights-holder summary").click()
@@ -58,12 +58,12 @@ def test_a_link_to_a_presenter_with_too_long_a_name_says_that_it_is_gone(new_tab
     assert tab.until("s.following === 'gone'")["segments"]
 
 
-def test_a_very_long_link_is_no_end_of_the_page(new_tab):
+def test_a_very_long_link_does_not_break_the_page(new_tab):
     tab = new_tab("#recording=sample:hallway&frame=3&" + "&".join(f"a{k}=1" for k in range(20_000)))
     tab.until("s.frame === 3")
 
 
-def test_a_field_more_needs_nothing_more_in_the_page(new_tab):
+def test_a_new_field_needs_no_change_in_the_page(new_tab):
     tab = new_tab()
     told = tab.page.evaluate("""async () => {
         const { VIEW } = await import("/static/declared.js");

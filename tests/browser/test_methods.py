@@ -70,7 +70,7 @@ def test_a_replay_of_another_method_goes_from_its_first_decision_to_its_last(new
     tab.until(f"s.step === {len(trace) - 1}")
 
 
-def test_a_link_to_a_method_that_there_is_not_says_so(new_tab):
+def test_a_link_to_an_unknown_method_says_so(new_tab):
     tab = new_tab("#method=guessing")
     tab.page.get_by_text("guessing").wait_for()
     assert tab.state["method"] == "region-growing"

@@ -66,7 +66,7 @@ def test_the_wheel_zooms(tab):
     assert looks_straight_down(after)
 
 
-def test_keys_in_the_scene_are_the_pages_and_do_not_move_the_camera(tab):
+def test_keys_in_the_scene_work_for_the_page_and_do_not_move_the_camera(tab):
     before = camera_at_rest(tab)
     tab.scene.locator("body").press("ArrowRight")
     tab.until("s.frame === 1")

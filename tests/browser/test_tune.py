@@ -42,7 +42,7 @@ def test_a_typed_value_is_taken_exactly(tab):
         ("min_length", "-1", "Allowed: 0 to 1000 m"),
     ],
 )
-def test_a_typed_value_that_cannot_be_says_what_can_and_keeps_the_old_one(tab, name, typed, expected):
+def test_an_invalid_typed_value_says_what_is_allowed_and_keeps_the_old_one(tab, name, typed, expected):
     before = tab.state
     tab.type_value(name, typed)
     row = tab.page.locator(f"[data-knob={name}]")
@@ -84,7 +84,7 @@ def test_the_cut_of_a_histogram_stands_under_the_thumb(tab):
     assert cut["x"] == pytest.approx(box["x"] + place * box["width"], abs=1.5)
 
 
-def test_parameters_go_out_and_come_back(tab):
+def test_parameters_are_exported_and_imported_again(tab):
     tab.type_value("epsilon", "0.07")
     tab.until("s.params.epsilon === 0.07")
     tab.page.get_by_role("button", name="Export").click()

@@ -26,7 +26,7 @@ def tuner(tab, part: str, condition: str) -> dict:
     return tab.page.wait_for_function(script, timeout=PATIENCE_MS).json_value()
 
 
-def test_curves_stand_under_the_sliders_follow_and_are_ways_to_go(tab):
+def test_curves_stand_under_the_sliders_follow_them_and_can_be_clicked(tab):
     curves_of(tab)
     curve = tab.page.locator("[data-knob=epsilon] .curve")
     coverage = curve.locator("path[data-line=coverage]")

@@ -108,7 +108,7 @@ def test_csv_and_json_hold_every_row_and_markdown_names_the_best_first(done: Com
     assert f"tuned by {best.evaluations} evaluations" in text
 
 
-def test_two_recordings_are_also_added_up(hallway: Recording):
+def test_two_recordings_also_have_a_total(hallway: Recording):
     parts = [replace(hallway.only(np.arange(k, 30, 2)), name=name) for k, name in enumerate(("one", "two"))]
     comparisons = [Comparison(part, ["region-growing"], budget=0) for part in parts]
     for comparison in comparisons:
@@ -129,7 +129,7 @@ def test_without_truth_methods_are_timed_only_and_that_is_said(hallway: Recordin
     assert json.loads(TABLE_WRITERS[".json"](comparison.rows))["rows"][0]["true_rate"] is None
 
 
-def test_what_was_done_when_it_was_broken_off_can_be_written(hallway: Recording):
+def test_an_interrupted_comparison_can_be_written(hallway: Recording):
     comparison = Comparison(hallway, TWO, budget=4)
     list(islice(comparison.run(), 1))
     assert [row.times for row in comparison.rows] == [None]
@@ -162,7 +162,7 @@ def test_the_command_compares_samples_and_files(hallway: Recording, tmp_path: Pa
         (["hallway", "-o", "nowhere/out.md"], "the folder nowhere does not exist"),
     ],
 )
-def test_what_cannot_be_compared_is_said_in_a_sentence(arguments: list[str], sentence: str, capsys):
+def test_an_impossible_comparison_gets_a_sentence(arguments: list[str], sentence: str, capsys):
     assert main(["compare", *arguments]) == 2
     out, error = capsys.readouterr()
     assert out == ""
@@ -175,7 +175,7 @@ def test_a_recording_of_three_frames_has_no_halves(hallway: Recording):
         Comparison(hallway.only(np.arange(3)))
 
 
-def test_ctrl_c_writes_what_is_done():
+def test_ctrl_c_writes_the_finished_part():
     process = lineseg("compare", "hallway", "--methods", *TWO, "--budget", 100_000)
     assert process.stderr
     assert "hallway.npz: 30 frames to tune on, 30 to judge by" in process.stderr.readline()

@@ -15,13 +15,13 @@ SAMPLES = Path(__file__).parents[2] / "sample_scans"
 
 @settings(max_examples=80)
 @given(scans(), st.sampled_from([Params(), Params(epsilon=0.01, delta=0.04), Params(min_points=4, min_length=0.1)]))
-def test_there_are_as_many_as_the_score_says(scan, params):
+def test_probable_misses_are_as_many_as_the_score_says(scan, params):
     expected = survey(Recording.from_scans([scan]), params).score("misses")[0]
     assert len(misses(scan, params)) == expected
 
 
 @pytest.mark.parametrize("name", ["hallway.npz", "laboratory.npz", "hallway.mcap"])
-def test_there_are_as_many_as_the_score_says_in_the_samples(name):
+def test_probable_misses_are_as_many_as_the_score_says_in_the_samples(name):
     recording = open_recording(SAMPLES / name)
     assert [len(misses(scan)) for scan in recording] == survey(recording).score("misses").tolist()
 
@@ -56,7 +56,7 @@ def test_a_line_cut_short_says_where_it_stopped():
     assert "it stopped where beam 84 lies 0.050 m from the line, ε = 0.030 m" in miss.text
 
 
-def test_nothing_is_missed_where_nothing_is():
+def test_nothing_is_missed_without_points():
     assert misses(Scan(np.full(50, np.nan), np.linspace(-1, 1, 50))) == ()
     assert misses(Scan(np.empty(0), np.empty(0))) == ()
     assert misses(wall_ahead()) == ()

@@ -109,7 +109,7 @@ def test_a_line_that_is_out_of_view_is_not_interrupted():
     assert turned["jolt"] == pytest.approx(1.2, abs=0.02)
 
 
-def test_a_line_that_comes_to_stay_is_neither():
+def test_a_new_line_that_stays_is_neither():
     without = WALLS[:4]
     scores = scores_of(seen_from(-0.1, 0, -0.1, without), seen_from(0, 0, 0), seen_from(0.1, 0, 0.1))
     assert (scores["brief"], scores["gone"], scores["jump"]) == (0, 0, 0)
@@ -128,6 +128,6 @@ def test_a_knock_is_a_jolt_and_a_steady_turn_is_none():
     assert scores_of(seen_from(0, 0, -0.15), seen_from(0, 0, 0), seen_from(0, 0, 0.15))["jolt"] < 0.02
 
 
-def test_the_first_and_the_last_frame_have_nothing_to_stand_out_of():
+def test_the_first_and_the_last_frame_do_not_stand_out():
     found = survey(Recording.from_scans([seen_from(0, 0, 0), seen_from(0, 0, 0.3, WALLS[:2])]))
     assert all(not found.score(name).any() for name in ("brief", "gone", "jump", "jolt"))

@@ -14,7 +14,7 @@ def scores_of(*scans, params=None):
     return dict(zip(SCORES, survey(Recording.from_scans(scans), params).scores[-1].tolist(), strict=True))
 
 
-def test_a_wall_alone_is_covered_and_beyond_doubt():
+def test_a_single_wall_is_covered_and_not_doubtful():
     scores = scores_of(wall_ahead(distance=2.0))
     assert scores == pytest.approx(
         dict.fromkeys(SCORES, 0) | {"segments": 1, "coverage": 1, "unstable": np.nan}, abs=1e-3, nan_ok=True
@@ -59,7 +59,7 @@ def test_far_points_of_a_wall_seen_at_a_grazing_angle_bridge_nothing():
     assert max(np.hypot(*np.diff(grazing.xy[grazing.valid], axis=0).T)) > 4
 
 
-def test_a_fit_near_epsilon_is_told():
+def test_a_fit_near_epsilon_is_reported():
     assert scores_of(wall_ahead(noise=0.012), params=Params(epsilon=0.06))["near"] == 0
     assert scores_of(wall_ahead(noise=0.012), params=Params(epsilon=0.04, delta=0.2))["near"] == 0
     assert scores_of(wall_ahead(noise=0.02), params=Params(epsilon=0.06))["near"] == 0
@@ -74,13 +74,13 @@ def test_neighbours_on_one_line_are_a_pair_only_if_they_are_near(lost, pairs):
     assert scores_of(scan)["splits"] == pairs
 
 
-def test_the_walls_of_a_corner_are_no_pair():
+def test_the_walls_of_a_corner_are_not_a_pair():
     scan = corner(noise=0.002)
     assert scores_of(scan)["segments"] == 2
     assert scores_of(scan)["splits"] == 0
 
 
-def test_neighbours_on_parallel_lines_are_no_pair():
+def test_neighbours_on_parallel_lines_are_not_a_pair():
     step = scan_of([(2, -1.5, 2, 0), (2.2, 0, 2.2, 1.5)], field_of_view=1.2)
     assert scores_of(step)["segments"] == 2
     assert scores_of(step)["splits"] == 0
@@ -99,7 +99,7 @@ def test_a_wall_that_is_noisier_than_epsilon_is_a_probable_miss():
     assert scores_of(wall_ahead(noise=0.005), params=params)["misses"] == 0
 
 
-def test_clutter_is_no_probable_miss():
+def test_clutter_is_not_a_probable_miss():
     rng = np.random.default_rng(5)
     clutter = Scan(rng.uniform(1, 5, 300), np.linspace(-2, 2, 300))
     assert scores_of(clutter)["misses"] == 0
@@ -140,7 +140,7 @@ def test_change_is_the_share_of_bearings_that_left_their_segment():
     assert scores_of(whole, cut)["change"] == pytest.approx(0.4 / 1.2, abs=0.01)
 
 
-def test_change_knows_no_seam():
+def test_change_does_not_depend_on_the_seam():
     scan = room(noise=0.005)
     turned = Scan(np.roll(scan.ranges, 50), scan.bearings - np.deg2rad(50))
     assert scores_of(scan, turned)["change"] < 0.02

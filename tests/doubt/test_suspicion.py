@@ -50,7 +50,7 @@ def test_eight_of_ten_planted_failures_are_among_the_fifteen_worst(name, seed):
     assert len(found) >= 8, set(where.values()) - found
 
 
-def test_a_frame_that_stands_out_to_the_bad_side_is_doubtful_and_one_to_the_good_is_not():
+def test_only_a_frame_that_stands_out_to_the_bad_side_is_doubtful():
     values = np.full(100, 0.8)
     values[30], values[60] = 0.2, 1.0
     doubt = doubts(column("coverage", values))[:, NAMES.index("coverage")]
@@ -58,7 +58,7 @@ def test_a_frame_that_stands_out_to_the_bad_side_is_doubtful_and_one_to_the_good
     assert np.count_nonzero(doubt) == 1
 
 
-def test_the_spread_is_that_of_the_worst_tenth_but_never_less_than_is_worth_a_look():
+def test_the_spread_is_that_of_the_worst_tenth_with_a_minimum():
     values = np.zeros(101)
     values[50] = 1.2
     assert doubts(column("jump", values))[50, NAMES.index("jump")] == pytest.approx(1.2)
@@ -67,7 +67,7 @@ def test_the_spread_is_that_of_the_worst_tenth_but_never_less_than_is_worth_a_lo
     assert doubt.max() == pytest.approx(0.5 * 5 / (4 / 1.2816) * 2, rel=0.05)
 
 
-def test_what_lasts_is_doubtful_by_half():
+def test_a_lasting_fault_counts_half():
     values = np.zeros(400)
     values[100:130] = 100.0
     doubt = doubts(column("jump", values))[:, NAMES.index("jump")]

@@ -63,7 +63,7 @@ def of(source: str) -> str:
         ("return x + 5", "return x + 5  # five"),
     ],
 )
-def test_it_stays_when_what_is_compiled_stays(before, after):
+def test_the_fingerprint_stays_if_the_compiled_code_stays(before, after):
     assert before in SOURCE
     assert of(SOURCE.replace(before, after)) == of(SOURCE)
 
@@ -81,24 +81,24 @@ def test_it_stays_when_what_is_compiled_stays(before, after):
         ("types.float64, 1.0", "types.float64, 1.5"),
     ],
 )
-def test_it_changes_with_all_that_is_compiled(before, after):
+def test_the_fingerprint_changes_with_any_compiled_code(before, after):
     assert before in SOURCE
     assert of(SOURCE.replace(before, after)) != of(SOURCE)
 
 
-def test_what_a_kernel_finds_around_its_declaration_counts():
+def test_variables_around_the_declaration_of_a_kernel_count():
     source = (
         "from lineseg.kernel import entry_kernel\ndef made(k):\n  return entry_kernel(lambda x: k * x)\nentry = made(1)"
     )
     assert of(source) != of(source.replace("made(1)", "made(2)"))
 
 
-def test_a_global_that_has_no_value_to_compare_is_refused():
+def test_a_global_without_a_comparable_value_is_refused():
     with pytest.raises(TypeError, match="a kernel uses <object object at"):
         of(SOURCE.replace("TABLE = np.arange(3.0)", "TABLE = object()"))
 
 
-def test_each_kernel_of_the_library_has_one_of_its_own():
+def test_each_kernel_of_the_library_has_its_own_fingerprint():
     for module in pkgutil.walk_packages(lineseg.__path__, "lineseg."):
         if not module.name.startswith("lineseg.examples."):  # programs, which run when they are imported
             importlib.import_module(module.name)

@@ -92,14 +92,14 @@ def test_without_a_place_to_write_each_program_compiles_for_itself(programs):
     assert run(programs, "file") == run(programs, "file") == "2 1.5 0 loaded 2 compiled"
 
 
-def test_they_are_among_the_caches_of_the_user_unless_numba_is_told_another_place(monkeypatch):
+def test_kernels_are_kept_in_the_cache_of_the_user_unless_numba_has_another_folder(monkeypatch):
     monkeypatch.setattr("numba.config.CACHE_DIR", "")
     assert folder().parts[-2:] == ("lineseg", "kernels")
     monkeypatch.setattr("numba.config.CACHE_DIR", "/elsewhere")
     assert folder() == Path("/elsewhere/lineseg")
 
 
-def test_what_was_not_loaded_for_months_is_forgotten(tmp_path):
+def test_kernels_not_loaded_for_months_are_deleted(tmp_path):
     used, unused = tmp_path / "used.pickle", tmp_path / "unused.pickle"
     for file, days in ((used, 59), (unused, 61)):
         file.write_bytes(b"")

@@ -37,7 +37,7 @@ def test_flaser_lines_without_angles_begin_at_minus_90_degrees(log, beams, step,
     assert np.rad2deg(np.diff(scan.bearings)) == pytest.approx(step)
 
 
-def test_a_comment_with_the_word_flaser_is_no_scan(log):
+def test_a_comment_with_the_word_flaser_is_not_a_scan(log):
     path = log(
         "# message formats defined: PARAM SYNC ODOM FLASER RLASER", "PARAM a b nohost 0", "", flaser([1.0] * 181)
     )
@@ -104,12 +104,12 @@ def test_a_broken_line_is_named(log, line, sentence):
     assert str(raised.value) == sentence
 
 
-def test_a_log_without_laser_says_so(log):
+def test_a_log_without_a_laser_says_so(log):
     with pytest.raises(ValueError, match=r"^corridor[.]log has no laser line"):
         open_recording(log("ODOM 0 0 0 0 0 0 1.0 x 1.0"))
 
 
-def test_gzip_that_breaks_off_is_named_with_its_line(log, tmp_path):
+def test_truncated_gzip_is_named_with_its_line(log, tmp_path):
     lines = [flaser(np.round(np.random.default_rng(seed).uniform(1, 9, 181), 2)) for seed in range(300)]
     whole = log(*lines, name="corridor.log.gz").read_bytes()
     broken = tmp_path / "broken.log.gz"

@@ -8,7 +8,7 @@ from lineseg.readers.laser_scan import decode_json
 PLAIN = {"angle_min": -1.0, "angle_increment": 0.5, "ranges": [1.0, 2.0, 3.0]}
 
 
-def test_null_is_no_return_and_the_stamp_is_kept_to_the_nanosecond():
+def test_null_means_no_return_and_the_stamp_is_kept_to_the_nanosecond():
     header = {"stamp": {"sec": 1_700_000_000, "nanosec": 123_456_789}, "frame_id": "laser"}
     scan = decode_json(PLAIN | {"header": header, "ranges": [1.5, None, 2.5], "range_max": None})
     np.testing.assert_array_equal(scan.ranges, np.array([1.5, np.nan, 2.5], np.float32))
@@ -41,6 +41,6 @@ def test_the_increment_follows_from_the_last_angle():
         (PLAIN | {"header": {"stamp": {"sec": -1}}}, "the stamp's sec is -1"),
     ],
 )
-def test_what_is_no_scan_is_named(message, sentence):
+def test_a_message_that_is_not_a_scan_is_named(message, sentence):
     with pytest.raises(ValueError, match=sentence):
         decode_json(message)

@@ -91,7 +91,7 @@ def test_one_scan_with_single_values_is_enough(npz):
         ({"ranges": np.ones((2, 3)), **GEOMETRY, "frame_id": ["a", "b", "c"]}, r"frame_id has the shape \(3,\)"),
     ],
 )
-def test_what_does_not_fit_is_named(npz, values, sentence):
+def test_arrays_that_do_not_fit_are_named(npz, values, sentence):
     with pytest.raises(ValueError, match=rf"^hall.npz:? ?.*{sentence}"):
         open_recording(npz(**values))
 

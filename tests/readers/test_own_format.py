@@ -40,7 +40,7 @@ def known(monkeypatch):
 
 
 @pytest.mark.parametrize("kind", ["file", "folder", "packed"])
-def test_a_format_of_ones_own_is_opened(tmp_path, kind):
+def test_a_custom_format_is_opened(tmp_path, kind):
     path = tmp_path / "own.dash"
     if kind == "folder":
         path.mkdir()

@@ -60,7 +60,7 @@ def test_reading_leaves_no_trace_beside_a_database(data_dir):
     assert {path: path.stat().st_mtime_ns for path in folder.iterdir()} == before
 
 
-def test_an_old_bag_gives_a_sentence_with_the_way_on(data_dir):
+def test_an_old_bag_gives_a_sentence_with_a_way_out(data_dir):
     with pytest.raises(ValueError, match=r"^splitter_demo.bag: a ROS bag of version 1\.2; .*`rosbag migrate` upgrades"):
         open_recording(data_dir / "ros1_unsupported_v12" / "splitter_demo.bag")
 

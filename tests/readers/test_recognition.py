@@ -40,7 +40,7 @@ def test_content_decides_before_the_suffix(tmp_path):
         ("new.bag", b"#ROSBAG VX\n", "new.bag begins with '#ROSBAG VX'; a ROS bag begins with #ROSBAG V2.0"),
     ],
 )
-def test_what_cannot_be_read_gives_one_sentence(tmp_path, name, content, sentence):
+def test_an_unreadable_file_gives_one_sentence(tmp_path, name, content, sentence):
     path = tmp_path / name
     path.write_bytes(content)
     with pytest.raises(ValueError, match=f"^{sentence}") as raised:

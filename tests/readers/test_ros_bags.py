@@ -92,7 +92,7 @@ def test_a_maximum_of_0_bounds_nothing():
     assert decode_ros1(encoded(1, message(1, [1.0], limits=(0.0, 0.0)))).range_max == np.inf
 
 
-def test_a_message_that_breaks_off_is_refused():
+def test_a_truncated_message_is_refused():
     data = encoded(1, message(1, [1.0] * 100))
     with pytest.raises(ValueError, match="announces 100 ranges"):
         decode_ros1(data[:200])
@@ -119,7 +119,7 @@ def test_stamps_that_are_all_zero_give_way_to_the_times_of_recording(tmp_path):
 
 @pytest.mark.parametrize("compression", [None, CompressionMode.MESSAGE, CompressionMode.FILE])
 @pytest.mark.parametrize("plugin", list(StoragePlugin))
-def test_a_bag_of_ros_2_opens_packed_or_not_with_metadata_or_without(tmp_path, plugin, compression):
+def test_a_ros_2_bag_opens_compressed_or_not_and_with_or_without_metadata(tmp_path, plugin, compression):
     folder = bag2(tmp_path / "bag", ("/scan", [1.0, 2.0]), ("/rear", [3.0]), plugin=plugin, compression=compression)
     for _ in range(2):
         recording = open_recording(folder, topic="/rear")
@@ -139,7 +139,7 @@ def test_the_files_of_a_split_bag_are_joined_in_the_order_of_their_numbers(tmp_p
     assert recording.topics[0].scans == 3
 
 
-def test_a_name_with_marks_of_an_address_is_a_name(tmp_path):
+def test_a_file_name_may_contain_the_marks_of_an_address(tmp_path):
     folder = bag2(tmp_path / "bag", ("/scan", [1.0]))
     odd = tmp_path / "50% of a? #1.db3"
     shutil.copy(folder / "bag.db3", odd)
@@ -190,7 +190,7 @@ def test_a_bag_without_index_names_the_tool_that_makes_one(tmp_path):
 
 
 @pytest.mark.parametrize("share", [0.3, 0.9])
-def test_a_bag_that_breaks_off_is_damaged(tmp_path, share):
+def test_a_truncated_bag_is_damaged(tmp_path, share):
     for path in (
         bag1(tmp_path / "whole.bag", ("/scan", [1.0] * 500)),
         bag2(tmp_path / "b", ("/scan", [1.0] * 999)) / "b.db3",

@@ -21,7 +21,7 @@ def rows(beams, scans=3, separator=","):
 
 
 @pytest.mark.parametrize("separator", [",", ";", " ", "\t", ", ", "  "])
-def test_a_row_is_a_scan_whatever_parts_its_numbers(text, separator):
+def test_a_row_is_a_scan_whatever_separates_its_numbers(text, separator):
     recording = open_recording(text(rows(181, separator=separator)), text=TextOptions(skip_columns=0))
     assert (len(recording), recording.beams, recording.format) == (3, (181, 181), "text")
     assert recording.ranges[181] == 2.0
@@ -90,7 +90,7 @@ def test_a_table_with_lists_gives_geometry_stamp_and_frame_of_each_scan(text):
     assert recording[1].bearings.tolist() == [0.5, 0.7]
 
 
-def test_what_rostopic_echo_writes_opens(text):
+def test_output_of_rostopic_echo_opens(text):
     content = (
         "%time,field.header.seq,field.header.stamp,field.header.frame_id,field.angle_min,field.angle_increment,"
         "field.range_min,field.range_max,field.ranges0,field.ranges1,field.intensities0\n"
@@ -115,7 +115,7 @@ def test_what_rostopic_echo_writes_opens(text):
         ("# angle_min = left\n1 2 3\n", "scan.csv: its comments say angle_min = 'left'; it must be a number"),
     ],
 )
-def test_what_is_no_table_of_scans_is_named_with_its_line(text, content, sentence):
+def test_a_table_without_scans_is_named_with_its_line(text, content, sentence):
     with pytest.raises(ValueError, match=f"^{sentence}"):
         open_recording(text(content))
 

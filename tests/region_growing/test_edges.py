@@ -24,7 +24,7 @@ def edge(ranges, bearings, delta):
 @settings(max_examples=500)
 @given(bearings, errors, st.floats(-3.0, 3.0), st.floats(0.01, 20.0), st.sampled_from([0.01, 0.1, 1.0]))
 @example([0.5, 0.5, 0.5], [-1.0, -0.99, 0.0], 0.0, 0.25, 0.01)
-def test_what_lies_within_delta_of_a_line_is_no_edge(bearings, errors, direction, distance, delta):
+def test_points_within_delta_of_a_line_are_not_an_edge(bearings, errors, direction, distance, delta):
     incidence = np.cos(np.array(bearings) - direction)
     assume((incidence > 1e-3).all())
     ranges = distance / incidence + delta * np.array(errors)

@@ -35,7 +35,7 @@ def test_the_leg_is_in_no_line_and_its_beams_say_so():
     assert "max_occluder" not in {trace(wall_ahead(bump=LEG), PAPER).explain(beam).check for beam in LEG_BEAMS}
 
 
-def test_beams_lost_beside_a_thing_count_as_no_dropout():
+def test_beams_lost_beside_an_object_are_not_a_dropout():
     scan = wall_ahead(bump=LEG, lost=range(93, 99))
     assert spans(scan) == [(0, 179)]
     traced = trace(scan, PAST)
@@ -51,18 +51,18 @@ def test_beams_lost_beside_a_thing_count_as_no_dropout():
     ],
     ids=["wider than W_max", "behind the wall", "not δ before it"],
 )
-def test_what_is_wide_or_behind_or_part_of_the_wall_stays(bump: dict[int, float]):
+def test_points_that_are_wide_or_behind_or_part_of_the_wall_stay(bump: dict[int, float]):
     scan = wall_ahead(bump=bump)
     assert not trace(scan, PAST).looked_past.any()
     assert spans(scan) == spans(scan, PAPER)
 
 
-def test_a_partition_that_points_at_the_laser_is_no_thin_thing():
+def test_a_partition_that_points_at_the_laser_is_not_a_thin_object():
     scan = wall_ahead(distance=6.0, beams=1081, bump={540 + k: -4.0 + 0.15 * k for k in range(25)})
     assert not trace(scan, PAST).looked_past[545:560].any()
 
 
-def test_all_round_a_leg_may_stand_anywhere():
+def test_on_a_full_circle_a_leg_may_stand_anywhere():
     plain = room(bump={40: -0.8, 41: -0.8})
     for turn in range(0, 360, 30):
         turned = Scan(np.roll(plain.ranges, turn), plain.bearings)
@@ -73,7 +73,7 @@ def test_all_round_a_leg_may_stand_anywhere():
 
 
 @given(scans(), st.sampled_from([0.1, 0.3, 1.0]))
-def test_what_is_looked_past_is_in_no_line_and_no_line_ends_there(scan: Scan, widest: float):
+def test_points_looked_past_are_in_no_line_and_end_no_line(scan: Scan, widest: float):
     traced = trace(scan, Params(max_occluder=widest))
     past = traced.looked_past
     assert (traced.extraction.labels[past] == -1).all()

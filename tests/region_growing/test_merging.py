@@ -18,7 +18,7 @@ def wall_with(offsets):
     return Scan(ranges, scan.bearings)
 
 
-def test_a_stray_point_does_not_part_a_wall():
+def test_a_stray_point_does_not_split_a_wall():
     middle = len(wall_ahead().ranges) // 2
     scan = wall_with({middle: 0.08})
     assert len(extract(scan, UNASKED).segments) == 2
@@ -27,14 +27,14 @@ def test_a_stray_point_does_not_part_a_wall():
     assert [event.kind for event in trace(scan) if event.kind == "lines merged"] == ["lines merged"]
 
 
-def test_more_strays_than_dropouts_may_be_part_it():
+def test_more_strays_than_max_dropout_split_it():
     middle = len(wall_ahead().ranges) // 2
     scan = wall_with({middle + k: 0.05 * (-1) ** k for k in range(3)})
     assert len(extract(scan).segments) == 1
     assert len(extract(scan, Params(max_dropout=0)).segments) == 2
 
 
-def test_strays_far_from_the_wall_part_it_for_one_line_would_fit_badly():
+def test_strays_far_from_the_wall_split_it_because_one_line_would_fit_badly():
     middle = len(wall_ahead().ranges) // 2
     scan = wall_with({middle: 0.6, middle + 1: 0.6})
     assert len(extract(scan).segments) == 2

@@ -103,7 +103,7 @@ def test_a_wall_across_the_seam_is_one_segment():
     assert all(segment.points > 40 for segment in segments)
 
 
-def test_a_line_too_short_is_dropped_with_what_it_lacks():
+def test_a_short_line_is_dropped_with_the_missing_length():
     (dropped,) = extract(wall_ahead(half_width=0.2, beams=400)).dropped
     assert (dropped.check, dropped.limit) == ("min_length", 0.6)
     assert dropped.value == pytest.approx(0.4, abs=0.02)

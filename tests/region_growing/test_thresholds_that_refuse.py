@@ -30,7 +30,7 @@ def test_a_threshold_that_refuses_stands_in_five_files_or_fewer():
 
 
 @pytest.mark.parametrize("name", REFUSING)
-def test_what_a_threshold_says_when_it_refuses_has_both_numbers(name):
+def test_the_sentence_of_a_refusal_has_both_numbers(name):
     check = CHECKS[number_of(name)]
     row = Row(0, number_of(name), 1, 0, -1, 3, 8, 7, NOWHERE, NOWHERE, NO_ENDS, 0.5, 0.25)
     said = str(Sentence(row, Kind("refused", "seed", "none", "", "{refusal}"), check, 3, 8, 7, 20))

@@ -36,7 +36,7 @@ def test_a_circle_is_seen_and_is_no_wall():
     assert (scan.wall == -1).all()
 
 
-def test_noise_is_the_same_each_time_and_another_with_another_seed():
+def test_noise_depends_on_the_seed_only():
     first, again, other = (
         Drawing.parse(f"b-90,90,1,30,0.02;s{seed};{ROOM}").recording()[0].ranges for seed in (1, 1, 2)
     )
@@ -61,7 +61,7 @@ def test_noise_is_the_same_each_time_and_another_with_another_seed():
         (";".join(["w0,0,1,0"] * 81), "81 walls and 0 circles; 80 and 40 may be"),
     ],
 )
-def test_what_cannot_be_is_named(text, complaint):
+def test_an_impossible_drawing_is_named(text, complaint):
     with pytest.raises(ValueError, match="the drawing") as raised:
         Drawing.parse(text)
     assert complaint in str(raised.value)

@@ -88,7 +88,7 @@ def test_ranges_are_rounded_to_a_millimetre():
     assert_allclose(seen, np.round(seen, 3), atol=1e-6)
 
 
-def test_what_is_out_of_reach_returns_nothing():
+def test_walls_out_of_range_return_nothing():
     far = polyline([(40.0, -90.0), (40.0, 90.0)], IDEAL)
     near = polyline([(0.05, -0.04), (0.05, 0.04)], IDEAL)
     assert not sweep(far).valid.any()
@@ -123,7 +123,7 @@ def test_a_corner_and_a_grazed_wall_give_no_mixed_pixels():
     assert (sweep(corner, laser).wall >= 0).all()
 
 
-def test_circles_and_rough_surfaces_are_no_walls():
+def test_circles_and_rough_surfaces_are_not_walls():
     world = WALL_AHEAD + circle((1.0, 0.0), 0.2) + polyline([(1.0, 0.5), (1.0, 0.9)], ROUGH)
     found = sweep(world)
     assert set(found.wall.tolist()) == {0, -1}

@@ -67,7 +67,7 @@ def test_collinear_overlap_two_lines_of_one_wall_are_merged():
     assert segment.points == scan.valid.sum()
 
 
-def test_collinear_overlap_parts_when_nothing_is_merged():
+def test_collinear_overlap_stays_two_lines_when_nothing_is_merged():
     assert len(extract(lesson(3)[0], DEFAULT.but(merge_angle=0.0)).segments) == 2
 
 
@@ -100,7 +100,7 @@ def test_lost_end_split_breaks_the_back_of_the_niche_and_region_growing_keeps_it
     assert set(found.labels[beams][back].tolist()) == {1}
 
 
-def test_shallow_corner_is_taken_for_one_wall_until_the_angle_or_the_fits_are_asked():
+def test_shallow_corner_is_one_line_until_angle_or_fit_is_checked():
     scan = lesson(5)[0]
     unasked = DEFAULT.but(merge_rms=0.0)
     assert len(extract(scan, unasked).segments) == 1
@@ -111,20 +111,20 @@ def test_shallow_corner_is_taken_for_one_wall_until_the_angle_or_the_fits_are_as
         assert abs(first - second) == pytest.approx(np.radians(4), abs=np.radians(1.5))
 
 
-def test_curved_wall_becomes_chords_that_are_no_walls():
+def test_curved_wall_becomes_chords_that_are_not_walls():
     scan = lesson(6)[0]
     found = walls_of(scan, extract(scan, DEFAULT))
     assert sum(walls == {-1} for walls in found) >= 3
     assert sum(0 in walls for walls in found) == 1
 
 
-def test_doorway_parts_the_wall_until_longer_dropouts_are_crossed():
+def test_doorway_splits_the_wall_until_longer_dropouts_are_crossed():
     scan = lesson(7)[0]
     assert walls_of(scan, extract(scan, DEFAULT)) == [{0}, {1}]
     assert walls_of(scan, extract(scan, DEFAULT.but(max_dropout=40)))[0] >= {0, 1}
 
 
-def test_noise_burst_parts_the_wall_until_epsilon_is_as_wide_as_the_noise():
+def test_noise_burst_splits_the_wall_until_epsilon_is_as_wide_as_the_noise():
     scan = lesson(8)[0]
     found = extract(scan, DEFAULT)
     assert len(found.segments) == 2

@@ -36,7 +36,7 @@ def test_the_samples_are_these_files_and_under_5_megabytes(again):
 
 
 @pytest.mark.parametrize("name", [name for name in NAMES if name.endswith(".npz")])
-def test_made_again_the_arrays_are_the_same(again, name):
+def test_samples_made_again_have_the_same_arrays(again, name):
     with np.load(SAMPLES / name) as committed, np.load(again / name) as made:
         assert sorted(committed) == sorted(made)
         for key in committed:
@@ -45,7 +45,7 @@ def test_made_again_the_arrays_are_the_same(again, name):
 
 
 @pytest.mark.parametrize("name", [name for name in NAMES if not name.endswith(".npz")])
-def test_made_again_the_other_formats_read_the_same(again, name):
+def test_other_formats_made_again_read_the_same(again, name):
     committed, made = open_recording(SAMPLES / name), open_recording(again / name)
     assert np.array_equal(committed.ranges, made.ranges)
     assert np.array_equal(committed.stamps, made.stamps)

@@ -10,7 +10,7 @@ EVERY = pytest.mark.parametrize("name", list(WORLDS))
 
 
 @EVERY
-def test_made_again_it_is_the_same_and_has_true_lines(name: str):
+def test_a_world_made_again_is_the_same_and_has_true_lines(name: str):
     recording, again = (WORLDS[name].recording(name, frames=3) for _ in range(2))
     assert np.array_equal(recording.ranges, again.ranges)
     assert np.array_equal(recording.wall, again.wall)

@@ -28,12 +28,12 @@ def test_a_line_that_moves_a_little_is_kept_and_one_that_goes_is_lost():
     assert fates(result((0, 19), (40, 59)), result((2, 21), (80, 99))) == ([KEPT, LOST], [KEPT, GAINED])
 
 
-def test_half_of_the_union_is_not_enough_to_be_the_same_line():
+def test_lines_that_share_exactly_half_of_their_union_differ():
     assert fates(result((0, 29)), result((0, 14))) == ([LOST], [GAINED])
     assert fates(result((0, 29)), result((0, 15))) == ([KEPT], [KEPT])
 
 
-def test_two_lines_on_one_are_a_split_and_the_other_way_round_a_merge():
+def test_two_lines_on_one_are_a_split_and_the_reverse_is_a_merge():
     whole, parts = result((10, 49)), result((10, 36), (38, 49))
     assert fates(whole, parts) == ([SPLIT], [SPLIT, SPLIT])
     assert fates(parts, whole) == ([MERGED, MERGED], [MERGED])

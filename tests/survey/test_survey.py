@@ -100,7 +100,7 @@ def test_bearings_may_fall_from_beam_to_beam():
     ],
     ids=["empty", "one beam", "two", "all NaN", "all inf", "no bearing", "no range_min", "one ray", "tiny", "negative"],
 )
-def test_a_scan_of_nothing_has_no_segment(scan):
+def test_a_scan_without_points_has_no_segment(scan):
     alone = assert_agrees(Recording.from_scans([scan]))
     assert len(alone.segments) == 0
     among = assert_agrees(Recording.from_scans([wall_ahead(), scan, wall_ahead()]))
@@ -174,7 +174,7 @@ def test_a_survey_stops_within_20_milliseconds():
     assert min(delays) < 0.02
 
 
-def test_what_progress_raises_comes_through():
+def test_an_exception_in_progress_is_passed_on():
     def refuse(done, total):
         raise KeyError(f"{done} of {total}")
 

@@ -68,12 +68,12 @@ def test_a_wall_cut_in_two_names_both_segments():
     assert (remark.first, remark.last) == (0, 179)
 
 
-def test_a_frame_without_fault_has_no_remark():
+def test_a_good_frame_has_no_remark():
     recording = Recording.from_scans([wall_ahead(noise=0.002, seed=seed) for seed in range(5)])
     assert why(recording, 2) == ()
 
 
-def test_a_frame_without_a_return_is_no_stumbling_block():
+def test_a_frame_without_a_return_is_handled():
     blind = Scan(np.full(180, np.nan), wall_ahead().bearings)
     recording = Recording.from_scans([wall_ahead(), wall_ahead(), blind, wall_ahead(), wall_ahead()])
     said = {remark.score: remark.text for remark in why(recording, 2)}
@@ -93,7 +93,7 @@ def test_a_line_that_is_missing_says_what_refused_it():
 
 
 @pytest.mark.parametrize("name", [name for name in EXTRACTORS if name != "region-growing"])
-def test_other_methods_are_told_of_by_the_same_scores(case, name):
+def test_other_methods_have_the_same_scores(case, name):
     recording, where, _ = case
     params = EXTRACTORS[name].params_type()
     said = {remark.score for remark in why(recording, where["dropped_sector"], params)}

@@ -21,7 +21,7 @@ def sample(request) -> Recording:
     return open_recording(SAMPLES / f"{request.param}.npz").only(np.arange(0, 60))
 
 
-def test_every_measure_is_that_of_the_frames(sample: Recording):
+def test_every_measure_is_computed_from_the_frames(sample: Recording):
     chosen = Params(epsilon=0.022, seed_points=5)
     totals = Batch(sample, scored=True).measure([Params(), chosen])
     truth = [true_lines(scan) for scan in sample]

@@ -111,7 +111,7 @@ def test_a_file_that_changed_is_measured_anew(files: list[Path], tmp_path: Path)
     assert (before.totals.sums != after.totals.sums).any()
 
 
-def test_what_is_no_journal_is_left_alone(tmp_path: Path):
+def test_a_file_that_is_not_a_journal_is_left_alone(tmp_path: Path):
     (tmp_path / "sweep.partial").write_text("my notes, which are long enough to be no empty database" * 20)
     with pytest.raises(ValueError, match="this is not the journal of a sweep"):
         Journal(tmp_path / "sweep.partial")
@@ -171,7 +171,7 @@ def test_without_truth_the_table_leaves_the_rates_empty(tmp_path: Path, files: l
         (["--scheduler", "tcp://127.0.0.1:1"], "tcp://127.0.0.1:1: no Dask scheduler answers there"),
     ],
 )
-def test_what_cannot_be_is_said_before_the_work(files, tmp_path, capsys, monkeypatch, arguments, said):
+def test_an_impossible_sweep_is_refused_before_the_work(files, tmp_path, capsys, monkeypatch, arguments, said):
     monkeypatch.setattr("lineseg.sweep.workers.CONNECT_SECONDS", 1)
     monkeypatch.chdir(tmp_path)
     out = [] if "-o" in arguments else ["-o", "sweep.csv"]
@@ -236,7 +236,7 @@ def test_a_killed_worker_costs_only_its_chunk(files: list[Path], cluster):
     assert len(seen) == 12
 
 
-def test_an_error_of_a_worker_is_said_here(tmp_path: Path, cluster, capsys):
+def test_an_error_of_a_worker_is_reported(tmp_path: Path, cluster, capsys):
     address, _ = cluster
     arguments = [str(tmp_path / "gone.npz"), "-o", str(tmp_path / "out.csv"), "--scheduler", address]
     assert main(["sweep", *arguments]) == 2

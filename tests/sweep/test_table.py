@@ -26,7 +26,7 @@ def swept(tmp_path_factory: pytest.TempPathFactory) -> Sweep:
 
 
 @pytest.mark.parametrize("name", ["sweep.csv", "sweep.parquet"])
-def test_what_was_written_is_read_again(swept: Sweep, name: str, tmp_path: Path):
+def test_a_written_table_is_read_again(swept: Sweep, name: str, tmp_path: Path):
     write_table(swept, tmp_path / name)
     table = read_table((tmp_path / name).read_bytes(), name)
     rows = list(rows_of(swept))
@@ -59,7 +59,7 @@ ROW = ",".join(["a.npz", *(str(value) for value in Params().numbers().values()),
         ("a.parquet", b"PAR1 and no more", "it is no Parquet"),
     ],
 )
-def test_what_is_no_table_of_a_sweep_is_refused_in_one_sentence(name: str, content: bytes, sentence: str):
+def test_a_file_that_is_not_a_sweep_table_is_refused_in_one_sentence(name: str, content: bytes, sentence: str):
     with pytest.raises(ValueError, match=name) as refused:
         read_table(content, name)
     assert sentence in str(refused.value)

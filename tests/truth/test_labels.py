@@ -38,7 +38,7 @@ def file(tmp_path):
     return tmp_path / "walls.npz.lineseg.json"
 
 
-def test_what_is_saved_is_read_again(walls, file):
+def test_saved_labels_are_read_again(walls, file):
     said = FrameLabels(
         (LINE, TrueLine(90, 120, (2.0, 0.6), (2.0, 0.9))), ("door", "Tür offen"), 'a "note"\nin two lines'
     )
@@ -47,7 +47,7 @@ def test_what_is_saved_is_read_again(walls, file):
     assert read_labels(file, walls) == {3: saved}
 
 
-def test_no_file_is_no_label(walls, file):
+def test_without_a_file_there_are_no_labels(walls, file):
     assert read_labels(file, walls) == {}
 
 
@@ -62,7 +62,7 @@ def test_an_extraction_as_labels_is_its_own_truth(scan):
     assert agreed.endpoint_errors == (0.0,) * 2 * len(found.segments)
 
 
-def test_a_frame_without_lines_and_one_of_which_nobody_said_are_two_things(walls, file):
+def test_a_frame_without_lines_differs_from_an_unlabelled_frame(walls, file):
     save_labels(file, walls, 0, FrameLabels(()))
     save_labels(file, walls, 1, FrameLabels(note="later"))
     read = read_labels(file, walls)
@@ -85,7 +85,7 @@ def test_two_writers_of_different_frames_lose_nothing(walls, file):
     assert {frame: labels.note for frame, labels in read_labels(file, walls).items()} == {0: "one", 1: "other"}
 
 
-def test_who_has_not_seen_the_newest_of_a_frame_does_not_overwrite_it(walls, file):
+def test_an_edit_of_an_old_revision_does_not_overwrite_a_frame(walls, file):
     seen = save_labels(file, walls, 0, FrameLabels(note="first"))
     theirs = save_labels(file, walls, 0, replace(seen, note="theirs"))
     before = file.read_bytes()
@@ -197,7 +197,7 @@ def test_a_broken_file_is_refused_and_stays_as_it_is(walls, file, content):
         ([(10, 80), (80, 90)], "true line 1: beams 80 to 90; beam 80 belongs to line 0 already"),
     ],
 )
-def test_lines_that_cannot_be_are_refused(walls, file, lines, sentence):
+def test_impossible_lines_are_refused(walls, file, lines, sentence):
     labels = FrameLabels(tuple(replace(LINE, first=first, last=last) for first, last in lines))
     with pytest.raises(ValueError, match=sentence):
         save_labels(file, walls, 0, labels)

@@ -34,14 +34,14 @@ def test_a_beam_without_a_return_is_on_no_true_line():
 
 
 @pytest.mark.parametrize(("beams", "lines"), [(4, 1), (30, 2)])
-def test_what_stands_before_a_wall_parts_it_only_if_it_is_broad(beams, lines):
+def test_only_a_broad_object_splits_the_wall_behind_it(beams, lines):
     scan = wall_ahead()
     before = np.abs(np.arange(180) - 90) < beams / 2
     seen = Scan(np.where(before, 1.0, scan.ranges), scan.bearings, wall=np.where(before, -1, 0))
     assert true_lines(seen).max() + 1 == lines
 
 
-def test_sparse_points_alone_do_not_part_a_wall():
+def test_sparse_points_alone_do_not_split_a_wall():
     scan = scan_of([(30, -6, 30, 6)], beams=20, field_of_view=0.38)
     assert true_lines(walled(scan, np.zeros(20, int))).max() == 0
 
@@ -54,7 +54,7 @@ def test_a_true_line_may_cross_the_seam():
     assert len(set(labels[wall == 0].tolist())) == 1
 
 
-def test_truth_is_asked_for():
+def test_scoring_requires_truth():
     with pytest.raises(ValueError, match="no true walls"):
         true_lines(corner())
 
@@ -65,7 +65,7 @@ def test_a_perfect_extraction_agrees_in_full():
     assert (found.true_rate, found.false_rate, found.completeness) == (1, 0, 1)
 
 
-def test_a_wall_found_in_two_halves_is_no_match_and_in_unequal_parts_one():
+def test_two_equal_halves_match_no_wall_and_unequal_parts_match_once():
     scan = wall_ahead(lost=range(87, 93))
     truth = true_lines(walled(scan, np.zeros(180, int)))
     assert agreement(extract(scan), truth).matches == 0
@@ -74,7 +74,7 @@ def test_a_wall_found_in_two_halves_is_no_match_and_in_unequal_parts_one():
     assert found == Agreement(true_lines=1, segments=2, matches=1, shared=pytest.approx(118 / 175), splits=1)
 
 
-def test_agreements_add_up_and_say_nothing_of_nothing():
+def test_agreements_add_up_and_an_empty_one_has_no_rates():
     both = Agreement(4, 5, 3, 2.7) + Agreement(1, 0, 0, 0.0)
     assert (both.true_rate, both.false_rate, both.completeness) == pytest.approx((0.6, 0.4, 0.9))
     assert all(math.isnan(value) for value in (Agreement().true_rate, Agreement().false_rate, Agreement().completeness))
@@ -116,7 +116,7 @@ def test_a_segment_that_only_reaches_into_the_next_line_merges_nothing():
 
 
 @given(scans(), scans())
-def test_matching_is_one_to_one_and_knows_no_order(one, other):
+def test_matching_is_one_to_one_in_any_order(one, other):
     n = min(len(one), len(other))
     first, second = extract(one).labels[:n], extract(other).labels[:n]
     there, back = match(found(first), second), match(found(second), first)

@@ -71,7 +71,7 @@ def test_for_a_coarse_laser_the_proposal_is_as_good_as_any_epsilon(name, sigma, 
     assert score(recording, propose(recording).params) > 0.97 * best_score(recording)
 
 
-def test_nothing_is_said_where_the_present_values_are_as_good():
+def test_nothing_is_proposed_if_the_current_values_are_as_good():
     recording = world("flat", 0.008, RPLIDAR_A2)
     found = propose(recording)
     assert not found.changed
@@ -80,7 +80,7 @@ def test_nothing_is_said_where_the_present_values_are_as_good():
 
 
 @pytest.mark.parametrize("method", ["split-and-merge-textbook", "line-tracking", "hough", "ransac"])
-def test_other_methods_get_thresholds_of_their_own(board_room, method):
+def test_other_methods_get_their_own_thresholds(board_room, method):
     found = propose(board_room, method=method)
     kind = EXTRACTORS[method].params_type
     assert type(found.params) is kind
@@ -109,13 +109,13 @@ def scans_of(*ranges):
         pytest.param(scans_of(*np.random.default_rng(1).uniform(0.5, 20, (40, 400))), "No straight wall", id="no wall"),
     ],
 )
-def test_where_nothing_can_be_proposed_a_sentence_says_why(recording, why):
+def test_a_sentence_says_why_nothing_can_be_proposed(recording, why):
     found = propose(recording)
     assert not found.changed
     assert found.params == Params()
     assert why in found.text
 
 
-def test_a_search_that_nobody_wants_any_more_ends():
+def test_a_search_that_is_no_longer_wanted_ends():
     with pytest.raises(Cancelled):
         propose(world("flat", 0.02, RPLIDAR_A2), wanted=lambda: False)

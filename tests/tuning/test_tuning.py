@@ -66,7 +66,7 @@ def test_tuning_from_bad_thresholds_finds_better_ones_and_says_what_it_gained(ha
     assert sum(importance.values()) == pytest.approx(1)
 
 
-def test_where_nothing_is_gained_that_is_said(hallway: Recording, workers: Pool):
+def test_the_verdict_says_if_nothing_was_gained(hallway: Recording, workers: Pool):
     tuning = Tuning(RecordingBlocks(hallway, workers, scored=False), Objective("truth"))
     for _ in tuning.run(1):
         pass
@@ -75,14 +75,14 @@ def test_where_nothing_is_gained_that_is_said(hallway: Recording, workers: Pool)
     assert verdict.text.startswith("No gain")
 
 
-def test_training_and_held_back_frames_are_apart_and_together_all(hallway: Recording, workers: Pool):
+def test_training_and_held_back_frames_are_disjoint_and_together_complete(hallway: Recording, workers: Pool):
     blocks = RecordingBlocks(hallway, workers, scored=True)
     assert set(blocks.train) & set(blocks.held_back) == set()
     parts = blocks.totals(Params(), sorted([*blocks.train, *blocks.held_back]))
     np.testing.assert_allclose(np.sum([part.sums for part in parts], axis=0), totals_of(hallway, Params()).sums)
 
 
-def test_a_study_on_disk_goes_on_where_it_was(hallway: Recording, workers: Pool, tmp_path: Path):
+def test_a_study_on_disk_continues_where_it_stopped(hallway: Recording, workers: Pool, tmp_path: Path):
     blocks = RecordingBlocks(hallway, workers, scored=False)
     file = tmp_path / "study.db"
     first = list(Tuning(blocks, Objective("truth"), file).run(5))
@@ -93,7 +93,7 @@ def test_a_study_on_disk_goes_on_where_it_was(hallway: Recording, workers: Pool,
     assert again.best() == max(again.trials(), key=lambda trial: trial.score)
 
 
-def test_a_study_of_something_else_is_refused_and_stays_whole(hallway: Recording, workers: Pool, tmp_path: Path):
+def test_a_study_of_something_else_is_refused_and_left_unchanged(hallway: Recording, workers: Pool, tmp_path: Path):
     blocks = RecordingBlocks(hallway, workers, scored=True)
     file = tmp_path / "study.db"
     list(Tuning(blocks, Objective("truth"), file).run(2))
@@ -120,14 +120,14 @@ def test_trials_without_a_score_lose_nothing(hallway: Recording, workers: Pool):
     assert tuning.importance() == {}
 
 
-def test_truth_that_is_not_there_cannot_be_the_objective(hallway: Recording, workers: Pool):
+def test_missing_truth_cannot_be_the_objective(hallway: Recording, workers: Pool):
     blocks = RecordingBlocks(replace(hallway, wall=None), workers, scored=True)
     with pytest.raises(ValueError, match="has no truth; tune it with the label-free objective"):
         Tuning(blocks, Objective("truth"))
     assert "misleads" in Objective("label-free").caution
 
 
-def test_the_command_line_tunes_files_and_goes_on(hallway: Recording, tmp_path: Path, capsys, monkeypatch):
+def test_the_command_line_tunes_files_and_continues_a_study(hallway: Recording, tmp_path: Path, capsys, monkeypatch):
     for name, frames in [("one", range(40)), ("two", range(40, 80))]:
         save_npz(hallway.only(np.array(frames)), tmp_path / f"{name}.npz")
     files = [str(tmp_path / "one.npz"), str(tmp_path / "two.npz")]

@@ -53,7 +53,7 @@ def test_the_legend_counts_and_the_title_is_text():
     assert texts[1:] == ["180 points, 180 in segments", "1 segment", "laser", "a < b & c"]
 
 
-def test_a_scan_of_nothing_is_a_picture_too():
+def test_a_scan_without_points_gives_a_picture():
     assert drawn(Scan(np.full(3, np.nan), np.zeros(3))).find(f"{SVG}line") is None
 
 

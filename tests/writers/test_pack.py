@@ -35,7 +35,7 @@ def test_the_frame_opens_again_with_its_truth(pack):
     assert extract(opened[0], PARAMS).segments == extract(original, PARAMS).segments
 
 
-def test_it_is_known_by_its_content_and_not_by_its_name(pack, tmp_path):
+def test_a_pack_is_recognised_by_its_content_and_not_by_its_name(pack, tmp_path):
     other = pack.rename(tmp_path / "something.npz")
     assert open_recording(other).format == "failure pack"
     with zipfile.ZipFile(tmp_path / "plain.zip", "w") as plain, zipfile.ZipFile(other) as archive:
@@ -44,14 +44,14 @@ def test_it_is_known_by_its_content_and_not_by_its_name(pack, tmp_path):
         open_recording(tmp_path / "plain.zip")
 
 
-def test_it_says_where_it_came_from(pack):
+def test_a_pack_says_where_it_came_from(pack):
     about = read_pack(pack)
     assert (about.recording, about.frame, about.method) == ("hallway.npz", 17, "region-growing")
     assert about.note == "the door is bridged – why?"
     assert Params(**about.params) == PARAMS == read_params(content(pack, "lineseg.json"))
 
 
-def test_it_holds_what_was_found(pack):
+def test_a_pack_holds_the_result(pack):
     scan = open_recording(HALLWAY)[17]
     traced = trace(scan, PARAMS)
     rows = list(csv.DictReader(io.StringIO(content(pack, "frame.csv"))))
@@ -65,7 +65,7 @@ def test_it_holds_what_was_found(pack):
     assert content(pack, "note.txt") == "the door is bridged – why?\n"
 
 
-def test_the_same_pack_is_the_same_bytes():
+def test_packing_twice_gives_the_same_bytes():
     packs = [io.BytesIO(), io.BytesIO()]
     for pack in packs:
         write_pack(pack, open_recording(HALLWAY), 3)

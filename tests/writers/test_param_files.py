@@ -22,7 +22,7 @@ def thresholds():
 
 
 @given(thresholds(), st.sampled_from(list(PARAMS_WRITERS)))
-def test_what_is_written_is_read_back(params, format):
+def test_written_segments_are_read_back(params, format):
     assert read_params(params_text(params, format)) == params
 
 
@@ -73,7 +73,7 @@ def test_extensions_are_marked_where_the_format_has_comments():
         assert len(marked) == sum(knob.extension for _, _, knob in Params.knobs())
 
 
-def test_flags_are_those_of_the_command_line():
+def test_written_flags_are_flags_of_the_command_line():
     flags = params_text(Params(epsilon=0.05), "flags").split()
     again = subprocess.run(
         [sys.executable, "-m", "lineseg_app", "params", "--to", "flags", *flags],
@@ -84,7 +84,7 @@ def test_flags_are_those_of_the_command_line():
     assert again.stdout.split() == flags
 
 
-def test_a_file_of_a_node_with_other_settings_is_read():
+def test_a_node_file_with_other_settings_is_read():
     launch = """<?xml version="1.0"?>
     <launch><node pkg="line" type="line" name="line" output="screen">
         <param name="frame_id" value="laser"/> <param name="show_lines" value="true"/>
@@ -143,7 +143,7 @@ def test_a_whole_command_line_is_read():
         ('{"a":' * 100_000, "this is no JSON"),
     ],
 )
-def test_what_cannot_be_read_is_named_with_its_line(text, sentence):
+def test_an_unreadable_line_is_named_with_its_number(text, sentence):
     with pytest.raises(ValueError, match=f"^{sentence}"):
         read_params(text)
 

@@ -58,7 +58,7 @@ def test_values_of_numpy_are_written_as_numbers():
         assert "np." not in "".join(segment_lines(format, [row(0, wall)]))
 
 
-def test_a_stamp_that_is_no_number_is_null():
+def test_a_stamp_that_is_not_a_number_is_null():
     (line,) = segment_lines("jsonl", [row(0, stamp=math.nan)])
     assert json.loads(line)["stamp"] is None
 
@@ -83,7 +83,7 @@ def test_rows_are_written_as_they_come():
     assert stream.getvalue().count("\n") == 3
 
 
-def test_a_file_that_was_there_stays_when_writing_is_stopped(tmp_path):
+def test_an_existing_file_stays_when_writing_is_stopped(tmp_path):
     path = tmp_path / "out.jsonl"
     path.write_text("before")
 
@@ -110,7 +110,7 @@ def test_with_the_noise_given_each_segment_has_its_polar_form_and_covariance():
     assert numbers == [segment.rho, segment.theta, matrix[0, 0], matrix[0, 1], matrix[1, 1]]
 
 
-def test_a_covariance_that_there_is_none_of_is_null():
+def test_a_missing_covariance_is_null():
     scan = Scan(np.full(20, 2.0), np.full(20, 0.3))
     (line,) = segment_lines("jsonl", [(0, scan, extract(scan, Params(min_length=0)))], Noise(0.01))
     assert json.loads(line)["segments"][0]["covariance"] == [[None, None], [None, None]]

@@ -176,14 +176,14 @@ def test_version_is_said(run):
     assert re.fullmatch(r"lineseg \d+\.\d+\.\d+\n", out)
 
 
-def test_what_only_the_page_needs_is_not_loaded_for_the_rest():
+def test_other_commands_do_not_load_what_only_the_page_needs():
     heavy = {"viser", "fastapi", "uvicorn", "rosbags", "rerun"}
     script = f"import sys, lineseg_app.__main__; print(*{heavy} & set(sys.modules))"
     found = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
     assert found.stdout.strip() == ""
 
 
-def test_a_reader_of_a_pipe_may_leave_early(hall):
+def test_the_reader_of_a_pipe_may_stop_early(hall):
     command = f"{sys.executable} -m lineseg_app extract {hall} | head -n 1"
     found = subprocess.run(["bash", "-o", "pipefail", "-c", command], capture_output=True, text=True, check=True)
     assert (found.stdout.count("\n"), found.stderr) == (1, "")
@@ -249,7 +249,7 @@ def test_a_file_alone_is_viewed_until_ctrl_c(hall, tmp_path, arguments):
         (("ws://robot:9090", "--keep", "0"), "--keep is 0; allowed are 1 to 20000 scans"),
     ],
 )
-def test_a_robot_that_cannot_be_watched_is_named(run, arguments, sentence):
+def test_an_unreachable_robot_is_named(run, arguments, sentence):
     code, _, error = run(*arguments, "--no-browser")
     assert code == 2
     assert sentence in error

@@ -22,7 +22,7 @@ def score(capsys):
     return call
 
 
-def test_the_table_says_what_the_library_says(score):
+def test_the_table_has_the_numbers_of_the_library(score):
     total = Agreement.of_all(agreements(open_recording(HALLWAY)))
     code, out, _ = score(HALLWAY)
     assert code == 0
@@ -62,7 +62,7 @@ def test_labels_are_the_truth_of_the_frames_that_have_them(score, tmp_path):
         ([HALLWAY, "--json", "--csv"], "--json and --csv exclude each other"),
     ],
 )
-def test_what_cannot_be_scored_is_said_in_a_sentence(score, arguments, sentence):
+def test_a_recording_that_cannot_be_scored_gets_a_sentence(score, arguments, sentence):
     code, out, error = score(*arguments)
     assert (code, out) == (2, "")
     assert sentence in error

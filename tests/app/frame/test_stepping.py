@@ -14,7 +14,7 @@ from lineseg.baselines.ransac import RansacParams
 
 
 @pytest.mark.parametrize("name", ["lessons/2_grazing_wall", "lessons/6_curved_wall", "laboratory"])
-def test_the_columns_tell_every_decision(name):
+def test_the_columns_hold_every_decision(name):
     found = findings(open_recording(data_folder("sample_scans") / f"{name}.npz"), 0, "region-growing", Params())
     columns = columns_of(found)
     assert columns["total"] == len(found.trace)

@@ -142,7 +142,7 @@ def test_a_topic_of_another_type_is_named(robots: list[Robot], tmp_path: Path):
         assert "/scan is std_msgs/msg/String as cdr; a sensor_msgs/LaserScan" in waiting["note"]
 
 
-def test_a_server_that_takes_no_messages_is_told_where_segments_were_to_go(robots: list[Robot], tmp_path: Path):
+def test_segments_for_a_server_that_takes_no_messages_are_refused(robots: list[Robot], tmp_path: Path):
     robots.append(robot := Robot())
     channel = robot.channel("/scan", "cdr")
     with watching(robot.url, tmp_path) as server, page_of(server) as page:

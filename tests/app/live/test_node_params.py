@@ -36,7 +36,7 @@ def test_the_node_has_the_thresholds_afterwards(server: Address, peer: RosBridge
     assert peer.nodes["/line_extraction"]["seed_line_points"] == 7
 
 
-def test_what_the_node_refuses_is_shown_in_its_own_words_with_what_it_has(server: Address, peer: RosBridgePeer):
+def test_a_refusal_of_the_node_is_shown_in_its_words_with_its_values(server: Address, peer: RosBridgePeer):
     peer.nodes["/line_extraction"]["seed_line_points"] = 6.0
     rows = {row["threshold"]: row for row in sent(server, peer, extensions=True)}
     assert rows["epsilon"]["taken"]
@@ -67,14 +67,14 @@ def test_a_robot_of_ros_1_has_them_on_its_parameter_server(server: Address, peer
         ({"params": {"gamma": 1}}, 400, "there is no threshold 'gamma'"),
     ],
 )
-def test_what_cannot_be_sent_is_said(server: Address, peer: RosBridgePeer, asked: dict, status: int, sentence: str):
+def test_a_send_that_fails_says_why(server: Address, peer: RosBridgePeer, asked: dict, status: int, sentence: str):
     values = {"address": peer.url, "node": "/line_extraction", "params": {}} | asked
     answer = server.post("/api/robot/params", json=values)
     assert answer.status_code == status
     assert sentence in answer.json()["message"]
 
 
-def test_a_peer_that_speaks_no_rosbridge_is_said(server: Address):
+def test_a_peer_that_does_not_speak_rosbridge_is_named(server: Address):
     values = {"address": server.ws, "node": "/line_extraction", "params": {}}
     answer = server.post("/api/robot/params", json=values)
     assert answer.status_code == 502

@@ -17,7 +17,7 @@ def scan(number: int, beams: int = 3) -> LaserScan:
 
 
 @given(st.lists(st.integers(1, 9), max_size=60), st.integers(1, 7), st.integers(9, 30))
-def test_it_holds_the_newest_scans_that_there_is_room_for(lengths, most, most_beams):
+def test_the_ring_holds_the_newest_scans_that_fit(lengths, most, most_beams):
     ring, kept = Ring(most, most_beams), []
     for number, beams in enumerate(lengths):
         ring.add(scan(number, beams))
@@ -48,7 +48,7 @@ def test_a_snapshot_is_made_once():
     assert ring.snapshot() is ring.snapshot()
 
 
-def test_a_scan_beyond_all_room_is_refused_and_nothing_is_lost():
+def test_a_scan_that_is_too_large_is_refused_and_nothing_is_lost():
     ring = Ring(most=4, most_beams=5)
     ring.add(scan(0))
     with pytest.raises(ValueError, match="a scan of 6 beams; 5 are the most"):

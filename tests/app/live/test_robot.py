@@ -39,7 +39,7 @@ def test_scans_arrive_as_frames_and_the_newest_is_followed(peer: RosBridgePeer, 
         assert (status["message"], status["dropped"], status["delay"]) == ("", 0, None)
 
 
-def test_who_looks_at_a_frame_keeps_it_until_the_newest_is_wanted_again(peer: RosBridgePeer, tmp_path: Path):
+def test_a_selected_frame_stays_until_following_starts_again(peer: RosBridgePeer, tmp_path: Path):
     with watching(peer.url, tmp_path, keep=3) as server, page_of(server) as page:
         page.say(type="hello")
         send(peer, page, 4.0, 3.5, 3.0)
@@ -67,7 +67,7 @@ def test_the_scores_follow_the_scans(peer: RosBridgePeer, tmp_path: Path):
         assert surveyed["scores"]["segments"].tolist() == [1, 1, 1, 1]
 
 
-def test_a_robot_that_went_away_is_told_and_found_again(tmp_path: Path):
+def test_a_lost_robot_is_reported_and_found_again(tmp_path: Path):
     first = RosBridgePeer()
     with watching(first.url, tmp_path) as server, page_of(server) as page:
         page.say(type="hello")
@@ -85,7 +85,7 @@ def test_a_robot_that_went_away_is_told_and_found_again(tmp_path: Path):
             again.close()
 
 
-def test_a_robot_that_is_not_there_is_named_and_another_recording_can_be_opened(tmp_path: Path):
+def test_a_missing_robot_is_named_and_another_recording_can_be_opened(tmp_path: Path):
     gone = RosBridgePeer()
     gone.close()
     with watching(gone.url, tmp_path) as server, page_of(server) as page:
@@ -113,7 +113,7 @@ def test_a_robot_that_is_not_there_is_named_and_another_recording_can_be_opened(
         ),
     ],
 )
-def test_a_topic_that_cannot_be_had_is_named(tmp_path: Path, topic: str | None, peer_of: dict, sentence: str):
+def test_an_unavailable_topic_is_named(tmp_path: Path, topic: str | None, peer_of: dict, sentence: str):
     peer = RosBridgePeer(**peer_of)
     try:
         with watching(peer.url, tmp_path, topic=topic) as server, page_of(server) as page:
@@ -129,7 +129,7 @@ def test_without_a_topic_the_first_of_laser_scans_is_taken(peer: RosBridgePeer, 
         assert send(peer, page, 4.0)["topic"] == "/scan"
 
 
-def test_what_is_no_scan_is_counted_and_the_next_scan_is_taken(peer: RosBridgePeer, tmp_path: Path):
+def test_a_message_that_is_not_a_scan_is_counted_and_skipped(peer: RosBridgePeer, tmp_path: Path):
     with watching(peer.url, tmp_path) as server, page_of(server) as page:
         page.say(type="hello")
         assert peer.subscribed.wait(60)
@@ -177,7 +177,7 @@ def test_ros_1_is_answered_in_its_own_words(peer: RosBridgePeer, tmp_path: Path)
         assert message["markers"][0]["header"]["stamp"] == {"secs": 9, "nsecs": 5}
 
 
-def test_two_tabs_do_not_publish_at_once_and_a_closed_tab_does_no_longer(peer: RosBridgePeer, tmp_path: Path):
+def test_only_one_tab_publishes_and_a_closed_tab_stops(peer: RosBridgePeer, tmp_path: Path):
     with watching(peer.url, tmp_path) as server, page_of(server) as page, page_of(server) as other:
         sessions = []
         for each in (page, other):
@@ -195,7 +195,7 @@ def test_two_tabs_do_not_publish_at_once_and_a_closed_tab_does_no_longer(peer: R
         assert server.post("/api/robot/segments", json=asked[1]).status_code == 200
 
 
-def test_what_no_bridge_would_send_ends_the_connection_and_not_the_program(peer: RosBridgePeer, tmp_path: Path):
+def test_an_impossible_message_ends_the_connection_and_not_the_program(peer: RosBridgePeer, tmp_path: Path):
     peer._service = lambda service, args: {"topics": 3, "types": None}  # type: ignore[method-assign]
     with watching(peer.url, tmp_path) as server, page_of(server) as page:
         page.say(type="hello")
@@ -203,7 +203,7 @@ def test_what_no_bridge_would_send_ends_the_connection_and_not_the_program(peer:
         assert "sent what cannot be understood" in note
 
 
-def test_what_cannot_be_published_is_said(server: Address, page: Page):
+def test_a_publication_that_fails_says_why(server: Address, page: Page):
     page.hello()
     for asked, sentence in [
         ({"session": "nobody", "on": True}, "reload the page"),

@@ -58,7 +58,7 @@ def test_every_valid_point_is_there_in_the_class_of_its_segment(recorded: Path, 
     assert all(len(set(classes[labels == label])) == 1 for label in range(len(found.segments)))
 
 
-def test_scores_decisions_dropped_candidates_and_truth_stand_at_their_frames(recorded: Path, hallway: Recording):
+def test_scores_decisions_dropped_candidates_and_truth_are_logged_at_their_frames(recorded: Path, hallway: Recording):
     counts = {row["frame"]: row["scalars"] for row in rows_of(recorded, "/scores/segments")}
     assert counts == {frame: [len(extract(hallway[frame], Params(epsilon=0.02)).segments)] for frame in range(10, 40)}
     said = [row["text"][0] for row in rows_of(recorded, "/decisions") if row["frame"] == 11]
@@ -158,7 +158,7 @@ def test_the_command_line_writes_the_frames_it_is_asked_for(tmp_path: Path, caps
     assert "there is no method 'magic'" in capsys.readouterr().err
 
 
-def test_a_recording_that_is_stopped_leaves_the_file_that_was_there(hallway: Recording, tmp_path: Path):
+def test_a_stopped_recording_leaves_the_existing_file(hallway: Recording, tmp_path: Path):
     file = tmp_path / "run.rrd"
     file.write_text("as it was")
 
@@ -182,7 +182,7 @@ def test_the_example_of_the_module_runs_and_logs_each_frame(tmp_path: Path):
     assert [row["frame"] for row in rows] == list(range(len(open_recording(SAMPLE))))
 
 
-def test_one_line_adds_a_frame_to_a_recording_of_ones_own(hallway: Recording, tmp_path: Path):
+def test_one_line_adds_a_frame_to_your_own_recording(hallway: Recording, tmp_path: Path):
     stream = rr.RecordingStream("my_robot")
     stream.save(tmp_path / "own.rrd")
     lineseg.rerun.log("robot/laser", extract(hallway[0]), hallway[0], stream)
@@ -202,7 +202,7 @@ print(main(["extract", sys.argv[1], "-o", "segments.jsonl"]), main(["record", sy
 """
 
 
-def test_without_rerun_all_else_works_and_one_sentence_says_what_to_install(tmp_path: Path):
+def test_without_rerun_everything_else_works_and_a_sentence_says_what_to_install(tmp_path: Path):
     command = [sys.executable, "-c", WITHOUT_RERUN, str(SAMPLE)]
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=120)
     assert done.stdout.split() == ["True", "0", "2"], done.stderr

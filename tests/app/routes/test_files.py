@@ -127,7 +127,7 @@ def test_a_damaged_list_of_recent_files_is_an_empty_one(tmp_path, content):
     assert Recent(tmp_path).paths() == []
 
 
-def test_a_folder_that_cannot_be_written_is_no_reason_to_stop(tmp_path):
+def test_an_unwritable_folder_does_not_stop_the_server(tmp_path):
     (tmp_path / "file").write_text("")
     recent = Recent(tmp_path / "file")
     recent.add(tmp_path / "a.bag")
@@ -146,14 +146,14 @@ def test_thresholds_survive_export_and_import(server: Address, to: str):
     ("query", "named"),
     [("to=xml", "xml"), ("epsilon=-1", "epsilon"), ("epsilon=wide", "epsilon"), ("gamma=1", "gamma")],
 )
-def test_an_export_that_cannot_be_is_told_in_a_sentence(server: Address, query: str, named: str):
+def test_an_impossible_export_gets_a_sentence(server: Address, query: str, named: str):
     answer = server.get(f"/api/params?{query}")
     assert answer.status_code == 400
     assert named in answer.json()["message"]
 
 
 @pytest.mark.parametrize("text", [b"", b"\xff\xfe", b"<launch>", b"[1, 2", b"epsilon: wide"])
-def test_an_import_that_cannot_be_is_told_in_a_sentence(server: Address, text: bytes):
+def test_an_impossible_import_gets_a_sentence(server: Address, text: bytes):
     answer = server.post("/api/params", content=text)
     assert answer.status_code == 400
     assert "\n" not in answer.json()["message"].strip()
@@ -173,7 +173,7 @@ def test_segments_of_the_whole_recording_come_as_a_file(server: Address, page: P
     assert "walls.npz.jsonl" in answer.headers["content-disposition"]
 
 
-def test_segments_of_nobody_are_not_found(server: Address):
+def test_segments_of_an_unknown_session_are_not_found(server: Address):
     assert server.get("/api/segments?session=nobody").status_code == 404
 
 

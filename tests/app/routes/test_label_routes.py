@@ -104,7 +104,7 @@ def test_segments_are_judged_by_labels_once_there_are_some_and_by_the_wall_on_de
         assert (total["judgedBy"], total["agreement"]["trueLines"]) == ("wall", by_wall.true_lines)
 
 
-def test_who_has_not_seen_the_newest_is_told_and_overwrites_nothing(own, page, sidecar):
+def test_an_edit_of_an_old_revision_is_refused_and_overwrites_nothing(own, page, sidecar):
     state = page.hello(mode="inspect")
     put(own, state, note="first")
     put(own, state, frame=1, note="another frame")
@@ -132,7 +132,7 @@ def test_who_has_not_seen_the_newest_is_told_and_overwrites_nothing(own, page, s
         ),
     ],
 )
-def test_a_file_that_cannot_be_read_is_told_and_stays_and_the_recording_opens(own, page, sidecar, content, sentence):
+def test_an_unreadable_label_file_is_reported_and_kept_and_the_recording_opens(own, page, sidecar, content, sentence):
     sidecar.write_text(content)
     state = page.hello(mode="inspect")
     assert sentence in state["labels"]["trouble"]
@@ -143,7 +143,7 @@ def test_a_file_that_cannot_be_read_is_told_and_stays_and_the_recording_opens(ow
     assert sidecar.read_text() == content
 
 
-def test_a_place_that_cannot_be_written_is_told(own, page, sidecar):
+def test_an_unwritable_place_is_reported(own, page, sidecar):
     sidecar.mkdir()
     state = page.hello(mode="inspect")
     assert "cannot be read: Is a directory" in state["labels"]["trouble"]
@@ -189,7 +189,7 @@ def test_labels_of_the_same_bytes_are_found_again(own, page, file):
         ({"recording": "live:1"}, 400, "live recording"),
     ],
 )
-def test_what_cannot_be_said_is_refused_with_a_sentence(own, page, sidecar, said, status, sentence):
+def test_invalid_labels_are_refused_with_a_sentence(own, page, sidecar, said, status, sentence):
     state = page.hello(mode="inspect")
     refused = put(own, state, **said)
     assert (refused.status_code, sentence in refused.json()["message"]) == (status, True), refused.text
@@ -205,7 +205,7 @@ def test_the_points_of_a_frame_are_given_beam_by_beam(own, page, file):
     assert answer["fullCircle"] is False
 
 
-def test_what_another_program_has_saved_is_seen_at_the_next_picture(page, sidecar, file):
+def test_labels_saved_by_another_program_appear_in_the_next_picture(page, sidecar, file):
     page.hello(mode="inspect")
     save_labels(sidecar, open_recording(file), 1, FrameLabels(note="from a script"))
     assert page.change(frame=1)["labels"]["note"] == "from a script"

@@ -24,7 +24,7 @@ def server(tmp_path: Path) -> Iterator[Address]:
         yield address
 
 
-def test_what_is_posted_is_a_live_recording(server: Address):
+def test_posted_scans_become_a_live_recording(server: Address):
     with page_of(server) as page:
         page.hello()
         answer = server.post("/api/scans/simulator", json=scan_message(wall(3.0)))
@@ -39,7 +39,7 @@ def test_what_is_posted_is_a_live_recording(server: Address):
         assert (last["live"], last["frame"], nearest(last)) == (True, 2, pytest.approx(1.5, abs=1e-3))
 
 
-def test_a_socket_takes_scan_after_scan_and_says_what_is_none(server: Address):
+def test_a_socket_takes_scan_after_scan_and_names_what_is_not_one(server: Address):
     with connect(f"{server.ws}/api/scans/simulator", proxy=None) as socket:
         socket.send(json.dumps(scan_message(wall(3.0))))
         socket.send("hello")
@@ -53,7 +53,7 @@ def test_a_socket_takes_scan_after_scan_and_says_what_is_none(server: Address):
             assert page.heard("live", lambda m: m["refused"] == 1)["publishable"] is False
 
 
-def test_a_live_recording_is_recorded_for_rerun_as_it_stands(server: Address, tmp_path: Path):
+def test_a_live_recording_is_recorded_for_rerun_in_its_current_state(server: Address, tmp_path: Path):
     for distance in (3.0, 2.5):
         server.post("/api/scans/simulator", json=scan_message(wall(distance)))
     with page_of(server) as page:
@@ -79,7 +79,7 @@ def test_a_live_recording_is_recorded_for_rerun_as_it_stands(server: Address, tm
         ("%00", b"{}", 400, "is no name"),
     ],
 )
-def test_what_cannot_be_taken_is_refused(server: Address, name: str, content: bytes, status: int, sentence: str):
+def test_an_invalid_scan_is_refused(server: Address, name: str, content: bytes, status: int, sentence: str):
     answer = server.post(f"/api/scans/{name}", content=content)
     assert answer.status_code == status
     assert sentence in answer.text
@@ -111,7 +111,7 @@ def test_a_foreign_page_may_not_push(server: Address):
         pass
 
 
-def test_where_there_is_a_token_a_program_brings_it_as_bearer(tmp_path: Path):
+def test_a_program_sends_the_token_as_bearer(tmp_path: Path):
     with serving(Settings(data_folder=tmp_path, token="correct horse")) as server:
         answers = [
             server.post("/api/scans/a", json=scan_message([1.0]), headers=headers)
@@ -125,7 +125,7 @@ def test_where_there_is_a_token_a_program_brings_it_as_bearer(tmp_path: Path):
             assert "no JSON" in json.loads(socket.recv(timeout=20))["error"]
 
 
-def test_a_live_source_that_is_not_there_is_said(server: Address):
+def test_an_unknown_live_source_is_named(server: Address):
     with page_of(server) as page:
         page.hello()
         assert "nothing was pushed under this name" in page.refused(recording="live:nobody")["message"]

@@ -217,7 +217,7 @@ def test_a_pinned_result_lies_under_the_present_one_and_what_changed_stands_out(
         assert tuple(colours.reshape(-1, 3)[0].tolist()) == (LIGHT.pinned if fate == KEPT else LIGHT.changed)
 
 
-def test_verdicts_replace_the_segments_only_where_they_are_asked_for(corners):
+def test_verdicts_replace_the_segments_only_on_request(corners):
     scan = corners[0]
     wall = np.where(np.arange(len(scan)) < len(scan) // 2, 0, 1)
     known = Recording.from_scans([replace(scan, wall=wall)])

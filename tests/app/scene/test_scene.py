@@ -68,7 +68,7 @@ def test_changes_reach_the_scene(server: Address, page: Page):
         assert "points" in hear(socket, "SceneNodeUpdateMessage", name="/points")["updates"]
 
 
-def test_what_is_as_before_is_not_sent_again(server: Address, page: Page):
+def test_unchanged_things_are_not_sent_again(server: Address, page: Page):
     page.hello()
     with scene_of(server, page) as socket:
         hear(socket, "ReplayDoneMessage")

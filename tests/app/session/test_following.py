@@ -39,7 +39,7 @@ def test_a_follower_sees_what_its_presenter_does_and_can_change_nothing(server: 
         assert teacher.change(frame=1)["params"]["epsilon"] == 0.05
 
 
-def test_a_follower_is_judged_by_what_its_presenter_is(server: Address):
+def test_a_follower_is_compared_with_the_reference_of_its_presenter(server: Address):
     with page_of(server) as teacher, page_of(server) as pupil:
         teacher.hello()
         teacher.change(mode="inspect", reference="wall")
@@ -49,7 +49,7 @@ def test_a_follower_is_judged_by_what_its_presenter_is(server: Address):
         assert error["message"] == "this tab follows a presenter; stop following to change what it shows"
 
 
-def test_a_presenter_may_be_away_come_back_and_be_gone(server: Address):
+def test_a_presenter_can_be_away_return_and_leave(server: Address):
     with page_of(server) as pupil:
         with page_of(server) as teacher:
             teacher.hello()
@@ -67,7 +67,7 @@ def test_a_presenter_may_be_away_come_back_and_be_gone(server: Address):
         assert state["following"] == "gone"
 
 
-def test_gone_is_the_last_word_of_a_presenter():
+def test_a_presenter_that_has_left_stays_away():
     presenter, early, late = Presenter(), Note(), Note()
     view = View(recording="samples/hallway")
     presenter.show(view)
@@ -80,7 +80,7 @@ def test_gone_is_the_last_word_of_a_presenter():
     assert late.told == ["gone"]
 
 
-def test_who_asks_for_a_link_to_nobody_leaves_its_presenter(server: Address):
+def test_following_an_unknown_id_leaves_the_presenter(server: Address):
     with page_of(server) as teacher, page_of(server) as pupil:
         teacher.hello()
         pupil.hello(follow=teacher.welcome["presenter"])
@@ -93,7 +93,7 @@ def test_who_asks_for_a_link_to_nobody_leaves_its_presenter(server: Address):
         assert pupil.change(dark=True)["frame"] == 0
 
 
-def test_a_link_to_nobody_says_so_and_a_session_is_no_link(server: Address):
+def test_a_link_to_an_unknown_id_says_so_and_a_session_id_is_not_a_link(server: Address):
     with page_of(server) as teacher, page_of(server) as pupil:
         teacher.hello()
         pupil.say(type="hello", follow=teacher.welcome["session"])

@@ -92,7 +92,7 @@ def test_a_bad_threshold_is_refused_and_the_old_one_stays(page: Page):
         ({"recording": "x" * 9000}, "view", "recording"),
     ],
 )
-def test_what_is_no_view_is_named_in_one_sentence(page: Page, patch, where, named):
+def test_an_invalid_view_gets_one_sentence(page: Page, patch, where, named):
     page.hello()
     error = page.refused(**patch)
     assert (error["where"], error["rev"]) == (where, 1)
@@ -101,13 +101,13 @@ def test_what_is_no_view_is_named_in_one_sentence(page: Page, patch, where, name
     assert page.change(frame=2)["frame"] == 2
 
 
-def test_a_first_message_says_what_it_will_and_gets_a_picture(page: Page):
+def test_a_first_message_with_any_view_gets_a_picture(page: Page):
     state = page.hello(frame=2, mode="zz", topic="x" * 400, selected=3e99, params={"self": 1, "delta": 0.3}, zoom=[])
     assert (state["frame"], state["mode"], state["params"]["delta"]) == (2, "tune", 0.3)
     assert page.last["error"]["message"].startswith("mode is 'zz'")
 
 
-def test_a_link_opened_in_a_tab_gets_what_can_be_had_and_the_rest_is_told(page: Page):
+def test_a_link_opened_in_a_tab_is_applied_as_far_as_possible(page: Page):
     page.hello()
     page.say(type="link", rev=1, patch={"frame": 2, "params": {"epsilon": -1, "delta": 0.3}})
     state = page.drawn_or_told(1)
@@ -117,7 +117,7 @@ def test_a_link_opened_in_a_tab_gets_what_can_be_had_and_the_rest_is_told(page: 
     assert page.drawn(2)["state"]["frame"] == 2
 
 
-def test_what_is_no_json_does_not_end_the_tab(page: Page):
+def test_a_message_that_is_not_json_does_not_end_the_tab(page: Page):
     page.hello()
     page._socket.send("{")
     assert page.hear_a("error")["where"] == "view"
@@ -188,7 +188,7 @@ def test_a_tab_that_comes_back_finds_its_session(server: Address, page: Page):
         assert "marks" in state
 
 
-def test_a_session_with_a_page_is_not_shared_with_another(server: Address, page: Page):
+def test_a_session_belongs_to_one_page_only(server: Address, page: Page):
     page.hello()
     with page_of(server) as copy:
         copy.hello(session=page.welcome["session"], frame=4)
@@ -233,7 +233,7 @@ def test_too_many_tabs_are_told_so_and_room_is_made_by_those_that_left(tmp_path)
             assert server.get(first.welcome["viser"]).status_code == 404
 
 
-def test_a_session_whose_page_stays_away_is_closed(tmp_path):
+def test_a_session_without_a_page_is_closed_in_time(tmp_path):
     settings = Settings(data_folder=tmp_path, sessions=SessionLimits(grace=0.05))
     with serving(settings) as server:
         with page_of(server) as page:

@@ -59,7 +59,7 @@ def assert_same(message: dict, recording: Recording, params: Params) -> None:
         np.testing.assert_array_equal(message["scores"][name], expected.score(name), err_msg=name)
 
 
-def test_the_strip_comes_behind_the_first_picture_and_says_what_the_library_says(page: Page, recordings: Path):
+def test_the_strip_comes_after_the_first_picture_with_the_numbers_of_the_library(page: Page, recordings: Path):
     page.hello()
     message = page.hear()
     assert (message["type"], message["frames"], message["stride"], message["message"]) == ("survey", 5, 1, None)
@@ -72,7 +72,7 @@ def test_the_scores_are_described_in_the_welcome(page: Page):
     assert all(score["help"] and score["worse"] in ("higher", "lower") for score in page.welcome["scores"])
 
 
-def test_a_long_recording_is_glanced_at_first(long_page: Page, long: Recording):
+def test_a_long_recording_is_first_surveyed_coarsely(long_page: Page, long: Recording):
     long_page.hello()
     glance, full = long_page.hear(), long_page.hear()
     assert (glance["type"], glance["stride"], full["stride"]) == ("survey", stride_of(long), 1)
@@ -95,7 +95,7 @@ def test_the_strip_follows_the_newest_of_many_changes(long_page: Page, long: Rec
     assert_same(surveys[-1], long, Params(epsilon=steps[-1]))
 
 
-def test_what_is_no_longer_wanted_is_only_glanced_at(long: Recording):
+def test_an_outdated_survey_is_only_done_coarsely(long: Recording):
     heard: queue.Queue[Surveyed] = queue.Queue()
     old, new = View(recording="long"), View(recording="long", params=Params(epsilon=0.05))
 
@@ -115,7 +115,7 @@ def test_what_is_no_longer_wanted_is_only_glanced_at(long: Recording):
     assert heard.empty()
 
 
-def test_stability_is_computed_behind_the_rest_where_it_is_looked_at(page: Page, recordings: Path):
+def test_stability_is_computed_last_and_only_on_request(page: Page, recordings: Path):
     page.hello()
     assert np.isnan(whole(page)["scores"]["unstable"]).all()
     page.ask(score="unstable")
@@ -160,7 +160,7 @@ def test_a_tab_that_comes_back_gets_the_strip_again(server: Address, page: Page)
         np.testing.assert_array_equal(whole(again)["scores"]["coverage"], before["scores"]["coverage"])
 
 
-def test_after_a_recording_that_cannot_be_opened_the_strip_is_that_of_the_old_one(page: Page):
+def test_after_a_failed_load_the_strip_stays_that_of_the_old_recording(page: Page):
     page.hello()
     whole(page)
     page.refused(recording="file:nothing")
@@ -184,7 +184,7 @@ def test_a_survey_that_fails_says_so_and_the_next_one_runs(recordings: Path):
     strip.close()
 
 
-def test_a_glance_holds_each_frame_between_those_beside_it(long: Recording):
+def test_a_coarse_survey_keeps_each_frame_with_its_neighbours(long: Recording):
     glance = glance_of(long, 100)
     assert len(glance) == 60
     for k, frame in enumerate([0, 0, 1, 99, 100, 101, 199, 200, 201]):

@@ -38,7 +38,7 @@ def test_every_file_is_a_lesson():
 
 
 @pytest.mark.parametrize("lesson", LESSONS.lessons, ids=lambda lesson: lesson.id)
-def test_every_decision_a_lesson_shows_is_there(lesson: NamedLesson):
+def test_every_decision_that_a_lesson_shows_exists(lesson: NamedLesson):
     scan, base = scan_of(lesson), Params().but(**lesson.params)
     for step in lesson.steps:
         params = base.but(**step.params)
@@ -55,7 +55,7 @@ def test_a_task_offers_the_thresholds_it_wants_changed(lesson: NamedLesson):
     assert set(lesson.task.goal.changed) <= set(lesson.knobs)
 
 
-def test_a_file_that_is_no_lesson_is_named_with_what_is_wrong(tmp_path: Path):
+def test_a_file_that_is_not_a_lesson_is_named_with_its_error(tmp_path: Path):
     good = lesson_files()[0]
     (tmp_path / "bad.json").write_text(good.read_text("utf-8").replace('"about"', '"abuot"'), "utf-8")
     (tmp_path / "worse.json").write_text("{", "utf-8")
@@ -65,6 +65,6 @@ def test_a_file_that_is_no_lesson_is_named_with_what_is_wrong(tmp_path: Path):
     assert "abuot" in told.broken[0] or "about" in told.broken[0]
 
 
-def test_the_server_offers_them_in_order(server: Address):
+def test_the_server_offers_the_lessons_in_order(server: Address):
     told = server.get("/api/lessons").json()
     assert [lesson["id"] for lesson in told["lessons"]] == [file.stem for file in lesson_files()]

@@ -49,7 +49,7 @@ def test_a_long_load_tells_its_progress(shelf: Address):
         assert message["state"]["frames"] == 20_000
 
 
-def test_a_load_can_be_cancelled_and_begun_again(shelf: Address):
+def test_a_load_can_be_cancelled_and_started_again(shelf: Address):
     with page_of(shelf) as page:
         page.hello(frame=3)
         rev = page.ask(recording=ids(page)["long.log"])
@@ -70,7 +70,7 @@ def test_another_choice_ends_a_load(shelf: Address):
         assert page.change(recording=ids(page)["walls.npz"])["label"] == "walls.npz"
 
 
-def test_a_load_that_one_tab_gives_up_goes_on_for_another(long: Path, tmp_path: Path):
+def test_a_load_that_one_tab_cancels_continues_for_another(long: Path, tmp_path: Path):
     library = Library([long], Recent(tmp_path), Uploads(1, 1, 1))
     with pytest.raises(Cancelled):
         library.recording(library.first(), wanted=lambda: False)
@@ -78,7 +78,7 @@ def test_a_load_that_one_tab_gives_up_goes_on_for_another(long: Path, tmp_path: 
     assert library.recording(library.first()) is library.recording(library.first())
 
 
-def test_a_broken_file_of_the_command_line_is_told_and_a_sample_is_shown(tmp_path: Path):
+def test_a_broken_file_of_the_command_line_is_reported_and_a_sample_is_shown(tmp_path: Path):
     broken = [tmp_path / "broken.bag", tmp_path / "empty.npz"]
     broken[0].write_bytes(b"#ROSBAG V2.0\nnothing")
     broken[1].write_bytes(b"")
@@ -89,7 +89,7 @@ def test_a_broken_file_of_the_command_line_is_told_and_a_sample_is_shown(tmp_pat
         assert page.hear_a("drawn")["state"]["format"] == "NPZ"
 
 
-def test_a_topic_that_is_not_in_the_file_is_told(recordings: Path, tmp_path: Path):
+def test_a_topic_that_is_not_in_the_file_is_reported(recordings: Path, tmp_path: Path):
     settings = Settings(files=(recordings / "walls.npz",), topic="/rear", data_folder=tmp_path)
     with serving(settings) as server, page_of(server) as page:
         page.say(type="hello", view={"frame": 2})

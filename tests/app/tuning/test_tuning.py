@@ -75,7 +75,7 @@ def tab(bench: Address) -> Iterator[tuple[Page, Bench]]:
             yield page, Bench(socket)
 
 
-def test_curves_come_coarse_first_and_end_with_what_the_library_says_of_all_frames(tab, hall: Path):
+def test_curves_come_coarse_first_and_end_with_the_numbers_of_the_library(tab, hall: Path):
     _, bench = tab
     *stages, end = bench.answers(bench.ask("curves", params={"min_points": 12}))
     assert [stage["frames"] for stage in stages] == [40, FRAMES]
@@ -112,7 +112,7 @@ def test_a_map_gets_finer_and_can_be_stopped(tab, hall: Path):
     assert bench.answers(job)[-1].get("stopped")
 
 
-def test_auto_tuning_tells_trials_and_verdict_and_goes_on_later(tab, hall: Path):
+def test_auto_tuning_sends_trials_and_a_verdict_and_continues_later(tab, hall: Path):
     _, bench = tab
     first, *answers, end = bench.answers(bench.tune())
     assert "Maximises the harmonic mean" in first["text"]
@@ -152,7 +152,7 @@ def test_auto_tuning_stops_when_told_and_judges_what_it_has(tab):
         ({"type": "dance"}, "dance"),
     ],
 )
-def test_what_cannot_be_is_said_and_the_socket_stays(tab, wish: dict[str, Any], said: str):
+def test_an_impossible_request_is_refused_and_the_socket_stays_open(tab, wish: dict[str, Any], said: str):
     _, bench = tab
     kind = wish.pop("type")
     bench.ask(kind, **wish)
@@ -171,7 +171,7 @@ def test_without_trials_with_a_score_the_page_is_told_why(tab):
     assert "4 or more frames" in bench.answers(bench.tune())[-1]["message"]
 
 
-def test_a_tab_that_is_not_there_gets_a_sentence(bench: Address):
+def test_an_unknown_tab_gets_a_sentence(bench: Address):
     with connect(f"{bench.ws}/api/tuning?session=gone", max_size=None, proxy=None) as socket:
         lonely = Bench(socket)
         lonely.ask("curves")
