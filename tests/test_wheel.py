@@ -15,6 +15,7 @@ import httpx
 import pytest
 
 ROOT = Path(__file__).parents[1]
+pytestmark = pytest.mark.server
 PLACES = {"lineseg": "lineseg", "app": "lineseg_app", "static": "lineseg_app/static"}
 
 
