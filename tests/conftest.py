@@ -31,7 +31,7 @@ def reference_dir() -> Path:
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark what starts a server or a browser: the tests of a file that imports one of the helpers that do."""
+    """Mark tests that start a server or a browser: those in files that import a helper that does."""
     helpers = {"live", "robots", "processes"}
     for item in items:
         imported = {getattr(value, "__module__", None) for value in vars(getattr(item, "module", item)).values()}
@@ -40,7 +40,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
-    """Where everything is installed, nothing may be skipped."""
+    """If everything is installed, no test may be skipped."""
     skipped = terminalreporter.stats.get("skipped", [])
     if skipped and os.environ.get("LINESEG_NOTHING_SKIPPED"):
         terminalreporter.write_line(f"{len(skipped)} tests were skipped, and LINESEG_NOTHING_SKIPPED is set", red=True)

@@ -1,4 +1,4 @@
-"""A real server in a thread, and a page that speaks with it over a real WebSocket."""
+"""A real server in a thread, and a page that talks to it over a real WebSocket."""
 
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ def serving(settings: Settings) -> Iterator[Address]:
 
 
 class Page:
-    """What the browser's page does on its socket."""
+    """Does what the page in the browser does on its socket."""
 
     def __init__(self, socket: ClientConnection) -> None:
         self._socket = socket
@@ -94,20 +94,20 @@ class Page:
         return message
 
     def heard(self, of: str, until: Callable[[dict[str, Any]], Any]) -> dict[str, Any]:
-        """The last message of a type, or the first from now on, for which `until` holds."""
+        """The last message of a type, or the next one, for which `until` holds."""
         message = self.last.get(of)
         while message is None or not until(message):
             message = self.hear_a(of)
         return message
 
     def hello(self, session: str | None = None, follow: str | None = None, **view: Any) -> dict[str, Any]:
-        """Say hello; the first picture's state."""
+        """Say hello; return the state of the first picture."""
         self.say(type="hello", session=session, view=view, follow=follow)
         self.welcome = self.hear_a("welcome")
         return self.hear_a("drawn")["state"]
 
     def ask(self, **patch: Any) -> int:
-        """Ask for a change without waiting; its revision."""
+        """Ask for a change without waiting; return its revision."""
         self._rev += 1
         self.say(type="view", rev=self._rev, patch=patch)
         return self._rev
@@ -122,19 +122,19 @@ class Page:
                 return message
 
     def drawn_or_told(self, rev: int) -> dict[str, Any]:
-        """The state of the first picture that contains revision `rev`, whatever complaint comes before it."""
+        """The state of the first picture that contains revision `rev`, even if an error comes before it."""
         return self.heard("drawn", lambda message: message["rev"] >= rev)["state"]
 
     def change(self, **patch: Any) -> dict[str, Any]:
-        """Change the View; the state of the picture that shows it."""
+        """Change the View; return the state of the picture that shows it."""
         return self.drawn(self.ask(**patch))["state"]
 
     def until(self, condition: Callable[[dict[str, Any]], bool]) -> dict[str, Any]:
-        """The state that was drawn last, or the first from now on, for which the condition holds."""
+        """The last drawn state, or the next one, for which the condition holds."""
         return self.heard("drawn", lambda message: condition(message["state"]))["state"]
 
     def refused(self, **patch: Any) -> dict[str, Any]:
-        """Ask for what cannot be; the error."""
+        """Ask for something impossible; return the error."""
         self.ask(**patch)
         return self.hear_a("error")
 

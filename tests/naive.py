@@ -1,6 +1,6 @@
-"""The method once more: slow, literal, and independent of the kernels. The tests hold the kernels against it.
+"""The method again, slow, literal, and independent of the kernels. The tests compare the kernels with it.
 
-Positions count the valid points in scan order; on a full circle they go on counting past the seam, in both directions.
+Positions count the valid points in scan order; on a full circle they continue past the seam in both directions.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ class RegionGrowing:
             self.turn(int(np.argmax(gaps)) + 1)
 
     def turn(self, start):
-        """On a full circle: begin with another point."""
+        """Full circle only: start with another point."""
         self.points = self.points[start:] + self.points[:start]
         self.beams = self.beams[start:] + [k + self.width for k in self.beams[:start]]
         self.passed = {(k - start) % self.n for k in self.passed}
@@ -148,13 +148,13 @@ class RegionGrowing:
         return [line for line in self.cut(self.merge(found)) if self.suffices(*line)]
 
     def pairs(self, lines):
-        """Neighbours (i, j, turn); on a full circle also the last and the first, one turn further on."""
+        """Neighbours (i, j, turn); on a full circle also the last and the first line, one turn later."""
         yield from ((i, i + 1, 0) for i in range(len(lines) - 1))
         if self.circle and len(lines) > 1:
             yield len(lines) - 1, 0, self.n
 
     def are_one(self, one, two):
-        """Whether two neighbours, the second counted on where a full circle has been turned, become one line."""
+        """Whether two neighbours become one line; positions of the second continue past the seam of a full circle."""
         if one == two:
             return True
         last, first, strict = one[1], two[0], self.params.merge_rms > 0

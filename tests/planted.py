@@ -13,7 +13,7 @@ Plant = Callable[[Scan, np.random.Generator], np.ndarray | None]
 
 
 def _wall(scan: Scan, rng: np.random.Generator, points: int, length: float) -> np.ndarray | None:
-    """The beams of some wall of at least so many points and metres, not seen at a grazing angle."""
+    """The beams of a wall with at least this many points and metres, not seen at a grazing angle."""
     found = extract(scan)
 
     def is_good(wall: Segment) -> bool:
@@ -25,7 +25,7 @@ def _wall(scan: Scan, rng: np.random.Generator, points: int, length: float) -> n
 
 
 def split_wall(scan, rng):
-    """A wall behind posts: some beams in a row are lost, again and again, and what was one segment becomes several."""
+    """A wall behind posts: groups of consecutive beams are lost, and one segment becomes several."""
     wall = _wall(scan, rng, 50, 1.8)
     if wall is None:
         return None
@@ -38,7 +38,7 @@ def split_wall(scan, rng):
 
 
 def missed_wall(scan, rng):
-    """A wall comes back rougher than ε: no line is found where there is one."""
+    """A wall appears rougher than ε, so its line is not found."""
     wall = _wall(scan, rng, 40, 1.2)
     if wall is None:
         return None
@@ -48,7 +48,7 @@ def missed_wall(scan, rng):
 
 
 def bridged_door(scan, rng):
-    """A few beams go through an open door, where the wall is seen at a grazing angle: the line goes on behind it."""
+    """A few beams pass through an open door in a wall seen at a grazing angle, and the line continues beyond it."""
     found = extract(scan)
     doors = []
     for k in range(len(found.segments)):
@@ -74,7 +74,7 @@ def shifted_sensor(scan, rng):
 
 
 def dropped_sector(scan, rng):
-    """The sector of one wall and as much to either side is lost, as behind a hand."""
+    """The sector of one wall, and as much on either side, is lost, as behind a hand."""
     wall = _wall(scan, rng, 60, 1.2)
     if wall is None:
         return None
@@ -112,7 +112,7 @@ def bent_wall(scan, rng):
 
 
 def quantised(scan, rng):
-    """Ranges come in steps of 8 cm, as from a device set wrongly."""
+    """Ranges come in steps of 8 cm, as from a wrongly configured device."""
     return np.round(scan.ranges / 0.08) * 0.08
 
 
@@ -123,7 +123,7 @@ PLANTS: tuple[Plant, ...] = (
 
 
 def planted(recording: Recording, seed: int) -> tuple[Recording, dict[int, str]]:
-    """The recording with one of each PLANTS, in frames that are no neighbours, and which frame has which."""
+    """The recording with one of each of PLANTS in frames that are not neighbours, and which frame has which."""
     rng = np.random.default_rng(seed)
     free = list(rng.permutation(np.arange(2, len(recording) - 2)))
     ranges, where = recording.ranges.copy(), {}

@@ -1,4 +1,4 @@
-"""What tests with a robot share: scans of a wall, a server that watches the robot, and what its page hears."""
+"""Shared by tests with a robot: scans of a wall, a server that watches the robot, and the messages to its page."""
 
 from __future__ import annotations
 

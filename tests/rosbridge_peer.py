@@ -1,6 +1,6 @@
-"""A small rosbridge, written from the specification of its protocol: what `lineseg` speaks with in the tests.
+"""A small rosbridge, written from the specification of its protocol, for the tests to connect to.
 
-Topics with a type, services, and nodes with parameters. What a client gets wrong is answered as rosbridge answers it:
+Topics with a type, services, and nodes with parameters. Errors of a client are answered like rosbridge does:
 with a status of level "error", or a service_response whose result is false and whose values say why.
 """
 
@@ -19,7 +19,7 @@ SCAN, TEXT = "sensor_msgs/msg/LaserScan", "std_msgs/msg/String"
 
 
 class RosBridgePeer:
-    """Serves in threads until `close`; on a port of its own unless one is given."""
+    """Serves in threads until `close`, on a free port unless one is given."""
 
     def __init__(
         self,

@@ -10,7 +10,7 @@ from rerun.chunk import RrdReader
 
 
 def rows_of(file: Path, entity: str) -> list[dict[str, Any]]:
-    """The rows of an entity, in order: its timelines by name, and its components by the last part of theirs."""
+    """The rows of an entity in order: timelines by name, components by the last part of their name."""
     rows = []
     with warnings.catch_warnings():
         # One that is still being written ends without a table of contents.

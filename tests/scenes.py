@@ -9,7 +9,7 @@ from lineseg import Scan
 
 
 def scan_of(walls, beams=180, field_of_view=np.pi, noise=0.0, seed=0, bump=None, lost=(), **fields) -> Scan:
-    """What a laser at the origin sees of walls (x1, y1, x2, y2); `bump` adds to ranges, `lost` beams return nothing."""
+    """Scan of walls (x1, y1, x2, y2) from the origin; `bump` adds to ranges, `lost` beams return nothing."""
     full = field_of_view >= 2 * np.pi
     bearings = np.linspace(-field_of_view / 2, field_of_view / 2, beams + full)[:beams]
     ranges = np.min([_ranges_to(np.array(wall, float), bearings) for wall in walls], axis=0)
@@ -32,7 +32,7 @@ def _ranges_to(wall, bearings):
 
 
 def wall_ahead(distance=2.0, half_width=1.5, **options) -> Scan:
-    """A wall across the x axis, as broad as the field of view or narrower."""
+    """A wall across the x axis, as wide as the field of view or narrower."""
     options.setdefault("field_of_view", 1.2)
     return scan_of([(distance, -half_width, distance, half_width)], **options)
 

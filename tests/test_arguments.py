@@ -1,4 +1,4 @@
-"""Whoever passes something of another kind than a function takes is told what to pass."""
+"""Passing an object of the wrong type raises an error that says what to pass."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""The times are of what they say, and come as a table and as JSON."""
+"""The times measure what they claim, and are written as a table or JSON."""
 
 import json
 

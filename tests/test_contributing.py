@@ -1,4 +1,4 @@
-"""What CONTRIBUTING and README say is there is there."""
+"""The files and commands that CONTRIBUTING and README name exist."""
 
 import re
 from pathlib import Path

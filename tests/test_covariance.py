@@ -1,4 +1,4 @@
-"""Whether the covariance of a line says how far the line is from the truth."""
+"""Whether the covariance of a line matches its distance from the truth."""
 
 import numpy as np
 import pytest
@@ -12,7 +12,7 @@ LOOSE = Params(epsilon=0.2, delta=100.0, min_length=0.05, min_points=3, seed_poi
 
 
 def simulated(scene, noise, seed):
-    """What the laser measures of a scene: bearings are off by their noise, and ranges by theirs."""
+    """Measure a scene with noisy bearings and ranges."""
     rng = np.random.default_rng(seed)
     reported = scene(0).bearings
     true = scene(rng.normal(0, noise.bearing, len(reported)) if noise.bearing else 0)
@@ -48,7 +48,7 @@ def mean_nees(scene, truth, noise, believed=None):
 
 
 def band(runs=RUNS):
-    """Where the mean of `runs` values of χ² with 2 degrees of freedom lies in 95 of 100 cases."""
+    """Interval that holds the mean of `runs` values of χ² with 2 degrees of freedom in 95 % of cases."""
     return 2 - 1.96 * 2 / np.sqrt(runs), 2 + 1.96 * 2 / np.sqrt(runs)
 
 

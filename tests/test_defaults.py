@@ -22,13 +22,13 @@ In percent (TR, FR), true lines as in `true_lines`; the paper's five thresholds 
     max_occluder=0.4 95.1   8.6     97.5  11.8
     max_occluder=0.6 95.1   8.9     96.0  13.9
 
-Three lost beams do nearly all that dropouts can; more costs false lines in the hallway. A narrower max_gap would be a
-little better in the hallway and change nothing in the laboratory: its default stays that of the paper, which bridges
-any gap. The angle of the authors' program does not matter once merge_rms compares the fits: doors that stand 3 cm
-behind their wall are then no longer taken for the wall. 1.1 would be as good here, but leaves more walls in pieces
+Crossing three lost beams gains almost everything; crossing more adds false lines in the hallway. A narrower max_gap
+would be slightly better in the hallway and change nothing in the laboratory; its default stays that of the paper, which
+bridges any gap. The merge angle of the authors' program does not matter once merge_rms compares the fits: doors 3 cm
+behind their wall are then no longer merged with the wall. 1.1 would be as good here, but leaves more walls in pieces
 where ranges are noisy (the yard and the warehouse of `lineseg compare`).
-Nine in ten of the true lines that are missed in the laboratory without max_occluder are walls behind the legs of chairs
-and desks. With 0.3 m, which is also what the truth takes for no end of a line, they are found; more costs false lines.
+Without max_occluder, nine in ten of the true lines that are missed in the laboratory are walls behind the legs of chairs
+and desks. With 0.3 m, the width up to which the truth does not end a line either, they are found; more adds false lines.
 """
 
 from functools import cache

@@ -1,4 +1,4 @@
-"""Each example runs as it stands, and says something."""
+"""Each example runs unchanged and prints something."""
 
 import runpy
 from collections.abc import Iterator

@@ -1,4 +1,4 @@
-"""The advice to install, in environments that are made as pip, pipx, uv and make make them."""
+"""The advice to install, in environments made like those of pip, pipx, uv and make."""
 
 import json
 import os
@@ -22,7 +22,7 @@ def said_by(python: Path | str, **environment: str) -> str:
 
 
 def environment_in(folder: Path, pip: bool = True) -> Path:
-    """The Python of a new virtual environment; a package called pip is all that is asked for."""
+    """The Python of a new virtual environment; it needs only a package called pip."""
     venv.create(folder, symlinks=True)
     if pip:
         (packages_of(folder) / "pip").mkdir()

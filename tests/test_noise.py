@@ -1,4 +1,4 @@
-"""The noise of a laser is told from its scans, whatever stands about in the room."""
+"""The noise of a laser is estimated from its scans, in any room."""
 
 from dataclasses import replace
 
@@ -57,7 +57,7 @@ def test_mixed_pixels_do_not_change_it():
 
 
 def bent_walls(recording, depth, over):
-    """The same scans, but for walls that swing by `depth` in the length `over` [m]."""
+    """The same scans with walls that wave by `depth` over the length `over` [m]."""
     along = recording.ranges * np.tile(np.abs(np.sin(recording[0].bearings)), len(recording))
     swing = depth * np.sin(2 * np.pi * np.where(np.isfinite(along), along, 0.0) / over)
     return replace(recording, ranges=(recording.ranges + swing).astype(np.float32))

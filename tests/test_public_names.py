@@ -1,4 +1,4 @@
-"""The library as its user meets it: names, where they are told of, and what is written beside them."""
+"""The public names of the library, their list in the docstring, and their docstrings."""
 
 import inspect
 import re

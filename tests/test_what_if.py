@@ -1,4 +1,4 @@
-"""What would change the answer for a beam is what a run with that value says, and no nearer value does."""
+"""A proposed change does change the answer for a beam, and no nearer value does."""
 
 import numpy as np
 import pytest

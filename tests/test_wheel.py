@@ -1,4 +1,4 @@
-"""The built wheel, installed in an environment of its own and used from a folder that has an `app` of its own."""
+"""The built wheel, installed in its own environment and used from a folder that contains another `app`."""
 
 import json
 import os
@@ -45,7 +45,7 @@ def wheel(dist: Path) -> Path:
 
 @pytest.fixture(scope="module")
 def environment(wheel: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A virtual environment that holds the wheel alone and borrows what it depends on from the running one."""
+    """A virtual environment with only the wheel; its dependencies come from the running environment."""
     folder = tmp_path_factory.mktemp("environment")
     venv.create(folder, symlinks=True)
     pip = [sys.executable, "-m", "pip", "--python", str(folder / "bin" / "python"), "install", "--quiet", "--no-deps"]
@@ -58,7 +58,7 @@ def environment(wheel: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture
 def elsewhere(tmp_path: Path) -> Path:
-    """A folder whose `app` belongs to somebody else."""
+    """A folder with the `app` of another project."""
     (tmp_path / "app").mkdir()
     (tmp_path / "app" / "__init__.py").write_text("raise ImportError('this is the application of somebody else')")
     return tmp_path

@@ -25,7 +25,7 @@ def recordings(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="session")
 def server(recordings: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Address]:
-    """A server with two files of the command line; tests that need other settings start their own."""
+    """A server that was given two files on the command line; tests that need other settings start their own."""
     files = (recordings / "walls.npz", recordings / "corner.npz")
     with serving(Settings(files=files, data_folder=tmp_path_factory.mktemp("data"), upload_limit=1_000_000)) as address:
         yield address

@@ -1,4 +1,4 @@
-"""Who may speak with the server."""
+"""Who may use the server."""
 
 from __future__ import annotations
 
@@ -111,7 +111,7 @@ def test_a_host_other_than_the_loopback_needs_a_token():
 
 @pytest.fixture(scope="module")
 def public(tmp_path_factory):
-    """A server as for other machines, though its socket is on the loopback."""
+    """A server configured for other machines, with its socket on the loopback."""
     with serving(Settings(host="0.0.0.0", token="sesame", data_folder=tmp_path_factory.mktemp("data"))) as address:
         yield address
 

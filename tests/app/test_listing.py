@@ -1,4 +1,4 @@
-"""The pseudocode that the page lights up, against what the kernels really decide."""
+"""The pseudocode of the page, compared with the decisions of the kernels."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def events_of(traced: Trace) -> Counter[str]:
 
 
 def ring(radius: float = 3.0) -> Scan:
-    """A room all around, whose walls swallow one another under coarse thresholds."""
+    """A room around the laser, whose walls merge under coarse thresholds."""
     bearings = np.linspace(-pi, pi, 360, endpoint=False)
     rng = np.random.default_rng(5)
     ranges = radius / np.maximum(np.abs(np.cos(bearings)), np.abs(np.sin(bearings))) + rng.normal(0, 0.02, 360)

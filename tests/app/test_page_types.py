@@ -1,4 +1,4 @@
-"""The types of the page are those of the server, and what the server sends is what its types say."""
+"""The types of the page equal those of the server, and the messages of the server match them."""
 
 from __future__ import annotations
 

@@ -26,7 +26,7 @@ LINK_KEYS = {
 
 @dataclass(frozen=True)
 class Zoomed(View):
-    """A View with one field more, declared here and nowhere else."""
+    """A View with one additional field, declared only here."""
 
     zoom: Annotated[int, Field(ge=1, le=9), ViewField(link="zoom", mirrored=True, reset_by=("recording",))] = 1
 

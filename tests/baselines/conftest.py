@@ -15,7 +15,7 @@ Printed = list[list[float]]
 
 @pytest.fixture
 def printed(reference_dir: Path) -> Callable[[str, str], Iterator[tuple[Scan, Printed]]]:
-    """Of a reference recording and a program: each scan, and the x1, y1, x2, y2, first, last that it printed for it."""
+    """Each scan of a reference recording, with the x1, y1, x2, y2, first, last that a program printed for it."""
 
     def frames(name: str, program: str) -> Iterator[tuple[Scan, Printed]]:
         with np.load(reference_dir / f"{name}.npz", allow_pickle=False) as archive:

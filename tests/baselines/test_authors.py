@@ -1,4 +1,4 @@
-"""The authors' program: what it prints, and what each of its slips does."""
+"""The authors' program: what it prints, and the effect of each of its slips."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What holds of every baseline, whatever the scan."""
+"""Properties of every baseline for any scan."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Line regression clusters the lines of a sliding window by how surely they differ."""
+"""Line regression clusters the lines of a sliding window by how significantly they differ."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""RANSAC draws by chance, the same chance every time, and does not mind outliers."""
+"""RANSAC draws random samples, the same every time, and ignores outliers."""
 
 import numpy as np
 import pytest

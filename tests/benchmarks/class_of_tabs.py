@@ -1,4 +1,4 @@
-"""A class in which every tab steps through a lesson at its own pace: python tests/benchmarks/class_of_tabs.py [TABS]
+"""A class of tabs that step through a lesson, each at its own pace: python tests/benchmarks/class_of_tabs.py [TABS]
 
 Prints the time from a step to the status that shows it, over real sockets; no browser renders the scenes.
 """

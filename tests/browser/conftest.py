@@ -1,4 +1,4 @@
-"""A real server and a real browser; a `Tab` is what a person does in one."""
+"""A real server and a real browser; a `Tab` does what a person does in a tab."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ FIELD = "[data-knob={}] input.number"
 
 
 class Tab:
-    """A page, and what it complained about."""
+    """A page and its errors."""
 
     def __init__(self, page: Page, address: str) -> None:
         self.page = page
@@ -62,7 +62,7 @@ class Tab:
             self.complaints.append(f"foreign request: {url}")
 
     def forgive(self, *words: str) -> None:
-        """Complaints that the test has provoked."""
+        """Drop errors that the test has provoked."""
         self.complaints[:] = [said for said in self.complaints if not any(word in said for word in words)]
 
     def open(self, hash: str = "") -> Tab:
@@ -72,7 +72,7 @@ class Tab:
         return self
 
     def until(self, condition: str, seconds: int = SECONDS) -> dict[str, Any]:
-        """The drawn state `s` once `condition` holds for it and nothing is under way."""
+        """Return the drawn state `s` once `condition` holds for it and no request is under way."""
         script = f"""async () => {{
             const late = Date.now() + {1000 * seconds};
             for (;;) {{
@@ -90,7 +90,7 @@ class Tab:
 
     @property
     def scene(self) -> Frame:
-        """viser's frame, once its camera is there."""
+        """viser's frame, once its camera exists."""
         script = "() => Boolean(window.__viserMutable?.cameraControl)"
 
         def frame_with_camera() -> Frame | None:
@@ -100,7 +100,7 @@ class Tab:
         return self.eventually(frame_with_camera, "no camera in the scene")
 
     def eventually(self, check: Callable[[], Any], why: str, seconds: float = SECONDS) -> Any:
-        """What `check` returns as soon as it is true; a frame may not be ready to answer yet."""
+        """Return the result of `check` as soon as it is true; a frame may not be ready to answer yet."""
         late = time.monotonic() + seconds
         while time.monotonic() < late:
             try:
@@ -123,7 +123,7 @@ class Tab:
         self.field(name).press("Enter")
 
     def drag(self, name: str, by: float) -> None:
-        """Press the slider's thumb and move it, without letting go."""
+        """Press the slider's thumb and move it without releasing it."""
         slider = self.slider(name)
         box = slider.bounding_box()
         assert box is not None
@@ -174,7 +174,7 @@ def address(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Address]:
 
 @pytest.fixture
 def new_tab(browser: Browser, address: Address) -> Iterator[Callable[..., Tab]]:
-    """Opens tabs of one browser profile; at the end none may have complained."""
+    """Open tabs of one browser profile; at the end none may have reported an error."""
     context = browser.new_context(viewport={"width": 1280, "height": 800}, accept_downloads=True)
     context.set_default_timeout(1000 * SECONDS)
     tabs: list[Tab] = []
@@ -195,7 +195,7 @@ def tab(new_tab: Callable[..., Tab]) -> Tab:
 
 
 class KillableServer:
-    """A server in a process of its own, on a port that stays the same."""
+    """A server in its own process, on a fixed port."""
 
     def __init__(self, folder: Path) -> None:
         with socket.socket() as free:

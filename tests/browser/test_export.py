@@ -1,4 +1,4 @@
-"""What is taken along, and opens again: pictures, failure packs, segments; links, and links to what is gone."""
+"""Exports that open again: pictures, failure packs, segments; links, and links to missing files."""
 
 from __future__ import annotations
 
@@ -141,7 +141,7 @@ def test_a_link_holds_all_of_it(new_tab):
 
 
 def span_of(tab) -> float:
-    """How many metres of the plan are in view, from top to bottom."""
+    """Height of the visible plan in metres."""
     return 2 * tab.scene.evaluate("() => window.__viserMutable.cameraControl.distance") * np.tan(np.radians(5))
 
 

@@ -1,4 +1,4 @@
-"""The mode Inspect: frames by doubt, two results side by side, what would change an answer, the truth."""
+"""The mode Inspect: frames ordered by doubt, two results side by side, changes of an answer, the truth."""
 
 from __future__ import annotations
 

@@ -38,7 +38,7 @@ def served(file: Path, tmp_path: Path):
 
 
 class Labeller:
-    """A tab with its page Labels, and what the file holds meanwhile."""
+    """A tab with the page Labels, and its label file."""
 
     def __init__(self, tab, sidecar: Path, recording) -> None:
         self.tab, self.page = tab, tab.page
@@ -54,7 +54,7 @@ class Labeller:
         self.tab.until(f"s.frame === {frame}")
 
     def runs(self, frame: int = FRAME) -> list[tuple[int, int]] | None:
-        """The true lines in the file, once nothing is on its way into it."""
+        """The true lines in the file, once everything is saved."""
         self.page.locator(".labels-status[data-status=saved]").wait_for()
         lines = read_labels(self._sidecar, self._recording)[frame].lines if self._sidecar.exists() else None
         return None if lines is None else [(line.first, line.last) for line in lines]
@@ -71,7 +71,7 @@ class Labeller:
         return self.page.locator(f".label-grip.{name}:not([hidden])")
 
     def place(self, beam: int) -> tuple[float, float]:
-        """Where a beam's point is on the screen: a handle of the chosen line goes there first."""
+        """Position of the point of a beam on the screen; a handle of the selected line is moved there first."""
         x, y = self._recording[FRAME].xy[beam]
         box = self.page.locator("iframe.scene").bounding_box()
         left, top = self.page.evaluate("([x, y]) => window.lineseg.project(x, y)", [float(x), float(y)])

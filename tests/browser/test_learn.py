@@ -280,7 +280,7 @@ def test_words_fit_and_controls_have_names_on_a_small_screen(new_tab):
 
 
 def to_the_task(new_tab, lesson: str):
-    """A tab with a lesson, turned page by page to its task."""
+    """Open a lesson and go to its task."""
     tab = new_tab(f"?lesson={lesson}")
     tab.eventually(lambda: tab.page.locator(".lesson-title").is_visible(), "the lesson does not open")
     while tab.page.get_by_role("button", name="Hint").is_hidden():
@@ -291,7 +291,7 @@ def to_the_task(new_tab, lesson: str):
 
 
 def says(tab, words: str) -> None:
-    """Wait until the task is judged so."""
+    """Wait until the verdict on the task starts with these words."""
     judged = tab.page.locator(".lesson-verdict")
     tab.eventually(lambda: (judged.text_content() or "").startswith(words), f"the task never said {words!r}")
 

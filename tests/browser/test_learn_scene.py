@@ -1,4 +1,4 @@
-"""What the page says at each step, what the scene draws for it, and what the trace knows: the same, both ways."""
+"""At each step, the page, the scene and the trace agree, forward and backward."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ def on_line(xy, line) -> np.ndarray:
 
 
 def expected_at(scan: Scan, traced: Trace, decision: Decision) -> dict[str, Any]:
-    """What the scene is to draw after a decision, from the trace alone: x, y, x, y, … of each node; [] if nothing."""
+    """What the scene should draw after a decision, from the trace alone: x, y, x, y, … of each node; [] for nothing."""
     lines = traced.lines_at(decision.index)
     ends = [on_line(scan.xy[beam], line.line) for line in lines for beam in (line.first, line.last)]
     candidate = [decision.beam] if decision.beam >= 0 else [decision.first, decision.last] if decision.ends else []

@@ -1,4 +1,4 @@
-"""What a link may say, and what the page makes of it."""
+"""Links, and what the page does with them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The menu of methods: each with sliders, segments, a replay and a link of its own."""
+"""The menu of methods: each has its own sliders, segments, replay and link."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where one is: frames, decisions, recordings, tabs, links, connections."""
+"""Navigation: frames, decisions, recordings, tabs, links, connections."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ SAMPLES = Path(__file__).parents[2] / "sample_scans"
 
 
 def seen(state: dict) -> dict:
-    """What of a state is seen, without its timings and its number."""
+    """The visible part of a state, without its timings and revision."""
     timings = {"rev", "latencyMs", "extractionUs", "pictureMs", "drawMs"}
     return {name: value for name, value in state.items() if name not in timings}
 
@@ -77,7 +77,7 @@ def test_replay_forward_and_back_returns_to_the_same_state_and_picture(tab):
 
 
 def drawn(tab) -> dict:
-    """What viser was given to draw: of each visible node its points and colours."""
+    """What viser draws: points and colours of each visible node."""
     return tab.scene.evaluate(
         """() => Object.fromEntries(Object.entries(window.__viserSceneTree.getState())
             .filter(([, node]) => node?.effectiveVisibility && node.message.props.points)
@@ -86,7 +86,7 @@ def drawn(tab) -> dict:
 
 
 def at_rest(tab) -> dict:
-    """What is drawn once ten looks in a row show the same: the status may be a moment ahead of the scene."""
+    """What is drawn once ten checks in a row agree: the status may be ahead of the scene."""
     looks = [drawn(tab)]
 
     def same() -> bool:

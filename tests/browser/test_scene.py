@@ -1,4 +1,4 @@
-"""The scene in its frame: a locked camera, picking, and a layout that holds."""
+"""The scene in its frame: a locked camera, picking, and a stable layout."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ def looks_straight_down(camera: dict) -> bool:
 
 
 def camera_when(tab, condition) -> dict:
-    """The camera of the scene as soon as it meets the condition."""
+    """Return the camera of the scene as soon as it meets the condition."""
     scene = tab.scene
     return tab.eventually(lambda: (now := scene.evaluate(CAMERA)) and condition(now) and now, "the camera stays")
 
 
 def camera_at_rest(tab) -> dict:
-    """The camera once ten looks in a row find the same: viser sets its own at first, and the page puts that right."""
+    """The camera once ten checks in a row agree: viser first sets its own, then the page corrects it."""
     looks: list[dict] = []
 
     def same() -> bool:

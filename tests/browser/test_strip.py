@@ -1,4 +1,4 @@
-"""The timeline's strip: a score of every frame, under the thresholds at hand."""
+"""The timeline's strip: a score of every frame, with the current thresholds."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ SECONDS = 30
 
 @pytest.fixture(scope="module")
 def long(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[Recording, Address]]:
-    """A recording of 10,000 frames as it is read from its file, and a server that shows it."""
+    """A recording of 10,000 frames read from a file, and a server that shows it."""
     folder = tmp_path_factory.mktemp("long")
     save_npz(long_hallway(FRAMES), folder / "long.npz")
     with serving(Settings(files=(folder / "long.npz",), data_folder=folder)) as address:

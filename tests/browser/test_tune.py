@@ -1,4 +1,4 @@
-"""Thresholds: by hand, by keyboard, typed; undone; brought in and taken along."""
+"""Thresholds: dragged, set by keyboard, typed, undone, imported and exported."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Sensitivity curves, the map of two thresholds, and auto-tuning, as a person meets them."""
+"""Sensitivity curves, the map of two thresholds, and auto-tuning, as a person uses them."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def curves_of(tab, note: str = "all 300 frames") -> None:
 
 
 def tuner(tab, part: str, condition: str) -> dict:
-    """Of `map` or `auto` what scripts are told, once a condition holds for it."""
+    """The state of `map` or `auto` for scripts, once it meets a condition."""
     script = f"() => {{ const s = window.lineseg.tuner.{part}; return s && ({condition}) ? s : null; }}"
     return tab.page.wait_for_function(script, timeout=PATIENCE_MS).json_value()
 

@@ -1,4 +1,4 @@
-"""Other ways in: a recording dropped on the page, viser's view opened alone."""
+"""Other ways in: a recording dropped on the page, viser's view opened on its own."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Methods side by side: alike for all, the same every time, written in three formats."""
+"""The comparison of methods: fair, reproducible, written in three formats."""
 
 import csv
 import io

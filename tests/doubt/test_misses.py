@@ -1,4 +1,4 @@
-"""Probable misses are those that the score counts, and each says what refused it."""
+"""Probable misses are the ones that the score counts, and each says why it was refused."""
 
 from pathlib import Path
 
@@ -27,7 +27,7 @@ def test_probable_misses_are_as_many_as_the_score_says_in_the_samples(name):
 
 
 def rough(scan, by) -> Scan:
-    """The ranges in turns too long and too short by so much [m]."""
+    """Make the ranges too long and too short in turn, by this much [m]."""
     return Scan(scan.ranges + by * (-1.0) ** np.arange(len(scan)), scan.bearings)
 
 

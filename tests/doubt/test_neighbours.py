@@ -1,4 +1,4 @@
-"""What a frame has and its neighbours have not, and the other way round, wherever the sensor went meanwhile."""
+"""Lines that only one frame has or lacks, compared with its neighbours while the sensor moves."""
 
 from pathlib import Path
 
@@ -17,7 +17,7 @@ WALLS = [(4, -3, 4, 3), (4, 3, -4, 3), (-4, 3, -4, -3), (-4, -3, 4, -3), (1, 1, 
 
 
 def seen_from(x, y, heading, walls=WALLS, **options) -> Scan:
-    """What a laser sees that stands at (x, y) and looks along `heading` [rad]."""
+    """The scan of a laser at (x, y) that looks along `heading` [rad]."""
     c, s = np.cos(heading), np.sin(heading)
     placed = [((a - x) * c + (b - y) * s, (b - y) * c - (a - x) * s) for wall in walls for a, b in (wall[:2], wall[2:])]
     options = {"beams": 720, "field_of_view": 2 * np.pi, "noise": 0.003} | options

@@ -1,4 +1,4 @@
-"""What the scores that need no truth say of scenes whose answer is known."""
+"""The scores that need no truth, on scenes with a known answer."""
 
 import numpy as np
 import pytest

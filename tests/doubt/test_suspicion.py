@@ -1,4 +1,4 @@
-"""The rank puts what fails first: planted failures are found, in recordings that have failures of their own."""
+"""The ranking puts failures first: it finds planted failures in recordings that also have their own."""
 
 from pathlib import Path
 
@@ -26,7 +26,7 @@ def column(name, values):
 
 
 def fails_by_itself(recording):
-    """(frames,) whether a true line is missed there, whatever else was planted elsewhere."""
+    """(frames,) whether a true line is missed in each frame."""
     found = (agreement(extract(scan), true_lines(scan)) for scan in recording)
     return np.array([each.matches < each.true_lines for each in found])
 
@@ -36,8 +36,8 @@ def fails_by_itself(recording):
 def test_eight_of_ten_planted_failures_are_among_the_fifteen_worst(name, seed):
     """The weights were chosen on the seeds 100 to 129.
 
-    Frames that fail without our doing, a third of each recording, are not counted among the fifteen: they belong there.
-    No wall of the laboratory is seen at so grazing an angle that an open door could be bridged.
+    Frames that fail on their own, a third of each recording, are not counted among the fifteen: they rightly rank high.
+    No wall of the laboratory is seen at an angle small enough for a line to bridge an open door.
     """
     sample = open_recording(SAMPLES / f"{name}.npz")
     recording, where = planted(sample, seed)

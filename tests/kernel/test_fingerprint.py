@@ -1,4 +1,4 @@
-"""The fingerprint of a kernel changes when its machine code may, and at no other time."""
+"""The fingerprint of a kernel changes only if its machine code may change."""
 
 import importlib
 import pkgutil

@@ -1,4 +1,4 @@
-"""Compiled kernels are found again by what they were compiled from."""
+"""Compiled kernels are found by the content that they were compiled from."""
 
 import os
 import re

@@ -1,4 +1,4 @@
-"""The page stays in pieces that one can read: a composition, short functions, file names of one kind."""
+"""The page stays readable: main.js only composes, functions are short, file names follow one style."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ NO_FUNCTION = re.compile(r"\s*(\} )?(if|else|for|while|switch|do|try|catch|final
 
 
 def functions(lines: list[str]) -> Iterator[tuple[str, int]]:
-    """First line and length of each function of a formatted module: its last brace stands below its first letter."""
+    """First line and length of each function of a formatted module: its last brace is indented like its first line."""
     for k, line in enumerate(lines):
         if not line.endswith((") {", "=> {")) or NO_FUNCTION.match(line):
             continue

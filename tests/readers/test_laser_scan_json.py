@@ -1,4 +1,4 @@
-"""LaserScan as JSON: from rosbridge, Foxglove, or whoever posts it."""
+"""LaserScan as JSON from rosbridge, Foxglove or any program that posts it."""
 
 import numpy as np
 import pytest

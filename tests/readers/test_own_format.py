@@ -1,4 +1,4 @@
-"""A format is one class and its line in READERS, whether it comes as a file, as a folder or packed by gzip."""
+"""A format is one class and its line in READERS, for files, folders and gzip files alike."""
 
 import gzip
 
@@ -10,7 +10,7 @@ from lineseg.readers.source import Reader
 
 
 class Dashes(Reader):
-    """A line of ranges, announced by two dashes; in a folder the file `scan`."""
+    """A line of ranges after two dashes; in a folder, the file `scan`."""
 
     format = "dashes"
     suffixes = (".dash",)

@@ -1,4 +1,4 @@
-"""Which reader gets a file, and what is said when none does."""
+"""Which reader opens a file, and the error if none does."""
 
 import gzip
 

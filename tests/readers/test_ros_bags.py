@@ -1,4 +1,4 @@
-"""Bags written by `rosbags`, read back by us: the decoder is held against an independent encoder."""
+"""Bags written by `rosbags` and read by lineseg: the decoder is tested with an independent encoder."""
 
 import shutil
 import sqlite3

@@ -1,4 +1,4 @@
-"""The kernels against the slow oracle, and what must hold whatever the scan."""
+"""The kernels compared with the slow oracle, and properties that hold for any scan."""
 
 import naive
 import numpy as np

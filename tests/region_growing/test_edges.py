@@ -1,4 +1,4 @@
-"""Windows that need not be tried, because three of their points fit into no seed."""
+"""Windows that need no test, because three of their points fit in no seed."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""The kernels are given every threshold that Params declares, under its name and as the number it is."""
+"""The kernels get every threshold that Params declares, with its name and value."""
 
 from lineseg import Params
 from lineseg.region_growing.limits import Limits, limits_of, loosened, unpacked

@@ -1,4 +1,4 @@
-"""Thin things in front of a wall are looked past; nothing else is."""
+"""Only thin objects in front of a wall are looked past."""
 
 import numpy as np
 import pytest

@@ -10,7 +10,7 @@ UNASKED = Params(merge_rms=0.0)
 
 
 def wall_with(offsets):
-    """A wall 2 m ahead, 3.4 m long, with 1 cm of noise; offsets: {beam: how much farther it is seen [m]}."""
+    """A wall 2 m ahead, 3.4 m long, with 1 cm of noise; offsets: {beam: added range [m]}."""
     scan = wall_ahead(noise=0.01)
     ranges = np.array(scan.ranges)
     for beam, offset in offsets.items():

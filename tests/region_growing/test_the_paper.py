@@ -1,4 +1,4 @@
-"""Each procedure of the paper, on scenes built to show it."""
+"""Each procedure of the paper, on scenes built for it."""
 
 import numpy as np
 import pytest

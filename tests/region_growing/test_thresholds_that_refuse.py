@@ -1,4 +1,4 @@
-"""What it costs to add a threshold that refuses: its declaration, the kernel that uses it, and what explains it."""
+"""The files to change for a threshold that refuses: its declaration, the kernel that uses it, and its explanation."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""Casting and scanning, against geometry that can be worked out by hand."""
+"""Casting and scanning, compared with geometry computed by hand."""
 
 from math import atan2, cos, inf, pi, radians, sin, sqrt
 

@@ -1,4 +1,4 @@
-"""Each lesson shows what its title says, with the thresholds of the paper, and changes as a learner is told it will."""
+"""Each lesson shows what its title says, with the thresholds of the paper, and changes as its text says."""
 
 from pathlib import Path
 
@@ -72,7 +72,7 @@ def test_collinear_overlap_stays_two_lines_when_nothing_is_merged():
 
 
 def split(xy, first, last, limit):
-    """Iterative end point fit: part at the point farthest from the chord, until all are nearer than `limit`."""
+    """Iterative end point fit: split at the point farthest from the chord until all are nearer than `limit`."""
     chord = xy[last] - xy[first]
     distances = np.abs((xy[first : last + 1] - xy[first]) @ np.array((-chord[1], chord[0]))) / np.hypot(*chord)
     farthest = first + int(distances.argmax())

@@ -1,4 +1,4 @@
-"""The samples as they are committed: made again they are the same, their truth is true, every format opens."""
+"""The committed samples: they can be reproduced, their truth is right, and every format opens."""
 
 from pathlib import Path
 
@@ -101,7 +101,7 @@ def test_a_beam_labelled_with_a_wall_lies_on_it_within_the_noise(recording):
 
 
 def _distance_to_walls(xy, walls):
-    """Of each point to its own wall, a line segment."""
+    """Distance from each point to its own wall, a line segment."""
     start, along = walls[:, :2], walls[:, 2:] - walls[:, :2]
     share = ((xy - start) * along).sum(axis=1) / (along**2).sum(axis=1)
     return np.hypot(*(xy - start - np.clip(share, 0, 1)[:, None] * along).T)

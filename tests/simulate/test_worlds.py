@@ -1,4 +1,4 @@
-"""The worlds that no file holds: truth, room to drive in, the same every time."""
+"""The worlds without a file: their truth, space to drive in, reproducible."""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Two results beside each other."""
+"""The difference of two results."""
 
 import numpy as np
 import pytest
@@ -13,7 +13,7 @@ BEAMS = 100
 
 
 def result(*spans: tuple[int, int], beams: int = BEAMS) -> Extraction:
-    """An extraction of lines from a first to a last beam; where the last is the smaller they cross the seam."""
+    """An extraction of lines from a first to a last beam; if the last is smaller, the line crosses the seam."""
     nowhere = ((1.0, 0.0, -1.0), (0.0, 0.0), (0.0, 0.0))
     lines = tuple(Segment(*nowhere, first, last, (last - first) % beams + 1, 1.0, 0.0) for first, last in spans)
     return Extraction("", None, lines, np.zeros(beams, np.int32), ())

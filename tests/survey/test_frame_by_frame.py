@@ -1,4 +1,4 @@
-"""Surveys by the other methods: the segments of `extract`, and scores like those of region growing."""
+"""Surveys with other methods: the segments of `extract`, and the scores of region growing."""
 
 from __future__ import annotations
 

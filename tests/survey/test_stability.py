@@ -1,4 +1,4 @@
-"""Stability is what two runs of `extract` with a moved threshold say."""
+"""Stability equals the result of two runs of `extract` with a moved threshold."""
 
 from pathlib import Path
 

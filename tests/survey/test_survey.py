@@ -1,4 +1,4 @@
-"""A survey says of every frame what `extract` says, whatever the recording."""
+"""A survey gives the result of `extract` for every frame of any recording."""
 
 import os
 import subprocess
@@ -201,7 +201,7 @@ def test_an_unknown_score_or_frame_is_refused():
 
 
 def survey_nasty_scans():
-    """What could lead a kernel outside its arrays; run by the test below with numba's checks on."""
+    """Cases that could make a kernel leave its arrays; the test below runs them with numba's checks."""
     rng = np.random.default_rng(1)
     angles = np.linspace(-np.pi, np.pi, 401)[:400]
     sweeps = [

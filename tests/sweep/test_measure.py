@@ -1,4 +1,4 @@
-"""What is summed over frames is what the library says of each of them."""
+"""Sums over frames equal the library's numbers for each frame."""
 
 import threading
 from pathlib import Path
@@ -62,7 +62,7 @@ def test_a_full_circle_may_be_turned(seed: int, turn: int):
 
 
 def test_the_truth_stays_what_it_is_when_p_min_and_l_min_change(sample: Recording):
-    """Else the largest L_min, under which only the easiest lines are true, would be the best."""
+    """Otherwise the largest L_min, which keeps only the easiest true lines, would be the best."""
     found = Batch(sample, scored=False).measure([Params(min_length=length) for length in (0.3, 0.6, 3.0)])
     assert len(set(found.column("true_lines"))) == 1
     assert found.measure("true_rate")[2] < found.measure("true_rate")[1]

@@ -1,4 +1,4 @@
-"""Whole files under whole grids: interrupted, taken up again, on other machines, the sums are the same."""
+"""Sweeps over whole files: the sums are the same if interrupted, continued or run on other machines."""
 
 import csv
 import os

@@ -1,4 +1,4 @@
-"""The table of a sweep, read again; and what is none."""
+"""Reading the table of a sweep, and refusing other files."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""Labels are kept in a file that a person can read, that two may write, and that nothing can break."""
+"""Labels are kept in a file that people can read, that two programs can write, and that nothing breaks."""
 
 import json
 import signal

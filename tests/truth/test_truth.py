@@ -1,4 +1,4 @@
-"""What the scores that know the truth say of scenes whose answer is known."""
+"""The scores against the truth, on scenes with a known answer."""
 
 import math
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Auto-tuning: real studies on disk, judged on what was held back."""
+"""Auto-tuning: real studies on disk, tested on held-back frames."""
 
 import math
 from collections.abc import Iterator

@@ -1,4 +1,4 @@
-"""A drawing shows what was found, to scale."""
+"""A drawing shows the result to scale."""
 
 import re
 import xml.etree.ElementTree as ET

@@ -1,4 +1,4 @@
-"""A failure pack holds one frame and all about it, and opens again as it was."""
+"""A failure pack holds one frame with everything about it, and opens again unchanged."""
 
 import csv
 import io

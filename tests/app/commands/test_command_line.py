@@ -1,4 +1,4 @@
-"""The command line as its users call it."""
+"""The command line, as users call it."""
 
 import csv
 import json

@@ -1,4 +1,4 @@
-"""`lineseg score`: the table, its numbers, and what it cannot score."""
+"""`lineseg score`: the table, its numbers, and recordings that it cannot score."""
 
 import csv
 import io

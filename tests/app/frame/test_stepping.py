@@ -1,4 +1,4 @@
-"""The trace as the page gets it: once, in columns that say what the decisions say."""
+"""The trace as sent to the page: once, in columns that match the decisions."""
 
 from __future__ import annotations
 

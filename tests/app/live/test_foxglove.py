@@ -1,4 +1,4 @@
-"""Scans from a real Foxglove WebSocket server, in each encoding; and segments back to it."""
+"""Scans from a real Foxglove WebSocket server in each encoding, and segments sent back to it."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ SCAN = "sensor_msgs/msg/LaserScan"
 
 
 class Listener(ServerListener):
-    """What clients ask of the server."""
+    """Records what clients ask of the server."""
 
     def __init__(self) -> None:
         self.subscribed: queue.Queue[str] = queue.Queue()

@@ -1,4 +1,4 @@
-"""Scans from a robot over rosbridge: they arrive, stop, come again; and segments go back."""
+"""Scans from a robot over rosbridge: they arrive, stop and arrive again, and segments are sent back."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ def peer() -> Iterator[RosBridgePeer]:
 
 
 def send(peer: RosBridgePeer, page: Page, *distances: float) -> dict[str, Any]:
-    """Publish scans of a wall; the state once the last of them is drawn."""
+    """Publish scans of a wall and return the state that shows the last one."""
     assert peer.subscribed.wait(60)
     for second, distance in enumerate(distances):
         peer.publish("/scan", scan_message(wall(distance), second))

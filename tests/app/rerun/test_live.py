@@ -1,4 +1,4 @@
-"""The live stream, held against rerun's own server."""
+"""The live stream, tested with rerun's own server."""
 
 from __future__ import annotations
 

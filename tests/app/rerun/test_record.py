@@ -131,7 +131,7 @@ def test_a_step_shows_the_line_beside_its_window_and_the_point_decided_on(hallwa
 
 
 def test_a_recording_is_little_larger_than_the_arrays_in_it(recorded: Path, hallway: Recording):
-    """The arrays as small as they can be: x, y and class of points, ends and class of segments, scores, and texts."""
+    """The arrays in their smallest form: x, y and class of points, ends and class of segments, scores, and texts."""
     raw = 0
     for frame in range(10, 40):
         found = trace(hallway[frame], Params(epsilon=0.02))

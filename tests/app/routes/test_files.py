@@ -1,4 +1,4 @@
-"""Uploads, recent files, and what goes out as a file."""
+"""Uploads, recent files and downloads."""
 
 from __future__ import annotations
 

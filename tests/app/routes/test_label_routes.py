@@ -1,4 +1,4 @@
-"""True lines, tags and notes that the page says of frames: saved at once, told to every tab, never lost."""
+"""True lines, tags and notes sent by the page are saved at once, sent to every tab and never lost."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Scans that any program pushes: by POST, over a WebSocket; bounded, and guarded as everything else."""
+"""Scans pushed by any program, by POST or over a WebSocket: bounded, and guarded like everything else."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""View → Picture."""
+"""What a Picture of a View contains."""
 
 from __future__ import annotations
 

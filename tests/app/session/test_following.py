@@ -8,7 +8,7 @@ from live import Address, page_of
 
 
 class Note:
-    """A follower that keeps what it is told."""
+    """A follower that records what it is told."""
 
     def __init__(self) -> None:
         self.told: list[Presence | View] = []

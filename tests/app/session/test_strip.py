@@ -1,4 +1,4 @@
-"""The scores of every frame: behind the picture, for the newest thresholds, the same as in the library."""
+"""The scores of every frame: after the picture, for the newest thresholds, equal to those of the library."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ from lineseg.survey.stability import with_stability
 
 @pytest.fixture(scope="module")
 def long() -> Recording:
-    """Long enough that the strip is glanced at first."""
+    """A recording long enough that the first survey is coarse."""
     return long_hallway(frames=2000)
 
 
@@ -47,7 +47,7 @@ def long_page(busy: Address) -> Iterator[Page]:
 
 
 def whole(page: Page) -> dict:
-    """The next survey of all frames."""
+    """Wait for the next survey of all frames."""
     while (message := page.hear_a("survey"))["stride"] > 1:
         pass
     return message

@@ -1,4 +1,4 @@
-"""Lessons as data: every file is one, and what it speaks of is there."""
+"""Lessons as data: every file is valid, and the decisions it shows exist."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Recordings that take their time, or cannot be had."""
+"""Recordings that load slowly or not at all."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Curves, maps and auto-tuning over the page's socket: the numbers of the library, stage after stage, until stopped."""
+"""Curves, maps and auto-tuning over the page's socket: the numbers of the library, in stages, until stopped."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def bench(hall: Path) -> Iterator[Address]:
 
 
 class Bench:
-    """What the page does on the socket of long work."""
+    """Does what the page does on the socket for long work."""
 
     def __init__(self, socket: Any) -> None:
         self._socket, self._job = socket, 0

@@ -1,4 +1,4 @@
-"""The README's pictures, taken of the real page: python tests/browser/pictures/take.py"""
+"""Takes the pictures of the README from the real page: python tests/browser/pictures/take.py"""
 
 from __future__ import annotations
 
