@@ -27,8 +27,8 @@ would be slightly better in the hallway and change nothing in the laboratory; it
 bridges any gap. The merge angle of the authors' program does not matter once merge_rms compares the fits: doors 3 cm
 behind their wall are then no longer merged with the wall. 1.1 would be as good here, but leaves more walls in pieces
 where ranges are noisy (the yard and the warehouse of `lineseg compare`).
-Without max_occluder, nine in ten of the true lines that are missed in the laboratory are walls behind the legs of chairs
-and desks. With 0.3 m, the width up to which the truth does not end a line either, they are found; more adds false lines.
+Without max_occluder, nine in ten of the true lines missed in the laboratory are walls behind the legs of chairs and
+desks. With 0.3 m, the width up to which the truth does not end a line either, they are found; more adds false lines.
 """
 
 from functools import cache

@@ -21,7 +21,7 @@ export const inspectText = {
     none: "No frame matches. Widen the range of the score or clear the filter.",
     row: (/** @type {number} */ frame, /** @type {string} */ score, /** @type {string} */ words) =>
       `Frame ${frame}, ${score}. ${words}`,
-    notANumber: (/** @type {string} */ typed) => `“${typed}” is not a number. Enter one such as 0.5.`,
+    notANumber: (/** @type {string} */ typed) => `“${typed}” is not a number.`,
   },
   filter: {
     label: "Show only frames with these words in a tag, in the note or in what looks wrong",
@@ -54,7 +54,7 @@ export const inspectText = {
     unknown:
       "The true lines of this recording are not known. Mark them in Labels (E), or open an NPZ file whose array `wall` gives the number of the true wall for each beam.",
     judgedBy: "Compared with",
-    references: { labels: "lines labelled by people", wall: "walls in the recording" },
+    references: { labels: "labelled lines", wall: "walls of the recording" },
     unlabelled: "The lines of this frame are not labelled. Mark them in Labels (E).",
     matching:
       "A segment matches a true line if both have more than half of their beams in common (intersection over union).",

@@ -175,7 +175,7 @@ export const pageText = {
     scrubber: "Frame",
     stamp: "Time stamp of the scan",
     range: (/** @type {number} */ least, /** @type {number} */ most) =>
-      `Enter a frame from ${least.toLocaleString("en")} to ${most.toLocaleString("en")}.`,
+      `Enter ${least.toLocaleString("en")} to ${most.toLocaleString("en")}.`,
     strip: {
       label: "Score of the frames",
       pending: "computing scores…",

@@ -11,7 +11,7 @@ export const steppingText = {
   scrubber: "Decision",
   number: "Number of the decision",
   of: (/** @type {number} */ n) => `of ${n.toLocaleString("en")}`,
-  range: (/** @type {number} */ most) => `Enter a number from 1 to ${most.toLocaleString("en")}.`,
+  range: (/** @type {number} */ most) => `Enter 1 to ${most.toLocaleString("en")}.`,
   perSecond: (/** @type {number} */ n) => `${n}/s`,
   phases: /** @type {Record<string, string>} */ ({
     seed: "Seed",

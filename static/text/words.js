@@ -1,6 +1,7 @@
 // @ts-check
-// The page's own words, by part. Names and helps of thresholds, methods, scores and recordings, and sentences about a frame
-// come from the server; the pseudocode is learn/listing.json, the data sheets of lasers tune/presets.js.
+// The words of the page, by part; all of them are in this folder. Names and help texts of thresholds, methods, scores and
+// recordings, and sentences about a frame come from the server; the pseudocode is in learn/listing.json, the data sheets of
+// lasers are in tune/presets.js.
 import { drawText } from "./draw.js";
 import { exportText } from "./export.js";
 import { inspectText } from "./inspect.js";

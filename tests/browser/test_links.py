@@ -21,7 +21,7 @@ def test_weights_set_back_to_their_defaults_leave_the_link(new_tab):
     tab.page.locator(".weights-holder summary").click()
     slider = tab.page.locator(".weights input").first
     assert slider.get_attribute("max") == "10"
-    tab.page.get_by_role("button", name="Usual weights").click()
+    tab.page.get_by_role("button", name="Default weights").click()
     tab.until("s.weights.gap === 1")
     tab.page.wait_for_function("!location.hash.includes('weights')")
 

@@ -41,7 +41,7 @@ def test_a_frame_that_does_not_exist_is_refused_at_the_number(tab):
     number = tab.page.locator("#timeline input.number")
     number.fill("301")
     number.press("Enter")
-    assert tab.page.locator("#timeline").get_by_role("alert").inner_text() == "Enter a frame from 1 to 300."
+    assert tab.page.locator("#timeline").get_by_role("alert").inner_text() == "Enter 1 to 300."
     assert tab.state["frame"] == 0
 
 
