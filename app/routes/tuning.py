@@ -8,11 +8,10 @@ import hashlib
 import json
 import logging
 import math
-import threading
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import asdict
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, NamedTuple
 
 import numpy as np
 from fastapi import FastAPI
@@ -26,8 +25,8 @@ from lineseg.sweep.workers import Pool
 from lineseg.tuning import Objective, RecordingBlocks, Trial, Tuning
 
 from ..bounds import Message, Name, Number, sentence
+from ..newest import Newest
 from ..session.sessions import Sessions
-from ..session.strip import step_back
 from ..told.answers import Trial as TrialTold
 from ..told.answers import Tuned
 from ..tuning.sensitivity import Subject, curves, relief
@@ -79,21 +78,25 @@ _WISH: TypeAdapter[Wish] = TypeAdapter(Annotated[Wish, Field(discriminator="type
 Answers = Iterator[Mapping[str, object]]
 
 
+class Job(NamedTuple):
+    """A piece of work; number: by which the page knows its answers."""
+
+    number: int
+    work: Callable[[Pool], Answers]
+
+
 class Slot:
     """One kind of work: beginning anew stops what is under way. Answers go out in the thread of the work."""
 
     def __init__(self, name: str, send: Callable[[dict[str, Any]], None]) -> None:
         self._name, self._send = name, send
         self._stop: np.ndarray | None = None
-        self._thread: threading.Thread | None = None
+        self._newest = Newest[Job](f"tuning {name}", self._run, behind=True)
 
-    def begin(self, job: int, subject: Subject, work: Callable[[Pool], Answers]) -> None:
+    def begin(self, number: int, subject: Subject, work: Callable[[Pool], Answers]) -> None:
         self.stop()
         self._stop = subject.stop
-        self._thread = threading.Thread(
-            target=self._run, args=(job, work, self._thread), name=f"tuning {self._name}", daemon=True
-        )
-        self._thread.start()
+        self._newest.put(Job(number, work))
 
     def stop(self) -> None:
         if self._stop is not None:
@@ -102,17 +105,13 @@ class Slot:
     def close(self) -> None:
         """Stop; blocks until the work has ended."""
         self.stop()
-        if self._thread is not None:
-            self._thread.join(timeout=10)
+        self._newest.close()
 
-    def _run(self, job: int, work: Callable[[Pool], Answers], former: threading.Thread | None) -> None:
-        if former is not None:
-            former.join()
-        step_back()
-        about = {"type": self._name, "job": job}
+    def _run(self, job: Job) -> None:
+        about = {"type": self._name, "job": job.number}
         try:
             with pool() as workers:
-                for answer in work(workers):
+                for answer in job.work(workers):
                     self._send({**about, **answer})
             self._send(about | {"done": True})
         except Cancelled:

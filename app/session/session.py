@@ -18,6 +18,7 @@ from ..frame.findings import Findings
 from ..frame.geometry import beam_near
 from ..frame.stepping import columns_of
 from ..live.ring import LiveRecording
+from ..newest import Newest
 from ..scene.viser_scene import ViserScene
 from ..shelf.label_files import LabelFiles
 from ..shelf.library import Library
@@ -93,17 +94,16 @@ class Session:
         self._wanted = Request(0, view, 0, "page")
         self._done = 0
         self._cancelled = self._closing = False
-        self._changed = threading.Condition()
+        self._lock = threading.RLock()
         self._scene = ViserScene(self._change_from_scene, self._pick)
+        self._drawing = Newest(f"session {id[:6]}", self._work)
         self._strip = Strip(f"strip {id[:6]}", warm_up.surveyed, self._tell)
         self._followed = 0.0
         self.presenter = Presenter()
         self._leave_presenter: Callable[[], None] | None = None
         self._presence: Presence | None = None
-        self._forget_live = library.live.on_scan(self._wake)
+        self._forget_live = library.live.on_scan(self._keep_up)
         self._forget_labels = files.on_change(self._relabelled)
-        self._worker = threading.Thread(target=self._work, name=f"session {id[:6]}", daemon=True)
-        self._worker.start()
 
     @property
     def viser_port(self) -> int:
@@ -111,17 +111,17 @@ class Session:
 
     @property
     def view(self) -> View:
-        with self._changed:
+        with self._lock:
             return self._wanted.view
 
     @property
     def shown(self) -> Shown | None:
-        with self._changed:
+        with self._lock:
             return self._shown
 
     def attach(self, send: Send, hang_up: Callable[[], None], rev: int | None = None) -> None:
         """A page is there: tell it everything. hang_up: called when the session ends; rev: the page's count so far."""
-        with self._changed:
+        with self._lock:
             self.detached_at = None
             self.last_input = time.monotonic()
             self._send, self._hang_up, self._told, self._traced = send, hang_up, None, None
@@ -130,7 +130,7 @@ class Session:
         self.presenter.tell("here")
 
     def detach(self) -> None:
-        with self._changed:
+        with self._lock:
             self.detached_at = time.monotonic()
             self._send = self._hang_up = None
         self._strip.keep(None)
@@ -150,7 +150,7 @@ class Session:
             self._leave_presenter = presenter.join(self)
 
     def mirror(self, view: View) -> None:
-        with self._changed:
+        with self._lock:
             self.last_input = time.monotonic()
             own = mirrored(self._wanted.view, view)
             if own != self._wanted.view:
@@ -158,20 +158,20 @@ class Session:
 
     def presenter_is(self, presence: Presence | None) -> None:
         """Tell the page, with the next picture."""
-        with self._changed:
+        with self._lock:
             self._presence = presence
             self._ask(self._wanted.view, self._wanted.rev, "scene")
 
     def change(self, patch: Mapping[str, Any], rev: int | None = None, origin: Origin = "page") -> None:
         """Change the View; a bad value is a ValueError, and the View stays as it was."""
-        with self._changed:
+        with self._lock:
             self.last_input = time.monotonic()
             view = self._wanted.view.patched(patch)
             self._ask(view, self._wanted.rev if rev is None else rev, origin)
 
     def restore(self, said: Mapping[str, Any], rev: int | None = None) -> str | None:
         """Change the View by all that can be had of what a link says; a complaint about the rest, if any."""
-        with self._changed:
+        with self._lock:
             self.last_input = time.monotonic()
             view, complaint = self._wanted.view.salvaged(said)
             self._ask(view, self._wanted.rev if rev is None else rev, "page")
@@ -179,16 +179,15 @@ class Session:
 
     def cancel(self) -> None:
         """Give up the loading in progress, if any."""
-        with self._changed:
+        with self._lock:
             self._cancelled = self._done != self._wanted.number
 
     def close(self) -> None:
         """Stop the worker and the viser server; blocks until they are gone."""
-        with self._changed:
+        with self._lock:
             self._closing = True
             hang_up = self._hang_up
             self._send = self._hang_up = None
-            self._changed.notify_all()
         if hang_up is not None:
             hang_up()
         self._forget_live()
@@ -197,13 +196,13 @@ class Session:
         self.follow(None)
         self.presenter.tell("gone")
         self._strip.close()
-        self._worker.join(timeout=10)
+        self._drawing.close()
         self._scene.stop()
 
-    def _ask(self, view: View, rev: int, origin: Origin) -> None:
+    def _ask(self, view: View, rev: int, origin: Origin, due: float = 0.0) -> None:
         self._wanted = Request(self._wanted.number + 1, view, rev, origin)
         self._strip.keep(view)
-        self._changed.notify_all()
+        self._drawing.put(self._wanted, due)
 
     def _change_from_scene(self, patch: Mapping[str, Any]) -> None:
         if self.following:
@@ -220,27 +219,30 @@ class Session:
             return
         self._change_from_scene({"selected": beam_near(shown.found.scan, point, radius)})
 
-    def _work(self) -> None:
-        while (request := self._next()) is not None:
-            try:
-                self._draw(request)
-            except Cancelled:
-                self._fall_back(request, None)
-            except (ValueError, OSError) as error:
-                self._fall_back(request, str(error))
-            except Exception as error:
-                log.exception("drawing %s failed", request.view)
-                self._fall_back(request, f"this could not be drawn: {type(error).__name__}: {error}")
+    def _work(self, request: Request) -> None:
+        with self._lock:
+            self._cancelled = False
+        try:
+            self._draw(request)
+        except Cancelled:
+            self._fall_back(request, None)
+        except (ValueError, OSError) as error:
+            self._fall_back(request, str(error))
+        except Exception as error:
+            log.exception("drawing %s failed", request.view)
+            self._fall_back(request, f"this could not be drawn: {type(error).__name__}: {error}")
+        self._keep_up()
 
-    def _wake(self) -> None:
-        """A live scan has arrived."""
-        with self._changed:
-            if self._behind():
-                self._changed.notify_all()
+    def _keep_up(self) -> None:
+        """Draw the newest frame of a live recording that is followed, if nothing else is to be drawn."""
+        with self._lock:
+            if self._behind() and self._done == self._wanted.number:
+                self._followed = max(self._followed + FOLLOW_EVERY, time.monotonic())
+                self._ask(self._wanted.view, self._wanted.rev, "page", due=self._followed)
 
     def _relabelled(self, recording: str) -> None:
         """The labels of a recording were saved, here or in another tab."""
-        with self._changed:
+        with self._lock:
             if self._wanted.view.recording == recording:
                 self._ask(self._wanted.view, self._wanted.rev, "scene")
 
@@ -251,20 +253,6 @@ class Session:
             return False
         source = self._library.live.get(wanted.recording)
         return source is not None and source.ring.total != shown.recording.total
-
-    def _next(self) -> Request | None:
-        with self._changed:
-            while not self._closing and self._done == self._wanted.number:
-                rest = self._followed + FOLLOW_EVERY - time.monotonic() if self._behind() else None
-                if rest is not None and rest <= 0:
-                    self._followed = time.monotonic()
-                    self._ask(self._wanted.view, self._wanted.rev, "page")
-                else:
-                    self._changed.wait(rest)
-            if self._closing:
-                return None
-            self._cancelled = False
-            return self._wanted
 
     def _draw(self, request: Request) -> None:
         recording = self._load(request)
@@ -279,7 +267,7 @@ class Session:
         painted = time.perf_counter()
         self._scene.draw(content.picture, view.params, view.dark)
         timings: Timings = {"pictureMs": _ms(painted - begun), "drawMs": _ms(time.perf_counter() - painted)}
-        with self._changed:
+        with self._lock:
             self._shown = Shown(view, recording, found)
             self._done = request.number
             if self._wanted.number == request.number:
@@ -306,7 +294,7 @@ class Session:
 
     def _survey(self) -> None:
         """Let the strip follow what is on the screen."""
-        with self._changed:
+        with self._lock:
             shown = self._shown
             if shown is not None and self._send is not None:
                 passing = key_of(self._wanted.view) != key_of(shown.view)
@@ -327,7 +315,7 @@ class Session:
             self._tell(Loading(recording=view.recording, label=label, done=done, total=total, note=note))
 
         def wanted() -> bool:
-            with self._changed:
+            with self._lock:
                 now = self._wanted.view
                 same = (now.recording, now.topic) == (view.recording, view.topic)
                 return same and not self._cancelled and not self._closing
@@ -340,7 +328,7 @@ class Session:
     def _fall_back(self, request: Request, message: str | None) -> None:
         """Keep what is on the screen; where nothing is yet, show the first recording that can be shown."""
         view = request.view
-        with self._changed:
+        with self._lock:
             self._done = request.number
             cancelled, self._cancelled = self._cancelled, False
             now = self._wanted.view
@@ -352,6 +340,7 @@ class Session:
                     self._ask(other, self._wanted.rev, "page")
                 else:
                     self._done = self._wanted.number
+                    self._drawing.drop()
         if message is None and cancelled:
             message = f"loading {self._library.label(view.recording)} was cancelled"
         if message is not None:
@@ -359,7 +348,7 @@ class Session:
         self._survey()
 
     def _tell(self, message: BaseModel) -> None:
-        with self._changed:
+        with self._lock:
             send = self._send
         if send is not None:
             send(message)

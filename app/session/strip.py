@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-import contextlib
 import logging
-import os
-import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -26,13 +23,13 @@ from lineseg.survey.difference import FATES, KEPT
 from lineseg.survey.stability import with_stability
 
 from ..live.ring import first_of
+from ..newest import Newest
 from ..told.messages import Surveyed
 from ..view import Against, View, all_weights
 
 # A glance of this many beams takes some milliseconds of one core: too little to be worth stopping.
 GLANCE_BEAMS = 400_000
 LEAST_STRIDE = 4
-NICENESS = 10
 # The scores of a recording that grows are told anew so often [s].
 LIVE_EVERY = 1.0
 
@@ -100,70 +97,64 @@ class Strip:
         self._glance = lru_cache(maxsize=1)(glance_of)
         self._known: Known | None = None
         self._pinned: tuple[Recording, Thresholds, Survey] | None = None
-        self._changed = threading.Condition()
+        self._lock = threading.RLock()
         self._subject: Subject | None = None
-        self._taken = self._closing = False
-        self._grown: Subject | None = None
+        self._closing = False
         self._rest_until = 0.0
-        self._thread = threading.Thread(target=self._work, name=name, daemon=True)
-        self._thread.start()
+        self._surveying = Newest(name, self._work, behind=True)
 
     def want(self, view: View, recording: Recording, rev: int, passing: bool = False) -> None:
         """Survey this, unless it is surveyed already; only glance at it in passing, where a newer one is to come."""
         key = key_of(view)
         self.keep(view)
-        with self._changed:
+        with self._lock:
             subject = Subject(key, recording, rev, np.full(1, passing))
             if self._subject is None:
-                self._subject, self._taken = subject, False
+                self._subject = subject
+                self._surveying.put(subject)
             elif self._subject.recording is not recording:
-                self._grown = subject
-                self._rest_until = self._rest_until if view.live else 0.0
-            self._changed.notify_all()
+                self._surveying.put(subject, due=self._rest_until if view.live else 0.0)
 
     def keep(self, view: View | None) -> None:
         """Stop what is not of this View; of None: whatever it is, and it may be wanted again."""
-        with self._changed:
+        with self._lock:
             if self._subject is not None and (view is None or self._subject.key != key_of(view)):
                 self._subject.stop[0] = True
-                self._subject = self._grown = None
+                self._subject = None
+                self._surveying.drop()
 
     def close(self) -> None:
         """Stop; blocks until the thread is gone."""
         self.keep(None)
-        with self._changed:
+        with self._lock:
             self._closing = True
-            self._changed.notify_all()
-        self._thread.join(timeout=10)
+        self._surveying.close()
 
-    def _work(self) -> None:
-        step_back()
-        while (subject := self._next()) is not None:
-            try:
-                for part in self._parts(subject):
-                    if self._stands(subject):
-                        self._send(part)
-            except Cancelled:
-                pass
-            except Exception as error:
-                log.exception("surveying %s failed", subject.key)
-                self._send(surveyed(subject, message=f"no scores: {_one_line(error)}"))
+    def _work(self, subject: Subject) -> None:
+        if not self._begins(subject):
+            return
+        try:
+            for part in self._parts(subject):
+                if self._stands(subject):
+                    self._send(part)
+        except Cancelled:
+            pass
+        except Exception as error:
+            log.exception("surveying %s failed", subject.key)
+            self._send(surveyed(subject, message=f"no scores: {_one_line(error)}"))
 
-    def _next(self) -> Subject | None:
-        with self._changed:
-            while not self._closing and (self._subject is None or self._taken):
-                rest = self._rest_until - time.monotonic() if self._grown is not None else None
-                if rest is not None and rest <= 0:
-                    self._subject, self._grown, self._taken = self._grown, None, False
-                else:
-                    self._changed.wait(rest)
-            self._taken = True
+    def _begins(self, subject: Subject) -> bool:
+        """Whether it is still wanted, by itself or as what the recording has grown to."""
+        with self._lock:
+            if self._closing or self._subject is None or self._subject.key != subject.key:
+                return False
+            self._subject = subject
             self._rest_until = time.monotonic() + LIVE_EVERY
-            return None if self._closing else self._subject
+            return True
 
     def _stands(self, subject: Subject) -> bool:
         """Whether it still belongs to what is on the screen; a glance may be one change of the thresholds late."""
-        with self._changed:
+        with self._lock:
             now = self._subject
             return not self._closing and (now is None or now.key[:2] == subject.key[:2])
 
@@ -257,10 +248,3 @@ def glance_of(recording: Recording, stride: int) -> Recording:
 def _one_line(error: Exception) -> str:
     said = next(iter(str(error).splitlines()), "")
     return said if isinstance(error, (ValueError, OSError)) else f"{type(error).__name__}: {said}"
-
-
-def step_back() -> None:
-    """Let other threads go first, and so the threads that this one starts, where threads have a priority."""
-    if sys.platform == "linux":
-        with contextlib.suppress(OSError):
-            os.setpriority(os.PRIO_PROCESS, threading.get_native_id(), NICENESS)
