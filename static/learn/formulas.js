@@ -37,7 +37,7 @@ export function createFormulas(text, onTerm) {
 
   return {
     element,
-    /** @type {string[]} the terms of the present formulas */
+    /** @type {string[]} the terms of the current formulas */
     names: [],
     /** Highlights a term, as if the pointer were on it. @param {string | null} name */
     light(name) {

@@ -13,7 +13,7 @@ const DOT_AHEAD_PX = 5;
 
 /**
  * @param {Point} at place on the stage [px]
- * @param {string[]} names terms of the present formulas @param {Event} event @param {Trace} trace @param {Project} project
+ * @param {string[]} names terms of the current formulas @param {Event} event @param {Trace} trace @param {Project} project
  * @returns {string | null} the term whose geometry is nearest; of two that share it, the one that is less beside it
  */
 export function termAt(at, names, event, trace, project) {

@@ -179,7 +179,7 @@ export class Lessons {
     return this.#following(lesson) ? text.nextLesson : text.finish;
   }
 
-  /** Method and thresholds of the present text. @returns {{method: string, params: Params}} */
+  /** Method and thresholds of the current text. @returns {{method: string, params: Params}} */
   #wanted() {
     const usual = Object.fromEntries(this.#knobs.map((knob) => [knob.name, knob.default]));
     const page = this.#lesson?.steps[this.#at] ?? this.#lesson?.task;

@@ -6,7 +6,7 @@
 export class Loop {
   /** @type {Range | null} */ range = null;
 
-  /** Moves on to the next of started, closed, removed. @param {number | null} at the present decision */
+  /** Moves on to the next of started, closed, removed. @param {number | null} at the current decision */
   toggle(at) {
     if (!this.range) this.range = { from: at ?? 0, to: null };
     else if (this.range.to === null) this.range = ordered(this.range.from, at ?? this.range.from);

@@ -24,7 +24,7 @@ export function rangeOf({ heights }) {
   return known.length ? { low: Math.min(...known), high: Math.max(...known) } : null;
 }
 
-/** @param {HTMLCanvasElement} canvas @param {Relief} relief @param {Range} range @param {Params} params the present values */
+/** @param {HTMLCanvasElement} canvas @param {Relief} relief @param {Range} range @param {Params} params the current values */
 export function paintRelief(canvas, relief, range, params) {
   const pen = canvas.getContext("2d");
   if (!pen) return;
