@@ -1,4 +1,4 @@
-"""The command line: which command, and what becomes of its errors. Only this and `commands/` print and exit."""
+"""The command line: selects the command and reports its errors. Only this and `commands/` print and exit."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ REFUSED = 2
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Run the command line; the exit code. `lineseg FILE` is `lineseg view FILE`."""
+    """Run the command line and return the exit code. `lineseg FILE` means `lineseg view FILE`."""
     arguments = list(sys.argv[1:] if argv is None else argv)
     if not arguments or arguments[0] not in (*COMMANDS, "-h", "--help", "--version"):
         arguments.insert(0, "view")
@@ -35,7 +35,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         print("lineseg: stopped.", file=sys.stderr)
         return INTERRUPTED
     except BrokenPipeError:
-        # The reader of a pipe, such as `head`, has seen enough; Python would complain once more while it exits.
+        # The reader of a pipe, such as `head`, has closed it; Python would report the error again on exit.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
     except (ValueError, OSError, MemoryError, ModuleNotFoundError) as error:
@@ -45,10 +45,10 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _sentence(error: BaseException) -> str:
-    """What an error says, in a line; the errors of the system name the file behind a colon."""
+    """An error in one line; system errors as "file: reason"."""
     if isinstance(error, OSError) and error.strerror:
         return f"{error.filename}: {error.strerror}." if error.filename else f"{error.strerror}."
-    return " ".join(str(error).split()) or "there is not enough memory for this."
+    return " ".join(str(error).split()) or "not enough memory; try a smaller file or fewer settings."
 
 
 if __name__ == "__main__":

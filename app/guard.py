@@ -1,4 +1,4 @@
-"""Who may speak with the server: Host, Origin and token, on HTTP and WebSocket; and the headers of every answer."""
+"""Access control by Host, Origin and token, on HTTP and WebSocket, and the headers of every response."""
 
 from __future__ import annotations
 
@@ -17,21 +17,21 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 LOOPBACK_NAMES = frozenset({"localhost", "127.0.0.1", "::1"})
 POLICY_REFUSAL = 1008
 
-# Nothing inline and nothing foreign runs. eval stays possible, because browser automation waits for conditions with it.
+# No inline or foreign code runs. eval stays allowed, because browser automation needs it to wait for conditions.
 PAGE_POLICY = (
     "default-src 'none'; script-src 'self' 'unsafe-eval'; style-src 'self'; img-src 'self' data: blob:; "
     "font-src 'self'; connect-src 'self'; frame-src 'self'; manifest-src 'self'; base-uri 'none'; form-action 'none'; "
     "frame-ancestors 'none'"
 )
-# viser's page is one file with its scripts and styles inside, and its WebAssembly glue builds functions from text; it
-# may speak with this server only.
+# viser's page is one file with inline scripts and styles, and its WebAssembly glue code builds functions from text. It
+# may connect to this server only.
 VISER_POLICY = (
     "default-src 'none'; script-src 'self' 'unsafe-inline' 'unsafe-eval' blob: data:; worker-src blob: data:; "
     "style-src 'self' 'unsafe-inline'; img-src 'self' data: blob:; font-src 'self' data:; "
     "connect-src 'self' data: blob:; media-src data: blob:; base-uri 'none'; form-action 'none'; "
     "frame-ancestors 'self'"
 )
-# rerun's viewer runs in a frame of the page, and may speak with this server only.
+# rerun's viewer runs in a frame of the page, and may connect to this server only.
 RERUN_POLICY = PAGE_POLICY.replace("frame-ancestors 'none'", "frame-ancestors 'self'")
 HEADERS = {
     "X-Content-Type-Options": "nosniff",
@@ -45,8 +45,8 @@ HEADERS = {
 class Guard:
     """ASGI middleware.
 
-    Host must be a name of this machine, which keeps out a foreign page that rebinds its name to this address; its port
-    is free, because people come through tunnels. Origin, where a browser sends one, must be the page's own: the Host.
+    Host must be a name of this machine. This blocks DNS rebinding, where a foreign page points its own name at this
+    address. Any port is accepted, because requests may come through tunnels. Origin, if sent, must equal the Host.
     """
 
     def __init__(self, app: ASGIApp, host: str, token: str | None, names: Iterable[str] = ()) -> None:
@@ -56,7 +56,7 @@ class Guard:
         self._names = LOOPBACK_NAMES | {host.lower().strip("[]")} | {name.lower() for name in names}
         if self._any_address:
             self._names |= {socket.gethostname().lower(), f"{socket.gethostname().lower()}.local"}
-        # Cookies know no ports: servers side by side need names of their own.
+        # Cookies ignore ports, so several servers on one machine need different cookie names.
         self.cookie = f"lineseg-{_digest(token or '')[:8]}"
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
@@ -72,7 +72,7 @@ class Guard:
             await _refuse_socket(scope, receive, send, refusal)
 
     def _refusal(self, scope: Scope) -> Response | None:
-        """The answer that keeps a request out, or None."""
+        """The response that rejects a request, or None."""
         headers = Headers(scope=scope)
         host, origin = headers.get("host", ""), headers.get("origin")
         if not self._knows(host):
@@ -97,7 +97,7 @@ class Guard:
         if hmac.compare_digest(_cookie(headers, self.cookie).encode(), _digest(self._token or "").encode()):
             return None
         return _forbidden(
-            "this server asks for its token; open the address that it printed when it started, or send the token as "
+            "this server requires a token; open the address that it printed at the start, or send the token as "
             "Authorization: Bearer"
         )
 
@@ -115,7 +115,7 @@ class Guard:
 
 
 def is_loopback(host: str) -> bool:
-    """Whether only this machine can reach what listens there."""
+    """Whether only this machine can reach the address."""
     name = host.lower().strip("[]")
     return name in LOOPBACK_NAMES or (is_address(name) and ipaddress.ip_address(name).is_loopback)
 
@@ -166,7 +166,7 @@ def _with_headers(scope: Scope, send: Send) -> Send:
 
 
 async def _refuse_socket(scope: Scope, receive: Receive, send: Send, refusal: Response) -> None:
-    """Answer the handshake with the refusal, or close where the server cannot."""
+    """Reject the handshake with the response, or close the socket if the server cannot do that."""
     if "websocket.http.response" not in scope.get("extensions", {}):
         await receive()
         await send({"type": "websocket.close", "code": POLICY_REFUSAL})

@@ -1,4 +1,4 @@
-"""Where the page and the samples are: beside `app/` in a working copy, inside `lineseg_app` in a wheel."""
+"""Where the page and the samples are: next to `app/` in a working copy, inside `lineseg_app` in a wheel."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ def data_folder(name: str) -> Path:
         if place.is_dir():
             return place
     raise FileNotFoundError(
-        f"{name} is neither in {here} nor in {here.parent}; this installation is damaged: repeat it"
+        f"{name} is neither in {here} nor in {here.parent}; this installation is damaged, install again"
     )
 
 
 def user_folder(chosen: Path | None = None) -> Path:
-    """Where what belongs to the user is kept between runs: the chosen folder, or the system's for such data."""
+    """The folder for user data: the chosen one, or the system's default."""
     return chosen or Path(platformdirs.user_data_dir("lineseg", appauthor=False))

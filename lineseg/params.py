@@ -8,16 +8,17 @@ from typing import Annotated
 
 from .knobs import Knob, Thresholds
 
-# Other methods have some of them too.
+# Some of these thresholds are shared with other methods.
 Epsilon = Annotated[
     float,
     Knob(
         "ε", 0.005, 0.20, "m", 0.001, log=True, least=1e-6, most=100.0, ros="least_thresh", scatter=1.0,
         label="distance to the line",
         why="a distance of 0 would refuse every measured point",
-        help="Farthest a point may lie from its line. Set it to the range precision of the laser.",
+        help="Largest distance of a point from its line. Higher accepts noisier points. Set it near the laser's range "
+        "noise.",
         refuses="beam {beam} lies {value:m} from the line, ε = {limit:m} (over by {over:m})",
-        counted="Distances to the line of the points that were tested",
+        counted="Distances from the tested points to the line",
     ),
 ]  # fmt: skip
 Delta = Annotated[
@@ -26,7 +27,8 @@ Delta = Annotated[
         "δ", 0.01, 1.0, "m", 0.005, log=True, least=1e-6, most=1000.0, ros="predict_distance", scatter=1.5,
         label="distance to the predicted point",
         why="a distance of 0 would refuse every measured point",
-        help="In a seed: farthest a point may lie from where its beam meets the line. Keeps breaks out of seeds.",
+        help="Largest distance, in a seed, from a point to where its beam meets the line. Lower keeps range jumps out "
+        "of seeds.",
         refuses="beam {beam} lies {value:m} from its predicted point, δ = {limit:m} (over by {over:m})",
         counted="Distances to the predicted point, in seeds",
     ),
@@ -37,7 +39,7 @@ SeedPoints = Annotated[
         "S_num", 3, 20, "", 1, least=3, most=1000, ros="seed_line_points",
         label="points in a seed",
         why="a seed needs 3 or more points, because any 2 points fit a line exactly",
-        help="Consecutive points in a seed. More make seeds rarer and surer.",
+        help="Consecutive points in a seed. Higher gives fewer and more reliable seeds.",
     ),
 ]  # fmt: skip
 MinPoints = Annotated[
@@ -45,8 +47,8 @@ MinPoints = Annotated[
     Knob(
         "P_min", 3, 100, "", 1, least=2, most=100_000, ros="min_line_points",
         label="points in a line",
-        why="2 points are the fewest that make a line",
-        help="Fewest points a line may have.",
+        why="a line needs at least 2 points",
+        help="Fewest points in a line. Higher drops more small lines.",
         refuses="{value:g} points < P_min = {limit:g} (short by {short:g})",
         counted="Points in each line that grew",
         floor=True,
@@ -58,7 +60,7 @@ MinLength = Annotated[
         "L_min", 0.0, 3.0, "m", 0.01, least=0.0, most=1000.0, ros="min_line_length",
         label="length of a line",
         why="a length is never negative",
-        help="Shortest a line may be, between its endpoints.",
+        help="Shortest length of a line, from endpoint to endpoint. Higher drops more short lines.",
         refuses="{value:m} < L_min = {limit:m} (short by {short:m})",
         counted="Length of each line that grew",
         floor=True,
@@ -68,7 +70,7 @@ MinLength = Annotated[
 
 @dataclass(frozen=True)
 class Params(Thresholds):
-    """Thresholds of seeded region growing; defaults are the paper's (Table 2), extensions are marked as such."""
+    """Thresholds of seeded region growing. Defaults are the paper's (Table 2); extensions are marked as such."""
 
     epsilon: Epsilon = 0.03
     delta: Delta = 0.10
@@ -81,7 +83,8 @@ class Params(Thresholds):
             "D_max", 0, 20, "beams", 1, least=0, most=100_000,
             label="dropout crossed",
             why="a number of beams is never negative",
-            help="Most beams without a return that a seed or a line may cross. 0: none, as the authors' program.",
+            help="Largest number of consecutive beams without a return that a seed or line may cross. 0 allows none, "
+            "like the authors' program.",
             refuses="{value:g} beams without a return lie before beam {beam}, D_max = {limit:g} (over by {over:g})",
             extension=True,
         ),
@@ -91,8 +94,9 @@ class Params(Thresholds):
         Knob(
             "G_max", 0.1, 30.0, "m", 0.05, log=True, least=1e-6, most=1000.0,
             label="gap bridged",
-            why="a gap of 0 would part every point from the next",
-            help="Widest gap between neighbouring points that a seed or a growing line may bridge.",
+            why="a gap of 0 would separate every point from the next",
+            help="Widest gap between neighbouring points that a seed or growing line may bridge. Higher bridges "
+            "wider openings.",
             refuses="a gap of {value:m} lies before beam {beam}, G_max = {limit:m} (over by {over:m})",
             extension=True,
         ),
@@ -103,7 +107,8 @@ class Params(Thresholds):
             "α_merge", 0.0, 0.5, "rad", 0.005, least=0.0, most=math.pi / 2,
             label="merge angle",
             why="two lines are never more than a right angle apart",
-            help="Neighbouring lines that overlap and differ by less than this angle become one. 0: none do.",
+            help="Overlapping neighbours that differ by less than this angle are merged. Higher merges more; 0 merges "
+            "none.",
             refuses="{value:deg} apart, not less than {limit:deg}",
             extension=True,
         ),
@@ -112,11 +117,11 @@ class Params(Thresholds):
         float,
         Knob(
             "γ_merge", 0.0, 3.0, "", 0.05, least=0.0, most=1e6,
-            label="growth of the rms by a merge",
+            label="rms growth in a merge",
             why="a factor is never negative",
-            help="Most times that the rms distance of two lines may grow where they become one. With it, up to D_max "
-            "stray points may part them. 0: neither, as in the paper.",
-            refuses="as one they have an rms of {value:m}, more than {limit:m}",
+            help="Largest factor by which a merge may raise the rms distance. Above 0, lines separated by up to D_max "
+            "stray points can merge too. 0 turns both off, as in the paper.",
+            refuses="merged, their rms would be {value:m}, more than {limit:m}",
             extension=True,
         ),
     ] = 1.2  # fmt: skip
@@ -124,10 +129,10 @@ class Params(Thresholds):
         float,
         Knob(
             "W_max", 0.0, 1.0, "m", 0.01, least=0.0, most=100.0,
-            label="thing looked past",
+            label="object ignored",
             why="a width is never negative",
-            help="Widest thing, such as a chair's leg, that a line may pass behind: its points count as none. "
-            "0: none, as in the paper.",
+            help="Widest object in front of a wall, such as a chair leg, whose points are ignored. Higher ignores "
+            "wider objects; 0 ignores none, as in the paper.",
             extension=True,
         ),
     ] = 0.3  # fmt: skip

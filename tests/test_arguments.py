@@ -41,7 +41,7 @@ OF_THRESHOLDS = [
     ],
 )
 def test_what_needs_a_scan_says_how_to_get_one(function, given, says):
-    with pytest.raises(TypeError, match=f"^a Scan is needed, {says}"):
+    with pytest.raises(TypeError, match=f"^pass a Scan, {says}"):
         function(given)
 
 
@@ -56,7 +56,7 @@ def test_what_needs_a_scan_says_how_to_get_one(function, given, says):
     ],
 )
 def test_what_needs_a_recording_says_how_to_get_one(function, given, says):
-    with pytest.raises(TypeError, match=f"^a Recording is needed, {says}"):
+    with pytest.raises(TypeError, match=f"^pass a Recording, {says}"):
         function(given)
 
 
@@ -72,20 +72,20 @@ def test_what_needs_a_recording_says_how_to_get_one(function, given, says):
     ],
 )
 def test_what_needs_thresholds_says_how_to_get_them(function, given, says):
-    with pytest.raises(TypeError, match=f"^Params.* are needed, {says}"):
+    with pytest.raises(TypeError, match=f"^pass Params.*, {says}"):
         function(given)
 
 
 @pytest.mark.parametrize("given", [ARRAY, b"hallway.npz", 3])
 def test_what_needs_a_file_says_so(given):
-    with pytest.raises(TypeError, match=r"^the path of a file or folder is needed, not "):
+    with pytest.raises(TypeError, match=r"^pass the path of a file or folder, not "):
         lineseg.open_recording(given)
 
 
 def test_thresholds_of_one_method_are_not_those_of_another():
-    with pytest.raises(TypeError, match=r"^RansacParams are needed, not Params"):
+    with pytest.raises(TypeError, match=r"^pass RansacParams, not Params"):
         lineseg.what_if(SCAN, 0, Params(), method="ransac")
-    with pytest.raises(TypeError, match=r"^Params are needed, not RansacParams"):
+    with pytest.raises(TypeError, match=r"^pass Params, not RansacParams"):
         next(lineseg.agreements(RECORDING, EXTRACTORS["ransac"].params_type()))
 
 

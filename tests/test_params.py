@@ -22,12 +22,12 @@ from lineseg import Params
 def test_a_wrong_value_is_refused_with_field_value_range_and_reason(name, value, words):
     with pytest.raises(ValueError) as error:
         Params(**{name: value})
-    for word in [*words, "allowed are"]:
+    for word in [*words, "allowed: "]:
         assert word in str(error.value)
 
 
 def test_an_unknown_threshold_is_refused_with_the_known_ones():
-    with pytest.raises(ValueError, match="no threshold 'espilon'; there are epsilon, delta"):
+    with pytest.raises(ValueError, match="no threshold 'espilon'; choose from epsilon, delta"):
         Params().but(espilon=0.1)
 
 

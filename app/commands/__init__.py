@@ -1,4 +1,4 @@
-"""The commands of the command line, one file each. A new one is a file and a line of COMMANDS."""
+"""The commands of the command line, one file each. To add one, write a file and add a line to COMMANDS."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`lineseg bench`: what a frame costs on this machine."""
+"""`lineseg bench`: extraction times on this machine."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ def bench(
     json: bool = False,
     topic: str | None = None,
 ) -> None:
-    """Time the extraction, beside the least that the method can do.
+    """Time the extraction and compare it with the minimum work of the method.
 
     Args:
-        file: recording to take; without it, the samples.
-        thresholds: of region growing; what is not given is the default.
+        file: recording to use (default: the samples).
+        thresholds: thresholds of region growing.
         json: write JSON instead of a table.
-        topic: laser topic to take; the first without.
+        topic: laser topic to use (default: the first).
     """
     from lineseg import Params
     from lineseg.bench import bench as measure

@@ -1,4 +1,4 @@
-"""`lineseg compare`: every method on the same frames."""
+"""`lineseg compare`: all methods on the same frames."""
 
 from __future__ import annotations
 
@@ -30,30 +30,31 @@ def compare(
     figures: Path | None = None,
     topic: str | None = None,
 ) -> None:
-    """Compare methods as the paper's tables do: TR, FR, completeness, endpoint errors, time.
+    """Compare methods as in the paper's tables: TR, FR, completeness, endpoint errors, time.
 
-    Every method is tuned on one half of the frames by the same number of evaluations, and judged on the other, beside
-    its defaults. Without truth methods are only timed. Ctrl-C stops, and what is done is written.
+    Each method is tuned on one half of the frames with the same number of evaluations, then judged on the other half,
+    with tuned and with default thresholds. Without truth, methods are only timed. Ctrl-C stops and writes the results
+    so far.
 
     Args:
-        files: recordings, or names of samples and simulated worlds; all of these without.
-        methods: names of methods; all without.
-        budget: settings that are tried for each method; 0 for the defaults alone.
-        frames: take so many frames of each recording, half of them to tune on.
-        out: file to write, .md, .csv or .json; Markdown on standard output without.
-        figures: folder for two pictures of each recording: times over the frames, and one frame by every method.
-        topic: laser topic to take; the first without.
+        files: recordings, or names of samples and simulated worlds (default: all samples and worlds).
+        methods: names of methods (default: all).
+        budget: number of settings to try for each method; 0 runs the defaults only.
+        frames: number of frames to use from each recording; half of them are for tuning.
+        out: file to write, .md, .csv or .json (default: Markdown on standard output).
+        figures: folder for two pictures of each recording: the times of all frames, and one frame with every method.
+        topic: laser topic to use (default: the first).
     """
     from lineseg.compare import TABLE_WRITERS, Comparison
     from lineseg.compare.figures import write_figures
     from lineseg.simulate.worlds import WORLDS
 
     if out is not None and out.suffix.lower() not in TABLE_WRITERS:
-        raise ValueError(f"{out}: a comparison is written as {', '.join(TABLE_WRITERS)}.")
+        raise ValueError(f"{out}: use a name that ends in {', '.join(TABLE_WRITERS)}.")
     if out is not None and not out.absolute().parent.is_dir():
         raise FileNotFoundError(f"{out}: the folder {out.parent} does not exist.")
     if figures is not None and not figures.is_dir():
-        raise FileNotFoundError(f"{figures}: there is no such folder.")
+        raise FileNotFoundError(f"{figures}: there is no such folder; create it first.")
     recordings = [_recording(name, topic) for name in files or (*SAMPLES, *WORLDS)]
     comparisons = [Comparison(recording, methods or None, budget, frames) for recording in recordings]
     _run(comparisons)
@@ -69,7 +70,7 @@ def compare(
 
 
 def _run(comparisons: Sequence[Comparison]) -> None:
-    """Until all is done, or Ctrl-C."""
+    """Run until all is done, or until Ctrl-C."""
     total = sum(comparison.steps for comparison in comparisons)
     done = 0
     with progress_bar("compare", "step") as advance:
@@ -83,17 +84,17 @@ def _run(comparisons: Sequence[Comparison]) -> None:
         except KeyboardInterrupt:
             if not any(comparison.rows for comparison in comparisons):
                 raise
-            print("lineseg: stopped; this is what is done.", file=sys.stderr)
+            print("lineseg: stopped; writing the results so far.", file=sys.stderr)
 
 
 def _tell(comparison: Comparison) -> None:
-    """Above the progress bar: how a recording is divided, and who leads so far."""
+    """The text above the progress bar: how the recording is divided, and which method leads."""
     from tqdm import tqdm
 
     from lineseg.compare.tables import ranked
 
     training, judged = (len(half) for half in comparison.halves)
-    text = f"{comparison.recording.name}: {training} frames to tune on, {judged} to judge by"
+    text = f"{comparison.recording.name}: {training} frames for tuning, {judged} for judging"
     if comparison.truth:
         best = ranked(comparison.rows)[0]
         text += f"; with the defaults {best.label} leads, {best.score:.3f}"
@@ -101,7 +102,7 @@ def _tell(comparison: Comparison) -> None:
 
 
 def _recording(name: str, topic: str | None) -> Recording:
-    """A file, or the sample or the world of this name."""
+    """A file, or the sample or simulated world with this name."""
     from lineseg.simulate.worlds import WORLDS
 
     from ..places import data_folder
@@ -113,7 +114,5 @@ def _recording(name: str, topic: str | None) -> Recording:
         return WORLDS[name].recording(name)
     if not path.exists():
         known = ", ".join((*SAMPLES, *WORLDS))
-        raise FileNotFoundError(
-            f"{name}: there is no such file, nor a sample or world of that name; there are {known}."
-        )
+        raise FileNotFoundError(f"{name}: there is no such file, sample or world. Samples and worlds: {known}.")
     return open_with_progress(path, topic, TextOptions())

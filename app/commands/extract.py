@@ -1,4 +1,4 @@
-"""`lineseg extract`: segments to a file."""
+"""`lineseg extract`: writes segments to a file."""
 
 from __future__ import annotations
 
@@ -31,21 +31,20 @@ def extract(
 
     Args:
         file: recording to read.
-        choice: method and thresholds; what is not given is taken from --params, or is the default.
-        text: what a plain text file does not say about itself.
-        out: file to write, .jsonl, .csv or .geojson; JSON lines on standard output without.
-        topic: laser topic to take; the first without.
-        range_noise: standard deviation of a range [m]; with it, or with --bearing-noise, every segment is written with
-            its (rho, theta) and their covariance.
-        bearing_noise: standard deviation of a bearing [rad].
-        suggest: use thresholds that fit the noise of this recording, and say which.
+        choice: method and thresholds (default: from --params, else the method's defaults).
+        text: scan geometry that a plain text file does not contain.
+        out: file to write, .jsonl, .csv or .geojson (default: JSON lines on standard output).
+        topic: laser topic to use (default: the first).
+        range_noise: standard deviation of a range [m]; adds (rho, theta) and their covariance to each segment.
+        bearing_noise: standard deviation of a bearing [rad]; adds the covariance too.
+        suggest: use thresholds that fit the noise of this recording, and print them.
     """
     chosen = choice.thresholds
     noise = None
     if range_noise is not None or bearing_noise is not None:
         noise = Noise(range_noise or 0.0, bearing_noise or 0.0)
     if out is not None and out.suffix.lower().removeprefix(".") not in SEGMENT_WRITERS:
-        raise ValueError(f"{out}: segments are written as {', '.join(f'.{format}' for format in SEGMENT_WRITERS)}.")
+        raise ValueError(f"{out}: use a name that ends in {', '.join(f'.{format}' for format in SEGMENT_WRITERS)}.")
     if out is not None and not out.absolute().parent.is_dir():
         raise FileNotFoundError(f"{out}: the folder {out.parent} does not exist.")
     recording = open_with_progress(file, topic, text)

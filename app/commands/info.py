@@ -1,4 +1,4 @@
-"""`lineseg info`: what a recording holds."""
+"""`lineseg info`: describes a recording."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ from .progress import open_with_progress
 
 
 def info(file: Positional[Path], text: OmitArgPrefixes[TextOptions], *, topic: str | None = None) -> None:
-    """Say what a recording holds.
+    """Describe a recording.
 
     Args:
         file: recording to read.
-        text: what a plain text file does not say about itself.
-        topic: laser topic to take; the first without.
+        text: scan geometry that a plain text file does not contain.
+        topic: laser topic to use (default: the first).
     """
     for name, value in _facts(open_with_progress(file, topic, text)):
         print(f"{name:<14}{value}")
@@ -48,17 +48,17 @@ def _facts(recording: Recording) -> Iterator[tuple[str, object]]:
         yield "duration", f"{np.ptp(recording.stamps):.3f} s"
     found = propose(recording)
     yield "noise", _noise(found.noise, [float(ranges) for ranges in longest])
-    yield "thresholds", found.text or "The defaults fit."
+    yield "thresholds", found.text or "The defaults fit this recording."
 
 
 def _noise(noise: RangeNoise, longest: list[float]) -> str:
     if not noise.known:
-        return "unknown: no straight wall was found"
+        return "unknown, because no straight wall was found"
     near, far = noise.at(1.0), noise.at(np.median(longest))
     text = f"{1e3 * near:.0f} mm"
     if far > 1.2 * near:
         text += f" at 1 m, {1e3 * far:.0f} mm at {np.median(longest):.0f} m"
     if noise.roughness > 0.5 * near:
         length = noise.lengths[np.nanargmax(noise.rough)]
-        text += f"; walls depart from straight by {1e3 * noise.roughness:.0f} mm over {length:g} m"
+        text += f"; walls deviate from a straight line by {1e3 * noise.roughness:.0f} mm over {length:g} m"
     return text

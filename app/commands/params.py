@@ -20,7 +20,7 @@ def params(
     """Write thresholds for ROS, Python or the command line.
 
     Args:
-        choice: method and thresholds; what is not given is taken from --params, or is the default.
-        to: ROS 2 parameters, ROS 1 launch file, Python, or flags of `lineseg extract`.
+        choice: method and thresholds (default: from --params, else the method's defaults).
+        to: format: ROS 2 parameters, ROS 1 launch file, Python, or flags of `lineseg extract`.
     """
     sys.stdout.write(params_text(choice.thresholds, to))

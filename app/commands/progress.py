@@ -1,4 +1,4 @@
-"""Long work on a terminal: a progress bar, and Ctrl-C that ends it."""
+"""A progress bar for long work on a terminal, and stopping with Ctrl-C."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ _interrupted = threading.Event()
 
 @contextmanager
 def interruptible() -> Iterator[None]:
-    """Ctrl-C raises KeyboardInterrupt; where a finaliser swallows that, the next step of the progress bar raises it.
+    """Ctrl-C raises KeyboardInterrupt; if a finaliser swallows it, the next step of the progress bar raises it again.
 
-    Compilation runs finalisers all the time, and Python only prints what they raise.
+    Compilation runs many finalisers, and Python only prints the exceptions they raise.
     """
 
     def interrupt(number: int, frame: FrameType | None) -> None:
@@ -35,7 +35,7 @@ def interruptible() -> Iterator[None]:
 
     _interrupted.clear()
     if signal.getsignal(signal.SIGINT) is not signal.default_int_handler:
-        # Somebody else's handler, or a background job that ignores Ctrl-C.
+        # Another program's handler, or a background job that ignores Ctrl-C.
         yield
         return
     former_hook, sys.unraisablehook = sys.unraisablehook, unraisable
@@ -49,7 +49,7 @@ def interruptible() -> Iterator[None]:
 
 @contextmanager
 def progress_bar(what: str, unit: str) -> Iterator[Callable[[int, int], None]]:
-    """A progress bar on stderr, on a terminal only; it shows when there is something to wait for."""
+    """A progress bar on stderr, only on a terminal and only for work that takes a while."""
     from tqdm import tqdm
 
     with tqdm(desc=what, unit=unit, unit_scale=True, leave=False, disable=None, delay=0.5) as bar:

@@ -1,4 +1,4 @@
-"""`lineseg record`: a recording for rerun."""
+"""`lineseg record`: writes a recording for rerun."""
 
 from __future__ import annotations
 
@@ -27,15 +27,15 @@ def record(
 
     Args:
         file: recording to read.
-        choice: method and thresholds; what is not given is taken from --params, or is the default.
-        text: what a plain text file does not say about itself.
-        out: file to write, .rrd; `rerun run.rrd` opens it.
-        frames: FIRST:STOP, counted from 0, the latter not included; either may be left out.
-        steps: with every decision of every frame, on a timeline `step`.
-        topic: laser topic to take; the first without.
+        choice: method and thresholds (default: from --params, else the method's defaults).
+        text: scan geometry that a plain text file does not contain.
+        out: file to write, .rrd; open it with `rerun run.rrd`.
+        frames: FIRST:STOP, counted from 0, without STOP; either may be left out (default: all).
+        steps: include every decision of every frame, on a timeline `step`.
+        topic: laser topic to use (default: the first).
     """
     if out.suffix.lower() != ".rrd":
-        raise ValueError(f"{out}: a recording for rerun is written as .rrd.")
+        raise ValueError(f"{out}: use a name that ends in .rrd.")
     if not out.absolute().parent.is_dir():
         raise FileNotFoundError(f"{out}: the folder {out.parent} does not exist.")
     chosen = choice.thresholds
@@ -48,7 +48,7 @@ def record(
 
 
 def frames_of(text: str, frames: int) -> range:
-    """The frames FIRST:STOP of so many; a ValueError if it is no such thing, or holds none."""
+    """The range FIRST:STOP out of `frames` frames. Raises ValueError for other text or an empty range."""
     first, colon, stop = text.partition(":")
     try:
         chosen = range(frames)[int(first) if first else None : int(stop) if stop else None]
@@ -56,7 +56,7 @@ def frames_of(text: str, frames: int) -> range:
         chosen = range(0)
         colon = ""
     if not colon:
-        raise ValueError(f"frames is {text!r}; expected is FIRST:STOP, such as 100:200, 100: or :200.")
+        raise ValueError(f"frames is {text!r}; give FIRST:STOP, such as 100:200, 100: or :200.")
     if not chosen:
-        raise ValueError(f"frames is {text!r}, which holds none; the recording has the frames 0 to {frames - 1}.")
+        raise ValueError(f"frames is {text!r}, which is empty; the recording has the frames 0 to {frames - 1}.")
     return chosen

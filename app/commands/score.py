@@ -1,4 +1,4 @@
-"""`lineseg score`: segments against the truth."""
+"""`lineseg score`: compares segments with the truth."""
 
 from __future__ import annotations
 
@@ -33,22 +33,24 @@ def score(
 
     Args:
         file: recording to read.
-        choice: method and thresholds; what is not given is taken from --params, or is the default.
-        text: what a plain text file does not say about itself.
-        truth: labels (.lineseg.json); without, the recording's own `wall`.
-        json: write JSON instead of a table: the whole recording and each frame.
-        csv: write CSV instead of a table: a row for each frame.
-        topic: laser topic to take; the first without.
+        choice: method and thresholds (default: from --params, else the method's defaults).
+        text: scan geometry that a plain text file does not contain.
+        truth: labels, .lineseg.json (default: the array `wall` of the recording).
+        json: write JSON instead of a table, with the whole recording and each frame.
+        csv: write CSV instead of a table, with a row for each frame.
+        topic: laser topic to use (default: the first).
     """
     from lineseg import agreements
 
     if json and csv:
-        raise ValueError("--json and --csv exclude each other.")
+        raise ValueError("--json and --csv cannot be combined; give one of them.")
     chosen, method = choice.thresholds, choice.method
     recording = open_with_progress(file, topic, text)
     known = () if truth is None else _labelled(truth, recording)
     if truth is None and recording.wall is None:
-        raise ValueError(f"{recording.name} has no truth: an NPZ file may hold `wall`, --truth names a file of labels.")
+        raise ValueError(
+            f"{recording.name} has no truth; give a file of labels with --truth, or use an NPZ with `wall`."
+        )
     found = counted(agreements(recording, chosen, method, *known), len(recording), "score")
     frames = {frame: each for frame, each in enumerate(found) if each is not None}
     total = Agreement.of_all(frames.values())
@@ -67,7 +69,7 @@ def score(
 
 
 def _labelled(file: Path, recording: Recording) -> tuple[Callable, Callable]:
-    """The true lines of each frame that somebody has labelled, and their endpoints."""
+    """The true lines of each labelled frame, and their endpoints."""
     from lineseg import FrameLabels, read_labels
 
     if not file.exists():
@@ -82,7 +84,7 @@ def _labelled(file: Path, recording: Recording) -> tuple[Callable, Callable]:
 
 
 def _numbers(agreement: Agreement) -> dict[str, float | None]:
-    """What there is to say in JSON and CSV, which have no NaN."""
+    """The numbers for JSON and CSV, with None for NaN."""
     numbers = {
         **{name: getattr(agreement, name) for name in ("true_lines", "segments", "matches", "splits", "merges")},
         **{name: getattr(agreement, name) for name in ("true_rate", "false_rate", "completeness")},

@@ -1,4 +1,4 @@
-"""`lineseg sweep`: what the thresholds do to whole recordings."""
+"""`lineseg sweep`: tries many threshold values on whole recordings."""
 
 from __future__ import annotations
 
@@ -36,21 +36,21 @@ def sweep(
     topic: str | None = None,
     scheduler: str | None = None,
 ) -> None:
-    """Try every combination of threshold values on whole recordings: coverage, segments, and with truth TR and FR.
+    """Try every combination of threshold values on whole recordings: coverage, segments, and, with truth, TR and FR.
 
-    Thresholds are given as FROM:TO:COUNT, as values with commas between them, or as one value. An interrupted sweep
-    goes on where it was when it is called again: what is done is kept beside the table until that is written.
+    Give thresholds as FROM:TO:COUNT, as values separated by commas, or as one value. To resume an interrupted sweep,
+    run it again: finished work is kept in a file next to the table until the table is complete.
 
     Args:
         files: recordings to read.
-        axes: those that are not given are taken from --params, or are the defaults.
-        out: table to write, .csv or .parquet: a row for each file and setting.
-        plot: picture to write, .png or .svg: curves over one threshold, or a map over the first two.
-        measure: what the map shows.
-        params: ROS 1 launch file, ROS 2 YAML, JSON, Python or flags with thresholds to start from.
-        topic: laser topic to take; the first without.
-        scheduler: address of a Dask scheduler, such as tcp://host:8786; its workers must find the files under the same
-            paths. The threads of this machine without.
+        axes: values of the thresholds (default: from --params, else the defaults).
+        out: table to write, .csv or .parquet, with a row for each file and setting.
+        plot: picture to write, .png or .svg: curves for one threshold, or a map for the first two.
+        measure: the measure that the map shows.
+        params: thresholds to start from: ROS 1 launch file, ROS 2 YAML, JSON, Python or flags.
+        topic: laser topic to use (default: the first).
+        scheduler: address of a Dask scheduler, such as tcp://host:8786 (default: threads of this machine). Its workers
+            must find the files at the same paths.
     """
     from lineseg.sweep import MEASURES, Grid, Journal, axis_values, pool
     from lineseg.sweep import sweep as measure_all
@@ -58,9 +58,9 @@ def sweep(
     from lineseg.sweep.table import check_table_path, write_table
 
     if not files:
-        raise ValueError("a sweep needs one recording or more.")
+        raise ValueError("a sweep needs at least one recording; name a file.")
     if measure is not None and measure not in MEASURES:
-        raise ValueError(f"there is no measure {measure!r}; there are {', '.join(MEASURES)}.")
+        raise ValueError(f"there is no measure {measure!r}; choose from {', '.join(MEASURES)}.")
     check_table_path(out)
     if plot is not None:
         check_plot_path(plot)
@@ -82,7 +82,7 @@ def sweep(
 
 
 def _summary(result: Any) -> str:
-    """The best setting, if there is truth to tell."""
+    """The best setting, if truth is known."""
     import numpy as np
 
     totals = result.all_files
@@ -90,8 +90,9 @@ def _summary(result: Any) -> str:
     said = f"{len(result.grid):,} settings on {frames:,} frames"
     scores = totals.measure("f_score")
     if not np.isfinite(scores).any():
-        return f"{said}; without truth none of them is best by itself: `lineseg tune` weighs the label-free scores."
+        return f"{said}; without truth there is no single best setting. Use `lineseg tune` to search by label-free "
+        "scores."
     best = int(np.nanargmax(scores))
     params = asdict(next(p for k, p in enumerate(result.grid) if k == best))
-    values = ", ".join(f"{name} {params[name]:g}" for name in result.grid.axes) or "the thresholds as they are"
+    values = ", ".join(f"{name} {params[name]:g}" for name in result.grid.axes) or "the given thresholds"
     return f"{said}; best F × completeness {scores[best]:.4f} at {values}."

@@ -1,4 +1,4 @@
-"""The method and its thresholds as flags, and the file that may stand behind them."""
+"""Flags for the method and its thresholds, and the file of thresholds that they override."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ T = TypeVar("T", bound=Thresholds)
 
 
 def _flag(kind: type, knob: Knob, default: float) -> Any:
-    """A flag that may be absent, so that a file of thresholds can stand behind it; its Knob says what it means."""
+    """An optional flag, documented by its Knob; if absent, a file of thresholds or the default applies."""
     text = (
         f"{knob.symbol}{f' [{knob.unit}]' if knob.unit else ''}: {knob.help}{' (extension)' if knob.extension else ''}"
     )
@@ -36,11 +36,11 @@ Flags: type = make_dataclass(
 
 @dataclass(frozen=True)
 class Choice:
-    """Which method, and its thresholds: by flags of their own for region growing, by --set for any.
+    """The method and its thresholds: with their own flags for region growing, with --set for every method.
 
-    method: region-growing, or another method of the table in the README.
-    set: NAME=VALUE of a threshold of the method, again and again.
-    params: ROS 1 launch file, ROS 2 YAML or JSON with thresholds; flags come on top.
+    method: region-growing, or another method listed in the README.
+    set: NAME=VALUE of a threshold of the method; may be repeated.
+    params: ROS 1 launch file, ROS 2 YAML or JSON with thresholds; flags override it.
     """
 
     flags: OmitArgPrefixes[Flags] = field(default_factory=Flags)  # type: ignore[valid-type]
@@ -54,16 +54,16 @@ class Choice:
 
     @property
     def thresholds(self) -> Thresholds:
-        """The defaults, changed by what a file says, changed by the flags that were given."""
+        """The defaults, overridden by the file, overridden by the flags."""
         kind = self.extractor.params_type
         base = kind() if self.params is None else read_file(self.params, kind)
         return changed(base, self.flags, **dict(map(_pair, self.set)))
 
 
 def suggested(recording: Recording, present: Thresholds, method: str) -> Thresholds:
-    """Thresholds that fit the recording; says on stderr which, or why none do."""
+    """Thresholds that fit the recording; prints them, or why there are none, on stderr."""
     found = propose(recording, present, method)
-    print(found.text or "The thresholds fit this recording as they are.", file=sys.stderr)
+    print(found.text or "The present thresholds fit this recording.", file=sys.stderr)
     if found.changed:
         names = [name for name in present.names() if getattr(found.params, name) != getattr(present, name)]
         print("Used: " + ", ".join(f"{name} = {getattr(found.params, name):g}" for name in names), file=sys.stderr)
@@ -71,14 +71,14 @@ def suggested(recording: Recording, present: Thresholds, method: str) -> Thresho
 
 
 def changed(base: T, flags: Any, **others: float) -> T:
-    """The thresholds with those that the flags give, and others."""
+    """The thresholds, with the values given by flags and by --set."""
     given = {name: value for name, value in asdict(flags).items() if value is not None}
     return base.but(**given, **others)
 
 
 def extractor_of(method: str) -> Extractor:
     if method not in EXTRACTORS:
-        raise ValueError(f"there is no method {method!r}; there are {', '.join(EXTRACTORS)}.")
+        raise ValueError(f"there is no method {method!r}; choose from {', '.join(EXTRACTORS)}.")
     return EXTRACTORS[method]
 
 
@@ -86,7 +86,7 @@ def read_file(file: Path, kind: type[Thresholds]) -> Thresholds:
     try:
         return read_params(file.read_text(encoding="utf-8-sig"), kind)
     except UnicodeDecodeError:
-        raise ValueError(f"{file}: this is not text; a launch file, YAML or JSON is expected.") from None
+        raise ValueError(f"{file}: this is not text; give a launch file, YAML or JSON.") from None
     except ValueError as error:
         raise ValueError(f"{file}: {error}") from None
 
@@ -94,7 +94,7 @@ def read_file(file: Path, kind: type[Thresholds]) -> Thresholds:
 def _pair(text: str) -> tuple[str, float]:
     name, equals, value = text.partition("=")
     if not equals:
-        raise ValueError(f"--set {text}: a threshold is set by NAME=VALUE.")
+        raise ValueError(f"--set {text}: give NAME=VALUE.")
     try:
         return name, float(value)
     except ValueError:

@@ -1,4 +1,4 @@
-"""`lineseg tune`: thresholds that fit recordings, found by trying."""
+"""`lineseg tune`: searches for thresholds that fit recordings."""
 
 from __future__ import annotations
 
@@ -32,34 +32,34 @@ def tune(
     topic: str | None = None,
     scheduler: str | None = None,
 ) -> None:
-    """Search for thresholds by Optuna, and compare the best with the paper's defaults on frames that were held back.
+    """Search for thresholds with Optuna, and compare the best with the paper's defaults on held-back frames.
 
-    Ctrl-C stops the search, and what was found so far is judged. With --study the trials are kept, and another call
-    goes on with them.
+    Ctrl-C stops the search and judges the best setting so far. With --study the trials are kept, and the next call
+    continues them.
 
     Args:
         files: recordings to read.
-        trials: how many settings to try in this call.
-        objective: compare with the truth, or judge by the scans alone; truth where all files have it, without.
-        thresholds: names of those to tune; without, all of the paper's five with truth, and epsilon, delta and
-            seed_points without, since which lines are wanted no label-free score can know.
-        split: hold back every other stretch of frames, or every other file.
-        frames: take so many frames in all, spread over the files; all of them without.
-        recall: of truth, how many times as much TR weighs as 1 - FR.
-        completeness: of truth, the exponent of the completeness.
-        rms: of label-free, the root mean square distance [m] at which the score is halved.
+        trials: number of settings to try in this call.
+        objective: compare with the truth, or judge by the scans alone (default: truth if all files have it).
+        thresholds: names of the thresholds to tune (default: the paper's five with truth; epsilon, delta and
+            seed_points without it, because label-free scores cannot know which lines you want).
+        split: what to hold back: every other stretch of frames, or every other file.
+        frames: total number of frames to use, spread over the files (default: all).
+        recall: with truth: weight of TR relative to 1 - FR.
+        completeness: with truth: exponent of the completeness.
+        rms: label-free: root mean square distance [m] at which the score is halved.
         study: SQLite file to keep the trials in.
-        out: file for the thresholds that were found; on standard output without.
-        to: how to write them.
-        params: ROS 1 launch file, ROS 2 YAML, JSON, Python or flags with the thresholds that are not tuned.
-        topic: laser topic to take; the first without.
-        scheduler: address of a Dask scheduler, such as tcp://host:8786.
+        out: file for the best thresholds (default: standard output).
+        to: format of the thresholds.
+        params: values of the thresholds that are not tuned: ROS 1 launch file, ROS 2 YAML, JSON, Python or flags.
+        topic: laser topic to use (default: the first).
+        scheduler: address of a Dask scheduler, such as tcp://host:8786 (default: threads of this machine).
     """
     from lineseg.sweep import pool
     from lineseg.tuning import FileBlocks, Objective, Tuning
 
     if trials < 0:
-        raise ValueError(f"--trials is {trials}; 0 or more can be tried")
+        raise ValueError(f"--trials is {trials}; give 0 or more")
     if out is not None and not out.absolute().parent.is_dir():
         raise FileNotFoundError(f"{out}: the folder {out.parent} does not exist.")
     base = Params() if params is None else read_params(params.read_text(encoding="utf-8-sig"))
@@ -73,7 +73,7 @@ def tune(
         verdict = tuning.verdict()
     print(verdict.text, file=sys.stderr)
     for name, share in tuning.importance().items():
-        print(f"  {name:<14}{share:4.0%} of what makes a trial good", file=sys.stderr)
+        print(f"  {name:<14}{share:4.0%} importance", file=sys.stderr)
     text = params_text(verdict.params, to)
     if out is None:
         sys.stdout.write(text)
@@ -82,7 +82,7 @@ def tune(
 
 
 def _search(tuning, trials: int) -> None:
-    """Until all are tried, or Ctrl-C."""
+    """Run all trials, or until Ctrl-C."""
     with progress_bar("tune", "trial") as advance:
         try:
             for done, _ in enumerate(tuning.run(trials), 1):
@@ -90,4 +90,4 @@ def _search(tuning, trials: int) -> None:
         except KeyboardInterrupt:
             if not tuning.trials():
                 raise
-            print("lineseg: stopped; judging what was found.", file=sys.stderr)
+            print("lineseg: stopped; judging the best setting so far.", file=sys.stderr)

@@ -1,4 +1,4 @@
-"""`lineseg view`: serve the page."""
+"""`lineseg view`: serves the page."""
 
 from __future__ import annotations
 
@@ -24,15 +24,15 @@ def view(
     """Show the page in the browser.
 
     Args:
-        file: recording to open: CARMEN log, ROS 1 or ROS 2 bag, MCAP, NPZ or text; without it, a sample.
-            Or a robot, whose scans are shown as they come: ws://robot:9090 (rosbridge), ws://robot:8765 (Foxglove).
-        topic: laser topic to take; the first without.
-        keep: of a robot's scans the newest so many are kept.
-        host: address to listen on; any but the loopback asks for a token.
-        port: TCP port; 0 takes a free one.
-        token: word that a browser must bring along.
-        no_browser: only serve, open no browser.
-        rerun: stream what is looked at into rerun's viewer as well, on its port 9876; it is started if there is none.
+        file: recording to open: CARMEN log, ROS 1 or ROS 2 bag, MCAP, NPZ or text (default: a sample).
+                Or a robot to watch live: ws://robot:9090 (rosbridge), ws://robot:8765 (Foxglove).
+            topic: laser topic to use (default: the first).
+            keep: number of a robot's scans to keep; older ones are dropped.
+            host: address to listen on; any but the loopback requires a token.
+            port: TCP port; 0 picks a free one.
+            token: password that browsers must send (default: a random one if a token is required).
+            no_browser: do not open a browser.
+            rerun: also stream the view to rerun's viewer on port 9876; starts the viewer if none is running.
     """
     from ..live.address import Address, is_address
     from ..server import Settings, serve
@@ -46,7 +46,7 @@ def view(
             raise FileNotFoundError(f"{path}: there is no such file or folder.")
         files = (path.resolve(),)
     if not 1 <= keep <= MOST_KEPT:
-        raise ValueError(f"--keep is {keep}; allowed are 1 to {MOST_KEPT} scans")
+        raise ValueError(f"--keep is {keep}; allowed: 1 to {MOST_KEPT} scans")
     with contextlib.ExitStack() as stack:
         watch = None
         if rerun:

@@ -1,1 +1,1 @@
-"""Scans that arrive while one looks: from a robot, or pushed by any program."""
+"""Live scans: from a robot, or pushed by any program."""

@@ -9,7 +9,7 @@ from urllib.parse import urlsplit
 
 @dataclass(frozen=True)
 class Address:
-    """url: ws://host:port of a robot's bridge; topic: of its scans, the first without."""
+    """url: ws://host:port of a robot's bridge; topic: of its scans, None for the first."""
 
     url: str
     topic: str | None = None
@@ -27,12 +27,12 @@ def is_address(text: str) -> bool:
 
 
 def check_address(url: str) -> None:
-    """A ValueError where `url` is no address of a WebSocket."""
-    expected = "an address is like ws://robot:9090 (rosbridge) or ws://robot:8765 (Foxglove)"
+    """Raises ValueError if `url` is not the address of a WebSocket."""
+    expected = "give one like ws://robot:9090 (rosbridge) or ws://robot:8765 (Foxglove)"
     try:
         parts = urlsplit(url)
         known = is_address(url) and parts.hostname and (parts.port is None or parts.port > 0)
     except ValueError:
         known = False
     if not known or re.search(r"[\s\x00-\x1f]", url) or len(url) > 300:
-        raise ValueError(f"{url[:80]!r} is no address of a robot; {expected}")
+        raise ValueError(f"{url[:80]!r} is not the address of a robot; {expected}")

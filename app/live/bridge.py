@@ -1,4 +1,4 @@
-"""What every protocol of a robot's bridge offers and tells, and why a connection to one fails."""
+"""The interface of every bridge protocol, and words for failed connections."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ LARGEST_MESSAGE = 4 * 1024 * 1024
 
 
 class Told(Protocol):
-    """Who hears of a bridge's messages."""
+    """The receiver of a bridge's messages."""
 
     def topic_is(self, topic: str) -> None: ...
     def waits(self, why: str) -> None: ...
@@ -23,29 +23,29 @@ class Told(Protocol):
 
 
 class Bridge(Protocol):
-    """What a protocol does on an open connection."""
+    """A protocol on an open connection."""
 
     name: str
 
     def scans(self, topic: str | None, told: Told) -> None:
-        """Hand over each scan of the topic until the connection ends; ValueError where there can be none."""
+        """Hand over each scan of the topic until the connection ends. Raises ValueError if the topic has no scans."""
         ...
 
     def publish(self, topic: str, extraction: Extraction, scan: LaserScan) -> None:
-        """Send segments as a MarkerArray; ValueError where the robot takes none."""
+        """Send segments as a MarkerArray. Raises ValueError if the robot does not accept them."""
         ...
 
 
 def why_not(place: str, error: Exception) -> str:
-    """Why a connection failed or ended, in words that name the place."""
+    """Why a connection failed or ended, with the address."""
     if isinstance(error, TimeoutError):
         return f"{place} does not answer"
     if isinstance(error, ConnectionRefusedError):
         return f"nothing listens at {place}"
     if isinstance(error, ConnectionClosed):
-        return f"{place} hung up"
+        return f"{place} closed the connection"
     if isinstance(error, InvalidHandshake):
-        return f"{place} speaks no WebSocket that can be used ({error})"
+        return f"{place} does not offer a usable WebSocket ({error})"
     if isinstance(error, OSError):
         return f"{place} cannot be reached ({error.strerror or error})"
     return str(error)

@@ -1,4 +1,4 @@
-"""The Foxglove WebSocket protocol: channels with an encoding each; JSON for control, binary messages for data."""
+"""The Foxglove WebSocket protocol: each channel has an encoding; JSON for control, binary messages for data."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ DECODERS: dict[str, Callable[[bytes], LaserScan]] = {
 
 
 class Foxglove:
-    """One side of a connection. Channels come and go; the first that fits is taken, and waited for."""
+    """The client side of a connection. Channels come and go; it waits for the first one that fits and takes it."""
 
     name = "Foxglove WebSocket"
 
@@ -52,12 +52,12 @@ class Foxglove:
 
     def publish(self, topic: str, extraction: Extraction, scan: LaserScan) -> None:
         if "clientPublish" not in self._server.get("capabilities", []):
-            raise ValueError("the robot takes no messages: its Foxglove server has no clientPublish")
+            raise ValueError("the robot accepts no messages; enable clientPublish on its Foxglove server")
         supported = self._server.get("supportedEncodings") or []
         encoding = next((name for name in MARKER_ENCODERS if name in supported), None)
         if encoding is None:
             taken = ", ".join(supported) or "nothing"
-            raise ValueError(f"the robot takes messages as {taken}; {', '.join(MARKER_ENCODERS)} can be sent")
+            raise ValueError(f"the robot accepts messages as {taken}; this server sends {', '.join(MARKER_ENCODERS)}")
         if topic not in self._advertised:
             id = self._advertised[topic] = len(self._advertised) + 1
             channel = {"id": id, "topic": topic, "encoding": encoding, "schemaName": MARKER_ARRAY}
@@ -96,7 +96,7 @@ class Foxglove:
     def _why_none(self, topic: str | None) -> str:
         named = [channel for channel in self._channels.values() if channel["topic"] == topic]
         if named:
-            return f"{_shown(named[0])}; a sensor_msgs/LaserScan as {', '.join(DECODERS)} is needed"
+            return f"{_shown(named[0])}; choose a sensor_msgs/LaserScan as {', '.join(DECODERS)}"
         there = ", ".join(_shown(channel) for channel in list(self._channels.values())[:8])
         missing = f"has no topic {topic}" if topic else "has no sensor_msgs/LaserScan topic"
         return f"the robot {missing} yet; it has {there or 'no topic at all'}"
@@ -106,7 +106,7 @@ class Foxglove:
 
 
 def _is_laser(channel: dict[str, Any]) -> bool:
-    """JSON has no fixed names of types: there the last part of the name counts."""
+    """JSON has no fixed type names, so only the last part of the name counts."""
     schema, encoding = str(channel["schemaName"]), channel["encoding"]
     named = schema in TYPES or (encoding == "json" and schema.split("/")[-1] == "LaserScan")
     return named and encoding in DECODERS

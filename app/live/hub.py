@@ -20,11 +20,11 @@ POLL = 0.2
 
 
 class TooManySourcesError(ValueError):
-    """More names than the server takes scans for."""
+    """Scans are pushed under more names than the server accepts."""
 
 
 class Live:
-    """All live sources by id: the robots of the command line, and what is pushed, each kept to `most` scans."""
+    """All live sources by id: robots of the command line and pushed sources; each keeps up to `most` scans."""
 
     def __init__(self, robots: Sequence[Address] = (), most: int = 3000) -> None:
         self._most = most
@@ -47,7 +47,7 @@ class Live:
         return self._robots.get(id) or self._pushed.get(id)
 
     def on_scan(self, listener: Callable[[], None]) -> Callable[[], None]:
-        """Call `listener`, in the thread of the source, for each scan that arrives; the result ends that."""
+        """Call `listener` in the thread of the source for each new scan. Returns a function that unsubscribes."""
         self._listeners.append(listener)
         return lambda: self._listeners.remove(listener)
 
@@ -60,22 +60,22 @@ class Live:
             robot.close()
 
     def pushed(self, name: str) -> Source:
-        """The source behind a name that a program pushes to; a new name is a new source."""
+        """The source for a name that a program pushes to; a new name makes a new source."""
         if not NAME.fullmatch(name):
-            raise ValueError(f"{name[:80]!r} is no name: letters, digits, _ . and - are allowed, 64 at most")
+            raise ValueError(f"{name[:80]!r} is not a valid name; use up to 64 letters, digits, _ . and -")
         id = f"live:{name}"
         with self._lock:
             if id not in self._pushed:
                 if len(self._pushed) >= MOST_PUSHED:
-                    raise TooManySourcesError(f"scans are pushed under {MOST_PUSHED} names, the most this server takes")
+                    raise TooManySourcesError(f"scans are pushed under {MOST_PUSHED} names already; use one of them")
                 self._pushed[id] = Source(id, name, Ring(self._most), self._arrived)
             return self._pushed[id]
 
     def recording(self, id: str, waiting: Callable[[], None], wanted: Callable[[], bool]) -> LiveRecording:
-        """What a source has sent so far; before its first scan it waits, calling `waiting` again and again."""
+        """The scans that a source has sent so far. Waits for the first one, calling `waiting` repeatedly."""
         source = self.get(id)
         if source is None:
-            raise ValueError(f"there is no live source {id!r}; nothing was pushed under this name, or it was restarted")
+            raise ValueError(f"there is no live source {id!r}; push a scan under this name first")
         while not source.first_scan.wait(POLL):
             if not wanted():
                 raise Cancelled
@@ -83,13 +83,13 @@ class Live:
         return source.ring.snapshot()
 
     def follow(self, owner: str, id: str, method: str, params: Thresholds) -> None:
-        """A tab shows this; where it publishes its segments, these thresholds hold from now on."""
+        """Note what a tab shows; if the tab publishes its segments, these thresholds apply from now on."""
         source = self.get(id)
         if source is not None:
             source.follow(owner, method, params)
 
     def leave(self, owner: str) -> None:
-        """A tab is gone: what it published is published no more."""
+        """A tab is gone; stop publishing its segments."""
         for source in self:
             source.publish(owner, None)
 

@@ -1,4 +1,4 @@
-"""Segments as visualization_msgs/MarkerArray, with the stamp and the frame of the scan they were found in."""
+"""Segments as visualization_msgs/MarkerArray, with the stamp and the frame of their scan."""
 
 from __future__ import annotations
 
@@ -13,16 +13,16 @@ from lineseg.colours import segment_colours
 from lineseg.readers.laser_scan import LaserScan
 from lineseg.segment import Extraction
 
-# Both versions of ROS know the type by its short name.
+# Both versions of ROS accept the short type name.
 MARKER_ARRAY = "visualization_msgs/MarkerArray"
 LINE_LIST, ADD, DELETE = 5, 0, 2
 WIDTH = 0.04
 
 
 def marker_array(extraction: Extraction, scan: LaserScan, ros1: bool = False) -> dict[str, Any]:
-    """One LINE_LIST of all segments as a JSON object; without segments the former one is deleted.
+    """One LINE_LIST of all segments as a JSON object; without segments, deletes the previous one.
 
-    ros1: rosbridge of ROS 1 calls the parts of a stamp otherwise.
+    ros1: rosbridge of ROS 1 has other names for the parts of a stamp.
     """
     names = ("secs", "nsecs") if ros1 else ("sec", "nanosec")
     stamp = dict(zip(names, (scan.seconds, scan.nanoseconds), strict=True))
@@ -64,7 +64,7 @@ def _as_ros1(extraction: Extraction, scan: LaserScan) -> bytes:
     return bytes(store.serialize_ros1(_message(store, marker_array(extraction, scan)), _TYPE))
 
 
-# Encoding → bytes; JSON first, for it does not depend on the version of the message.
+# Encoding → bytes; JSON first, because it does not depend on the version of the message.
 MARKER_ENCODERS: dict[str, Callable[[Extraction, LaserScan], bytes]] = {
     "json": _as_json,
     "cdr": _as_cdr,
@@ -81,7 +81,7 @@ def _store(name: str) -> Any:
 
 
 def _message(store: Any, values: dict[str, Any], type: str = _TYPE) -> Any:
-    """A message of `type` with these values; what they leave out is empty."""
+    """A message of `type` with these values; missing fields are empty."""
     fields = {name: _field(store, kind, values.get(name)) for name, kind in store.fielddefs[type][1]}
     return store.types[type](**fields)
 

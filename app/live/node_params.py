@@ -1,4 +1,4 @@
-"""Thresholds as parameters of a running node, over rosbridge, each read back."""
+"""Sets thresholds as parameters of a running node over rosbridge, and reads them back."""
 
 from __future__ import annotations
 
@@ -24,9 +24,9 @@ VALUE_FIELDS = {1: "bool_value", INTEGER: "integer_value", DOUBLE: "double_value
 
 @dataclass(frozen=True)
 class Sent:
-    """One parameter: under which name, what was sent, what the robot has now (None if nothing), and what it said.
+    """One parameter: its name, the value sent, the robot's present value (None if unset), and the robot's answer.
 
-    taken: whether the robot has the value that was sent.
+    taken: whether the robot now has the value that was sent.
     """
 
     name: str
@@ -38,10 +38,10 @@ class Sent:
 
 
 def send_params(url: str, node: str, params: Params, ros: int = 2, extensions: bool = False) -> list[Sent]:
-    """Set the thresholds of `node` and read them back; what a robot refuses stands in the result in its own words.
+    """Set the thresholds of `node` and read them back; refusals are in the result, in the robot's own words.
 
-    extensions: also those that the authors' program does not know. A robot that cannot be reached is an OSError, one
-    that has no such node a RobotError.
+    extensions: include thresholds that the authors' program does not have. Raises OSError if the robot cannot be
+    reached, RobotError if it has no such node.
     """
     check_address(url)
     place = urlsplit(url).netloc
@@ -68,13 +68,13 @@ def _set_ros2(bridge: RosBridge, node: str, values: dict[str, tuple[str, int | f
     results = bridge.call(f"{node}/set_parameters", {"parameters": parameters}).get("results", [])
     now = bridge.call(f"{node}/get_parameters", {"names": list(values)}).get("values", [])
     if len(results) != len(values) or len(now) != len(values):
-        raise RobotError(f"{len(results)} results and {len(now)} values for {len(values)} parameters")
+        raise RobotError(f"it sent {len(results)} results and {len(now)} values for {len(values)} parameters")
     reasons = ["" if result.get("successful") else str(result.get("reason") or "refused") for result in results]
     return _sent(values, [_plain(value) for value in now], reasons)
 
 
 def _set_ros1(bridge: RosBridge, node: str, values: dict[str, tuple[str, int | float]]) -> list[Sent]:
-    """The parameter server by rosapi; a node reads it when it starts."""
+    """Set the ROS 1 parameter server through rosapi; a node reads it when it starts."""
     now, reasons = [], []
     for name, (_, value) in values.items():
         reason = ""
@@ -102,7 +102,7 @@ def _value_of(value: int | float) -> dict[str, Any]:
 
 
 def _plain(value: Any) -> Any:
-    """A rcl_interfaces/msg/ParameterValue as what it holds; None where it is not set."""
+    """The value in a rcl_interfaces/msg/ParameterValue; None if it is not set."""
     field = VALUE_FIELDS.get(value.get("type", NOT_SET)) if isinstance(value, dict) else None
     return value.get(field) if field else None
 

@@ -1,4 +1,4 @@
-"""The newest scans of a live source. Old ones make room; a snapshot stays as it is."""
+"""The newest scans of a live source. Old scans are dropped; a snapshot never changes."""
 
 from __future__ import annotations
 
@@ -12,33 +12,33 @@ from lineseg.readers.laser_scan import LaserScan
 from lineseg.scan import Topic
 
 MOST_SCANS = 3000
-# Room is for so many beams a scan on the average, and for some large scans in any case.
+# The memory holds this many beams per scan on average, and always a few large scans.
 BEAMS_EACH = 2000
 LEAST_ROOM = 1_000_000
 
 
 @dataclass(frozen=True, eq=False)
 class LiveRecording(Recording):
-    """What a ring held at some moment. first: the number of its first scan, counted since the source began, from 0."""
+    """The scans in a ring at one moment. first: the number of its first scan, counted from 0 since the source began."""
 
     first: int = 0
 
     @property
     def total(self) -> int:
-        """How many scans had arrived."""
+        """Number of scans that had arrived."""
         return self.first + len(self)
 
 
 def first_of(recording: Recording) -> int:
-    """The number of its first frame; 0 where none was ever dropped."""
+    """The number of its first frame; 0 if none was dropped."""
     return recording.first if isinstance(recording, LiveRecording) else 0
 
 
 class Ring:
-    """The newest `most` scans, or fewer where they have more than `most_beams` together.
+    """The newest `most` scans, or fewer if these have more than `most_beams` together.
 
-    They are appended to flat arrays of twice that room, of which nothing is ever overwritten; where they are full, the
-    newest move on to new arrays. So a snapshot consists of views and costs nothing, however many scans come after it.
+    Scans are appended to flat arrays of twice that size, which are never overwritten; when they are full, the newest
+    scans are copied to new arrays. A snapshot therefore consists of views and costs nothing.
     """
 
     def __init__(self, most: int = MOST_SCANS, most_beams: int | None = None) -> None:
@@ -52,14 +52,14 @@ class Ring:
 
     @property
     def total(self) -> int:
-        """How many scans have arrived since the beginning."""
+        """Number of scans that have arrived since the source began."""
         with self._lock:
             return self.dropped + self._stop - self._start
 
     def add(self, scan: LaserScan) -> None:
         beams = len(scan.ranges)
         if beams > self.most_beams:
-            raise ValueError(f"a scan of {beams} beams; {self.most_beams} are the most")
+            raise ValueError(f"the scan has {beams} beams; send at most {self.most_beams}")
         with self._lock:
             if self._stop == len(self._geometry) or self._offsets[self._stop] + beams > len(self._ranges):
                 self._move()
@@ -94,7 +94,7 @@ class Ring:
         self._begin(self._ranges[first:end], offsets, self._geometry[rows], self._frame_ids[rows])
 
     def _begin(self, ranges: np.ndarray, offsets: np.ndarray, geometry: np.ndarray, frame_ids: list[str]) -> None:
-        """New arrays that begin with these scans. Untouched room takes no memory."""
+        """New arrays that begin with these scans. Unused space takes no memory."""
         scans = len(geometry)
         self._ranges = np.empty(2 * self.most_beams, np.float32)
         self._ranges[: len(ranges)] = ranges

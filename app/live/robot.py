@@ -1,4 +1,4 @@
-"""A robot at the other end of a WebSocket: connected again whenever it is lost."""
+"""A robot on a WebSocket; reconnects whenever the connection is lost."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ FIRST_PAUSE, LONGEST_PAUSE = 0.5, 15.0
 
 
 class Robot(Source):
-    """Takes scans in a thread of its own. Which protocol it is, the robot says: Foxglove picks its subprotocol."""
+    """Receives scans in its own thread. The robot decides the protocol: a Foxglove server accepts its subprotocol."""
 
     def __init__(self, id: str, url: str, ring: Ring, arrived: Callable[[], None], topic: str | None = None) -> None:
         self._url, self._topic = url, topic
@@ -44,7 +44,7 @@ class Robot(Source):
         self._thread.start()
 
     def close(self) -> None:
-        """Hang up; blocks until the thread is gone."""
+        """Disconnect; blocks until the thread has ended."""
         self._closing.set()
         socket = self._socket
         if socket is not None:
@@ -60,7 +60,7 @@ class Robot(Source):
         now = self.publishing
         if now is not None and now.owner != owner:
             if publishing is not None:
-                raise ValueError(f"another tab publishes its segments to {self._place} already")
+                raise ValueError(f"another tab already publishes its segments to {self._place}; stop it there first")
             return
         self.publish_trouble = ""
         self.publishing = publishing
@@ -78,7 +78,7 @@ class Robot(Source):
             self._closing.wait(pause)
 
     def _converse(self) -> str:
-        """Connect and take scans until that ends; why it did."""
+        """Connect and receive scans until the connection ends; returns the reason."""
         try:
             with connect(
                 self._url,
@@ -95,11 +95,11 @@ class Robot(Source):
         except (OSError, WebSocketException, ValueError) as error:
             return why_not(self._place, error)
         except Exception as error:
-            log.exception("%s sent what cannot be understood", self._place)
-            return f"{self._place} sent what cannot be understood ({type(error).__name__}: {error})"
+            log.exception("%s sent a message that cannot be understood", self._place)
+            return f"{self._place} sent a message that cannot be understood ({type(error).__name__}: {error})"
         finally:
             self._socket = self._bridge = None
-        return f"{self._place} hung up"
+        return f"{self._place} closed the connection"
 
     def topic_is(self, topic: str) -> None:
         self.ring.topic = topic
@@ -109,12 +109,12 @@ class Robot(Source):
         self.say("open", why)
 
     def hand(self, decode: Callable[[], LaserScan]) -> None:
-        """Take one scan. A message that is none is told, and the next may be one."""
+        """Add one scan. A message that is not a scan is reported, and receiving continues."""
         try:
             scan = decode()
             self.take(scan)
         except Exception as error:
-            self.refuse(f"a message of {self.ring.topic} is no scan: {error}")
+            self.refuse(f"a message of {self.ring.topic} is not a scan: {error}")
             return
         self._pause = FIRST_PAUSE
         if self._message or self._connection != "open":

@@ -16,17 +16,17 @@ from lineseg.segment import Extraction
 from .bridge import Told
 from .markers import MARKER_ARRAY, marker_array
 
-# Both versions of ROS know a type by its short name.
+# Both versions of ROS accept the short type name.
 LASER_SCAN = "sensor_msgs/LaserScan"
 CALL_SECONDS = 5.0
 
 
 class RobotError(ValueError):
-    """What the robot answered instead of doing it, in its own words."""
+    """The robot refused; the message is in its own words."""
 
 
 class RosBridge:
-    """One side of a connection. `call` may be used as long as `scans` is not running."""
+    """The client side of a connection. `call` may be used while `scans` is not running."""
 
     name = "rosbridge"
 
@@ -37,7 +37,7 @@ class RosBridge:
         self._ros1 = False
 
     def call(self, service: str, args: Mapping[str, Any], seconds: float = CALL_SECONDS) -> dict[str, Any]:
-        """The values that a service answers; RobotError with the robot's words if it fails, TimeoutError if silent."""
+        """The answer of a service. Raises RobotError with the robot's words, or TimeoutError without an answer."""
         id = next(self._ids)
         self._send(op="call_service", id=id, service=service, args=dict(args))
         late = time.monotonic() + seconds
@@ -76,7 +76,7 @@ class RosBridge:
         self._send(op="publish", topic=topic, msg=marker_array(extraction, scan, self._ros1))
 
     def _laser_topic(self, wanted: str | None) -> str:
-        """The topic to take, checked with rosapi; where that does not run, as it was wanted."""
+        """The topic to use, checked with rosapi; if rosapi is not running, the wanted topic unchecked."""
         try:
             values = self.call("/rosapi/topics", {})
         except (RobotError, TimeoutError) as error:
@@ -93,16 +93,16 @@ class RosBridge:
         if wanted in lasers:
             return wanted
         if wanted in topics:
-            others = f"; there is {', '.join(lasers)}" if lasers else ""
-            raise ValueError(f"{wanted} is {topics[wanted]}; a sensor_msgs/LaserScan is needed{others}")
-        raise ValueError(f"the robot has no topic {wanted}; of laser scans it has {', '.join(lasers) or 'none'}")
+            others = f", such as {', '.join(lasers)}" if lasers else ""
+            raise ValueError(f"{wanted} is {topics[wanted]}; choose a sensor_msgs/LaserScan topic{others}")
+        raise ValueError(f"the robot has no topic {wanted}; its laser topics: {', '.join(lasers) or 'none'}")
 
     def _send(self, **message: Any) -> None:
         self._socket.send(json.dumps(message))
 
 
 def _object(data: str | bytes) -> dict[str, Any]:
-    """A message, or an empty one for what is no JSON object."""
+    """The message, or an empty one if the text is not a JSON object."""
     try:
         message = json.loads(data)
     except (ValueError, RecursionError):

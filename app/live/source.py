@@ -1,4 +1,4 @@
-"""Where live scans come from, and how that goes."""
+"""Sources of live scans and their status."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ from .ring import Ring
 
 WINDOW = 3.0
 SILENT = 2.0
-# Beyond this the two clocks have nothing to do with each other (a simulation, a replayed bag).
+# Beyond this delay the two clocks are unrelated (a simulation, a replayed bag).
 FOREIGN_CLOCK = 3600.0
 
 
 @dataclass(frozen=True)
 class Publishing:
-    """Segments go back to the robot: whose thresholds, and under which topic."""
+    """Publishing of segments to the robot: with which thresholds, and to which topic."""
 
     owner: str
     topic: str
@@ -33,7 +33,7 @@ class Publishing:
 
 
 class Source:
-    """A ring, and how it is filled. `arrived` is called for each scan, in the thread that brought it."""
+    """A ring of scans and its status. `arrived` is called for each scan, in the thread that received it."""
 
     def __init__(self, id: str, label: str, ring: Ring, arrived: Callable[[], None]) -> None:
         self.id, self.label, self.ring = id, label, ring
@@ -49,9 +49,9 @@ class Source:
         self._message = ""
 
     def take(self, scan: LaserScan) -> None:
-        """A scan has arrived; one that cannot be kept is a ValueError."""
+        """Add a scan. Raises ValueError if it cannot be kept."""
         if not len(scan.ranges):
-            raise ValueError("a scan without ranges")
+            raise ValueError("the scan has no ranges")
         self.ring.add(scan)
         self._times.append(time.monotonic())
         delay = time.time() - scan.stamp
@@ -60,7 +60,7 @@ class Source:
         self._arrived()
 
     def refuse(self, why: str) -> None:
-        """A message that is no scan: it is counted, and the last reason is shown."""
+        """Count a message that is not a scan, and show the last reason."""
         self._refused += 1
         self._message = why
 
@@ -68,12 +68,14 @@ class Source:
         self._connection, self._message = connection, message
 
     def publish(self, owner: str, publishing: Publishing | None) -> None:
-        """Publish segments for a tab, or no longer; only who publishes can end it."""
+        """Start or stop publishing segments for a tab; only the publishing tab can stop it."""
         if publishing is not None:
-            raise ValueError(f"{self.label} takes no messages: its scans are pushed to this server")
+            raise ValueError(
+                f"{self.label} accepts no messages, because its scans are pushed; publish to a robot instead"
+            )
 
     def follow(self, owner: str, method: str, params: Thresholds) -> None:
-        """The tab that publishes has other thresholds now."""
+        """Update the thresholds of the publishing tab."""
         now = self.publishing
         if now is not None and now.owner == owner and (now.method, now.params) != (method, params):
             self.publishing = Publishing(owner, now.topic, method, params)
@@ -84,7 +86,7 @@ class Source:
         return self._message or f"{self.label}: waiting for the first scan"
 
     def rate(self) -> float:
-        """Scans a second of late; 0 where none came lately."""
+        """Recent scans per second; 0 if none came recently."""
         now = time.monotonic()
         late = [moment for moment in list(self._times) if now - moment < WINDOW]
         if len(late) < 2 or now - late[-1] > SILENT:
@@ -92,7 +94,7 @@ class Source:
         return (len(late) - 1) / max(late[-1] - late[0], 1e-6)
 
     def status(self, session: str) -> LiveStatus:
-        """How it fares, for one tab: the ids of other tabs are not told."""
+        """The status for one tab, without the ids of other tabs."""
         publishing = self.publishing
         return LiveStatus(
             recording=self.id,

@@ -1,4 +1,4 @@
-"""What a recording of rerun says once: classes and colours, parameters and versions, and how the viewer opens."""
+"""The static part of a rerun recording: classes, colours, parameters, versions, and the layout of the viewer."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ from ..scene.palette import LIGHT
 
 POINTS_OF = {"points": "laser/points", "seeds": "laser/seeds"}
 BIG = -3.0
-# rerun's eye sees this much from edge to edge, of the lesser side of a view.
+# The field of view of rerun's eye along the shorter side of a view.
 FIELD_OF_VIEW = math.radians(55)
 UNITS = {"": "counts", "m": "metres"}
-# Of the columns of rerun's log; there is one entity, and the sentence says what the level would.
+# Hidden columns of rerun's log: there is only one entity, and the sentence says more than the level.
 SENTENCE = [TextLogColumn("Body")]
 SHARES = ("coverage", "invalid", "change")
 
@@ -62,7 +62,7 @@ def announce(
 def properties(
     recording: Recording, label: str, method: str, params: Thresholds, frames: Sequence[int]
 ) -> dict[str, str | int | float]:
-    """What made this recording, so that it can be made again."""
+    """The settings needed to reproduce this recording."""
     about = {
         "version": __version__,
         "recording": label or recording.name,
@@ -81,7 +81,7 @@ def parameters(label: str, method: str, params: Thresholds) -> rr.TextDocument:
 
 
 def blueprint(bounds: Bounds, steps: bool = False) -> rrb.Blueprint:
-    """The plan above the scores, the log of decisions beside the parameters."""
+    """The plan above the scores, the log of decisions next to the parameters."""
     plots = {
         "shares": [name for name in SCORES if name in SHARES],
         "counts": [name for name, score in SCORES.items() if not score.unit and name not in SHARES],

@@ -1,4 +1,4 @@
-"""What a session looks at, streamed into a viewer of rerun as it happens."""
+"""Streams the view of a session live to rerun's viewer."""
 
 from __future__ import annotations
 
@@ -34,10 +34,10 @@ START_SECONDS = 20.0
 
 
 class LiveRerun:
-    """Streams to the viewer on `port` of this machine; in a thread of its own, so that no tab waits for a viewer.
+    """Streams to the viewer on `port` of this machine, in its own thread, so no tab waits for the viewer.
 
-    While no viewer is there, what is shown is passed over; one that comes gets everything that is said once, and the
-    present frame. Timelines: `frame`, and `shown`, the time at which it was looked at.
+    Without a viewer, frames are dropped. A new viewer gets the static part and the present frame. Timelines: `frame`,
+    and `shown`, the time at which the frame was on the screen.
     """
 
     def __init__(self, port: int = PORT) -> None:
@@ -53,7 +53,7 @@ class LiveRerun:
         self._thread.start()
 
     def show(self, view: View, recording: Recording, label: str, found: Findings) -> None:
-        """Stream this; where an older one still waits, it is passed over."""
+        """Stream this; replaces an older one that is still waiting."""
         with self._changed:
             self._waiting = view, recording, label, found
             self._changed.notify_all()
@@ -82,12 +82,12 @@ class LiveRerun:
         self._hang_up()
 
     def _connected(self) -> bool:
-        """Whether a viewer has come since last time; afterwards there is a stream if one is there."""
+        """Whether a viewer has connected since the last call; opens a stream if a viewer is running."""
         if self._line is not None and not _hung_up(self._line):
             return False
         self._hang_up()
         with contextlib.suppress(OSError):
-            # A line of our own to the viewer: rerun's SDK does not say when the viewer goes.
+            # Our own connection to the viewer: rerun's SDK does not report when the viewer closes.
             self._line = socket.create_connection(("127.0.0.1", self._port), timeout=PROBE_SECONDS)
         if self._line is None:
             return False
@@ -97,7 +97,7 @@ class LiveRerun:
 
     def _hang_up(self) -> None:
         if self._stream is not None:
-            # It may wait for a viewer that is gone.
+            # Closing may wait for a viewer that is gone.
             threading.Thread(target=self._stream.disconnect, daemon=True).start()
         if self._line is not None:
             self._line.close()
@@ -131,7 +131,7 @@ class LiveRerun:
         return {"segments": float(len(found.extraction.segments)), "coverage": covered}
 
     def _send_step(self, stream: rr.RecordingStream, view: View, found: Findings) -> None:
-        """The decision under view, and the lines that stand after it; nothing where the whole result is shown."""
+        """The decision on the screen and the lines after it; empty if the whole result is shown."""
         ends = np.empty((0, 2, 2))
         if view.step is not None:
             decision = found.trace[view.step]
@@ -142,7 +142,7 @@ class LiveRerun:
 
 
 def _hung_up(line: socket.socket) -> bool:
-    """Whether the other end is gone; what it may have said is of no interest."""
+    """Whether the other end has closed; ignores anything it sent."""
     while select.select([line], [], [], 0)[0]:
         try:
             if not line.recv(4096):
@@ -154,7 +154,7 @@ def _hung_up(line: socket.socket) -> bool:
 
 @contextlib.contextmanager
 def live_rerun(port: int = PORT) -> Iterator[LiveRerun]:
-    """A stream to the viewer on `port`, which is started where there is none, and stays when we go."""
+    """A stream to the viewer on `port`. Starts a viewer if none is running; it stays open when we exit."""
     if not answers(port):
         start_viewer(port)
     live = LiveRerun(port)
@@ -165,7 +165,7 @@ def live_rerun(port: int = PORT) -> Iterator[LiveRerun]:
 
 
 def start_viewer(port: int) -> None:
-    """Start rerun's native viewer, on the loopback only; an OSError if it does not come up."""
+    """Start rerun's native viewer, on the loopback only. Raises OSError if it does not start."""
     folder = Path(tempfile.mkdtemp(prefix="lineseg-rerun-viewer-"))
     flags = ["--bind", "127.0.0.1", "--port", str(port), "--expect-data-soon"]
     silent, environment = subprocess.DEVNULL, quiet_environment(folder)
@@ -176,8 +176,8 @@ def start_viewer(port: int) -> None:
     while not answers(port):
         if program.poll() is not None or time.monotonic() > late:
             raise OSError(
-                "rerun's viewer does not start here, perhaps for want of a display; start `rerun --bind 127.0.0.1` "
-                "where it can, or record a file with `lineseg record`"
+                "rerun's viewer does not start, perhaps because there is no display; start `rerun --bind 127.0.0.1` "
+                "yourself, or record a file with `lineseg record`"
             )
         time.sleep(0.1)
 

@@ -1,4 +1,4 @@
-"""A recording under one method and its thresholds, frame by frame, as a recording of rerun."""
+"""Writes the results of a method for a recording, frame by frame, as a rerun recording."""
 
 from __future__ import annotations
 
@@ -23,14 +23,14 @@ from .layout import POINTS_OF, announce
 from .rows import Moments, send_rows, times
 
 BLOCK = 128
-# What becomes of lines; the other decisions come by the hundred in a frame, only a recording of all steps has them.
+# The decisions that create or remove lines. A frame has hundreds of others, which only `steps` records.
 NOTABLE = ("line", "drop", "merge", "cut")
 Progress = Callable[[int, int], None]
 
 
 @dataclass(frozen=True, eq=False)
 class Run:
-    """What is recorded. frames: of the recording; steps: with every decision, on a timeline of its own."""
+    """What to record. frames: of the recording; steps: whether to add every decision, on a timeline `step`."""
 
     recording: Recording
     label: str
@@ -41,9 +41,9 @@ class Run:
 
 
 def save(run: Run, path: Path, progress: Progress = lambda done, total: None) -> None:
-    """Write `run` to a file; until all is written, a file that was there stays.
+    """Write `run` to a file; an existing file is replaced only when all is written.
 
-    progress: called with (frames done, frames); what it raises ends the work, and comes through.
+    progress: called with (frames done, frames); an exception it raises ends the work and is passed on.
     """
     part = path.with_name(f"{path.name}.part")
     part.touch()
@@ -87,10 +87,10 @@ def send(run: Run, stream: rr.RecordingStream, progress: Progress = lambda done,
 
 
 def moments_of(run: Run, frames: range) -> Moments:
-    """Frames of the run on the timelines `frame` and, where the file has stamps, `stamp`."""
+    """Frames of the run on the timeline `frame` and, if the file has stamps, `stamp`."""
     stamps = np.asarray(run.recording.stamps, dtype=float)
     recorded = stamps[run.frames.start : run.frames.stop]
-    # A file without stamps has the same for every frame.
+    # A file without stamps has the same stamp for every frame.
     stamped = np.isfinite(recorded).all() and np.ptp(recorded) > 0
     return Moments(np.array(frames), stamps[frames.start : frames.stop] if stamped else None)
 
@@ -103,7 +103,7 @@ def send_points(stream: rr.RecordingStream, traces: Sequence[Trace], here: Momen
 
 
 def send_result(stream: rr.RecordingStream, traces: Sequence[Trace], here: Moments) -> None:
-    """The seeds, the segments, and the candidates that were dropped."""
+    """The seeds, the segments, and the dropped candidates."""
     seeds = [raised(trace.scan.xy[seed_beams(trace)]) for trace in traces]
     send_rows(stream, POINTS_OF["seeds"], here, rr.Points3D.columns, positions=seeds)
     segments = [segment_strips(trace.extraction.segments) for trace in traces]
@@ -114,7 +114,7 @@ def send_result(stream: rr.RecordingStream, traces: Sequence[Trace], here: Momen
 
 
 def send_decisions(stream: rr.RecordingStream, traces: Sequence[Trace], here: Moments) -> None:
-    """What is decided, in words; every decision where frames stand on the timeline `step`."""
+    """The decisions in words; all of them on the timeline `step`."""
     told = [notable(trace) if here.step is None else np.arange(len(trace)) for trace in traces]
     levels = np.array([level_of(kind) for kind in traces[0].vocabulary.kinds])
     kinds = np.concatenate([trace.log["kind"][indices] for trace, indices in zip(traces, told, strict=True)])
@@ -125,7 +125,7 @@ def send_decisions(stream: rr.RecordingStream, traces: Sequence[Trace], here: Mo
 
 
 def send_replay(stream: rr.RecordingStream, traces: Sequence[Trace], begins: Moments) -> None:
-    """What the decisions look at, and the lines there are whenever they change; begins: where each frame does."""
+    """The geometry of each decision, and the lines whenever they change; begins: the first decision of each frame."""
     if not any(map(len, traces)):
         return
     steps = times(begins.of_decisions([np.arange(len(trace)) for trace in traces]))
@@ -141,7 +141,7 @@ def send_replay(stream: rr.RecordingStream, traces: Sequence[Trace], begins: Mom
 
 
 def fitted_lines(trace: Trace) -> tuple[NDArray[np.bool_], NDArray[np.float64]]:
-    """(decisions,) which of them have a line; and (n, 2, 2) the part of it beside the window of each that has."""
+    """(decisions,) whether a decision has a line; and (n, 2, 2) the part of each such line next to its window."""
     log = trace.log
     lines = np.array([log["line"][name] for name in "abc"])
     there = is_line(lines)
@@ -150,14 +150,14 @@ def fitted_lines(trace: Trace) -> tuple[NDArray[np.bool_], NDArray[np.float64]]:
 
 
 def decided_points(trace: Trace) -> tuple[NDArray[np.bool_], NDArray[np.float64]]:
-    """(decisions,) which of them are on one point; and (n, 2) those points."""
+    """(decisions,) whether a decision is about one point; and (n, 2) these points."""
     beams = trace.as_beams(trace.log["beam"])
     there = beams >= 0
     return there, trace.scan.xy[beams[there]]
 
 
 def standing_lines(trace: Trace, index: int) -> NDArray[np.float32]:
-    """(n, 2, 3): the lines there are after a decision."""
+    """(n, 2, 3): the lines after a decision."""
     lines = trace.lines_at(index)
     ends = [foot(trace.scan.xy[[line.first, line.last]], line.line) for line in lines]
     return raised(np.array(ends).reshape(-1, 2, 2))
@@ -166,7 +166,7 @@ def standing_lines(trace: Trace, index: int) -> NDArray[np.float32]:
 def send_scores(stream: rr.RecordingStream, run: Run) -> None:
     """The scores of every frame."""
     recording, frames = run.recording, run.frames
-    # Some scores compare a frame with those beside it.
+    # Some scores compare a frame with its neighbours.
     first, stop = max(frames.start - 1, 0), min(frames.stop + 1, len(recording))
     surveyed = survey(recording.only(np.arange(first, stop)), run.params)
     moments = times(moments_of(run, frames))
@@ -176,7 +176,7 @@ def send_scores(stream: rr.RecordingStream, run: Run) -> None:
 
 
 def notable(trace: Trace) -> NDArray[np.intp]:
-    """Indices of the decisions by which lines come and go."""
+    """Indices of the decisions that create or remove lines."""
     wanted = np.array([is_notable(kind) for kind in trace.vocabulary.kinds])
     return np.flatnonzero(wanted[trace.log["kind"]])
 
@@ -192,7 +192,7 @@ def level_of(kind: Kind) -> str:
 
 
 def seed_beams(trace: Trace) -> NDArray[np.int64]:
-    """The beams of the windows from which the lines grew that were kept to the end; none where there are no seeds."""
+    """The beams of the seeds of the kept lines; none if the method has no seeds."""
     if "seed found" not in trace.vocabulary.names:
         return np.empty(0, np.int64)
     kept = set(trace.log["candidate"][trace.indices("endpoints")].tolist())

@@ -1,4 +1,4 @@
-"""Rows of one entity, many frames of them in one call."""
+"""Rows of one entity for many frames, sent in one call."""
 
 from __future__ import annotations
 
@@ -9,19 +9,19 @@ import numpy as np
 import rerun as rr
 from numpy.typing import NDArray
 
-# Stamps later than this are seconds since 1970, by which rerun shows a date; earlier ones are a clock of their own.
+# Later stamps are seconds since 1970, which rerun shows as a date; earlier ones come from some other clock.
 A_DATE = 1e8
 
 
 class Moments(NamedTuple):
-    """Where rows stand on each timeline, (rows,) each; None: not on this one."""
+    """Positions of rows on each timeline, (rows,) each; None: not on this timeline."""
 
     frame: NDArray[np.int64] | None = None
     stamp: NDArray[np.float64] | None = None
     step: NDArray[np.int64] | None = None
 
     def of_decisions(self, indices: Sequence[NDArray[np.intp]]) -> Moments:
-        """Of decisions, where these are of the frames they are in; indices: of each frame, each a step."""
+        """The moments of decisions, from those of frames; indices: of the decisions of each frame, one step each."""
         counts = [len(each) for each in indices]
         begun = {name: np.repeat(values, counts) for name, values in self._asdict().items() if values is not None}
         if self.step is not None:
@@ -36,9 +36,9 @@ def send_rows(
     columns: Callable[..., rr.ComponentColumnList],
     **values: Sequence[NDArray],
 ) -> None:
-    """Send a row for each moment, which holds any number of points or strips.
+    """Send a row for each moment, with any number of points or strips.
 
-    values: (rows,) each; those of one row are of the same length.
+    values: (rows,) each; the values of one row have the same length.
     """
     counts = list(map(len, next(iter(values.values()))))
     joined = {name: np.concatenate(parts) for name, parts in values.items()}
@@ -46,7 +46,7 @@ def send_rows(
 
 
 def times(moments: Moments) -> list[rr.TimeColumn]:
-    """A column for each timeline that the rows stand on."""
+    """A column for each timeline that is used."""
     columns = []
     if moments.frame is not None:
         columns.append(rr.TimeColumn("frame", sequence=moments.frame))

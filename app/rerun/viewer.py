@@ -1,4 +1,4 @@
-"""rerun's web viewer, out of the installed package."""
+"""rerun's web viewer, taken from the installed package."""
 
 from __future__ import annotations
 
@@ -35,9 +35,9 @@ def executable() -> Path:
 
 
 def quiet_environment(folder: Path) -> dict[str, str]:
-    """The environment in which rerun's program sends no usage data; its settings are kept in `folder`.
+    """An environment in which rerun's program sends no usage data; its settings are kept in `folder`.
 
-    Where settings are not kept by XDG's rules, on macOS and Windows, the user's own hold: `rerun analytics disable`.
+    macOS and Windows do not follow XDG, so the user's own settings apply there: `rerun analytics disable`.
     """
     places = {"XDG_CONFIG_HOME": str(folder), "XDG_DATA_HOME": str(folder)}
     environment = {**os.environ, **places, "TELEMETRY_ENABLED": "false"}
@@ -49,8 +49,7 @@ def quiet_environment(folder: Path) -> dict[str, str]:
 def unpack(folder: Path) -> None:
     """Write FILES to `folder`.
 
-    The package holds them inside its program, which gives them away over HTTP only: it runs for a moment, on the
-    loopback.
+    The files are inside rerun's program, which only serves them over HTTP, so it runs briefly on the loopback.
     """
     port, other = free_ports(2)
     flags = ["--serve-web", "--bind", "127.0.0.1", "--web-viewer-port", str(port), "--port", str(other)]
@@ -75,7 +74,7 @@ def _fetch(address: str, file: Path, program: subprocess.Popen) -> None:
             return
         except urllib.error.URLError as error:
             if program.poll() is not None or time.monotonic() > late:
-                raise OSError(f"rerun's program does not give its web viewer away: {error.reason}") from None
+                raise OSError(f"rerun's program does not serve its web viewer: {error.reason}") from None
             time.sleep(0.05)
 
 

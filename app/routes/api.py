@@ -73,7 +73,7 @@ def add_api(app: FastAPI, library: Library, sessions: Sessions) -> None:
         shown = sessions.shown(session)
         known = [field for field, _, _ in shown.view.params.knobs()]
         if name not in known:
-            raise HTTPException(400, f"there is no threshold {name[:40]!r}; there are {', '.join(known)}")
+            raise HTTPException(400, f"there is no threshold {name[:40]!r}; choose from {', '.join(known)}")
         return sweep(shown.found.scan, shown.view.method, shown.view.params, name)
 
     @app.get("/api/recording")
@@ -88,7 +88,7 @@ def add_api(app: FastAPI, library: Library, sessions: Sessions) -> None:
 
 def _thresholds(method: str) -> Thresholds:
     if method not in EXTRACTORS:
-        raise ValueError(f"there is no method {method[:40]!r}; there are {', '.join(EXTRACTORS)}")
+        raise ValueError(f"there is no method {method[:40]!r}; choose from {', '.join(EXTRACTORS)}")
     return EXTRACTORS[method].params_type()
 
 

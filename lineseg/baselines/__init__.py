@@ -1,1 +1,1 @@
-"""The other methods of the field, to be held beside region growing: one file each, with thresholds of its own."""
+"""Other methods to compare with region growing, one file each, with their own thresholds."""

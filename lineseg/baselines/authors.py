@@ -1,8 +1,8 @@
-"""The authors' released program, each of its departures from the paper a switch.
+"""The authors' released program, with a switch for each departure from the paper.
 
-Gao, Zhang, Fang, Yuan 2018, their ROS package. With every switch on it is the program as released; with `ends_early`,
-`two_more_points` and `skips_after_erased` off, the program with its slips repaired. What cannot be told from outside
-is the form of its lines, y = k·x + c: only where the cross moment is exactly 0 does it show, see `slope_form`.
+Gao, Zhang, Fang, Yuan 2018, their ROS package. With every switch on, it behaves as released; with `ends_early`,
+`two_more_points` and `skips_after_erased` off, its bugs are fixed. The form of its lines, y = k·x + c, affects the
+result only if the cross moment is exactly 0, see `slope_form`.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ PARALLEL = 0.1
 
 @dataclass(frozen=True)
 class AuthorsParams(Thresholds):
-    """Thresholds under the names of the launch file, with its values; and a switch for each departure."""
+    """Thresholds with the names and values of the launch file, and a switch for each departure from the paper."""
 
     epsilon: Epsilon = 0.03
     delta: Delta = 0.10
@@ -41,46 +41,52 @@ class AuthorsParams(Thresholds):
     min_length: MinLength = 0.60
     every_beam: Annotated[
         bool,
-        switch("1", "beams without a return are points", "Dropouts are points like any other: a line ends at each."),
+        switch("1", "beams without a return are points", "Treats each dropout as a point, where a line then ends."),
     ] = True
     slope_form: Annotated[
         bool,
         switch(
-            "2", "lines as y = kx + c", "A fit whose cross moment is exactly 0 is upright, also for a wall across it."
+            "2",
+            "lines as y = kx + c",
+            "Fits a vertical line if the cross moment is exactly 0, even to a horizontal wall.",
         ),
     ] = True
     line_first: Annotated[
         bool,
-        switch("3", "line distance before predicted distance", "In a seed ε is tested before δ: the same answer."),
+        switch("3", "line distance before predicted distance", "Tests ε before δ in a seed. The result is the same."),
     ] = True
     ends_early: Annotated[
         bool,
         switch(
             "4", "never to the first or last beam",
-            "A line that reaches the last beam ends one before it, and is then fitted with one point too few; one that "
-            "reaches beam 0 starts at 1.",
+            "Ends a line that reaches the last beam one beam early, and fits it without its last point. A line that "
+            "reaches beam 0 starts at beam 1.",
         ),
     ] = True  # fmt: skip
     two_more_points: Annotated[
-        bool, switch("5", "P_min + 2 points", "A line needs last − first > P_min: two points more than P_min says.")
+        bool, switch("5", "P_min + 2 points", "Requires last − first > P_min: two points more than P_min.")
     ] = True
     raw_length: Annotated[
         bool,
-        switch("5′", "length between raw points", "L_min is compared with the distance of the end points as measured."),
+        switch("5′", "length between raw points", "Compares L_min with the distance between the measured end points."),
     ] = True
     any_pair: Annotated[
         bool,
-        switch("7", "merge any overlapping pair", "Not only neighbours merge if they overlap and are nearly parallel."),
+        switch(
+            "7",
+            "merge any overlapping pair",
+            "Merges nearly parallel lines that overlap even if they are not neighbours.",
+        ),
     ] = True
     unchecked_cuts: Annotated[
-        bool, switch("7′", "P_min unchecked after a cut", "A line that lost points to its neighbour may have too few.")
+        bool, switch("7′", "P_min unchecked after a cut", "Keeps a line that has too few points after a cut.")
     ] = True
     skips_after_erased: Annotated[
         bool,
         switch(
             "8",
             "skip the line after an erased one",
-            "Behind a line erased as too short, the next is passed over.",
+            "Does not check the line after one that was erased as too short.",
         ),
     ] = True
 
@@ -118,13 +124,13 @@ VOCABULARY = Vocabulary(
         Kind("line kept", "growth", "stands", "line", "line kept: {span}, {value:.3f} m ≥ L_min = {limit:.3f} m"),
         Kind("line dropped", "growth", "gone", "drop", "line dropped: {span}; {refusal}"),
         Kind("lines merged", "overlap", "joined", "merge", "lines merged: {value:deg} apart; now {span}"),
-        Kind("lines kept apart", "overlap", "none", "", "overlapping lines stay two: {value:deg} apart"),
+        Kind("lines kept apart", "overlap", "none", "", "overlapping lines not merged: {value:deg} apart"),
         Kind(
             "overlap cut", "overlap", "parted", "cut",
             "overlap cut at beam {beam}, {value:.3f} m from the first line, {limit:.3f} m from the second",
         ),
         Kind("line erased", "overlap", "gone", "drop", "line erased: {span}; {refusal}"),
-        Kind("line passed over", "overlap", "none", "", "line passed over: {span} stands behind an erased one"),
+        Kind("line passed over", "overlap", "none", "", "line not checked: {span} follows an erased line"),
         Kind("endpoints", "endpoints", "placed", "", "endpoints placed: {span}, {limit:.3f} m apart"),
     ),
     CHECKS,
@@ -132,7 +138,7 @@ VOCABULARY = Vocabulary(
 
 
 def run(scan: Scan, params: AuthorsParams, logged: bool) -> Run:
-    """The lines that the authors' program prints."""
+    """The same lines as the authors' program."""
     beam = np.arange(len(scan)) if params.every_beam else np.flatnonzero(scan.valid)
     ranges, rays = scan.ranges[beam].astype(np.float64), np.ascontiguousarray(scan.rays[:, beam])
     rules = Rules(*(getattr(params, name) for name in Rules._fields))
@@ -164,7 +170,7 @@ def extract_lines(ranges, rays, rules, xy, lines, dropped, used, log):
 
 @kernel
 def grow_lines(x, y, ranges, rays, rules, lines, dropped, log):
-    """Seed after seed, each grown to its end; over every beam, the last start is N − P_min − 1."""
+    """Find each seed and grow it to its end. With `every_beam`, the last start is N − P_min − 1."""
     count = candidate = start = 0
     least = rules.min_points + 2 if rules.two_more_points else rules.min_points
     stop = len(x) - max(rules.min_points, rules.seed_points) + (0 if rules.every_beam else 1)
@@ -202,7 +208,7 @@ def fit(m, rules):
 
 @kernel
 def sums(x, y, first, last):
-    """Moments of first..last about the laser: a wrong number of points then shifts the line as it does there."""
+    """Moments of first..last about the laser: a wrong number of points then shifts the line as in the program."""
     m = empty(0.0, 0.0)
     for k in range(first, last + 1):
         m = add(m, x[k], y[k])
@@ -211,7 +217,7 @@ def sums(x, y, first, last):
 
 @kernel
 def is_seed(x, y, ranges, rays, first, rules, candidate, log):
-    """Whether no point of the window lies too far from the line or from its predicted point; NaN is never too far."""
+    """Whether all points of the window are close to the line and to their predicted points; NaN counts as close."""
     last = first + rules.seed_points - 1
     line = fit(sums(x, y, first, last), rules)
     for k in range(first, last + 1):
@@ -231,7 +237,7 @@ def is_seed(x, y, ranges, rays, first, rules, candidate, log):
 
 @kernel
 def grow(x, y, seed, rules, candidate, log):
-    """(first, last, line): forward as far as points lie nearer than ε, then backward."""
+    """(first, last, line): grow forward while points lie nearer than ε, then backward."""
     first, last = seed, seed + rules.seed_points - 1
     m = sums(x, y, first, last)
     while last + 1 < len(x) and abs(signed_distance(fit(m, rules), x[last + 1], y[last + 1])) < rules.epsilon:
@@ -240,7 +246,7 @@ def grow(x, y, seed, rules, candidate, log):
     line = fit(m, rules)
     note_stop(x, y, first, last, last + 1, line, 1, rules, candidate, log)
     if rules.ends_early and last == len(x) - 1:
-        # Its point stays in the sums, and in the line until that is fitted anew.
+        # The point stays in the sums, and in the line until the next fit.
         last -= 1
         m = Moments(m.x0, m.y0, m.n - 1.0, m.sx, m.sy, m.sxx, m.sxy, m.syy)
     while first > 0 and abs(signed_distance(line, x[first - 1], y[first - 1])) < rules.epsilon:
@@ -266,7 +272,7 @@ def note_stop(x, y, first, last, beyond, line, direction, rules, candidate, log)
 
 @kernel
 def length_of(x, y, first, last, line, rules):
-    """Between the outermost points, as measured or projected."""
+    """Length between the outermost points, as measured or projected."""
     if rules.raw_length:
         return math.hypot(x[last] - x[first], y[last] - y[first])
     x1, y1 = project(line, x[first], y[first])
@@ -276,7 +282,7 @@ def length_of(x, y, first, last, line, rules):
 
 @kernel
 def merge(x, y, lines, count, rules, log):
-    """Lines that overlap and are nearly parallel become one; no residual is checked."""
+    """Merge lines that overlap and are nearly parallel, without checking residuals."""
     p = 0
     while p < count:
         q = p + 1
@@ -308,7 +314,7 @@ def merged(x, y, lines, p, q, rules, log):
 
 @kernel
 def cut(x, y, lines, count, rules, dropped, log):
-    """Neighbours that still overlap part at the first point that is nearer to the second line."""
+    """Cut neighbours that still overlap at the first point that is nearer to the second line."""
     for p in range(count - 1):
         first, last, start = lines[p].first, lines[p].last, lines[p + 1].first
         if last < start:
@@ -331,7 +337,7 @@ def cut(x, y, lines, count, rules, dropped, log):
 
 @kernel
 def refit(x, y, lines, i, first, last, rules):
-    """Give line i the points first..last; with fewer than 2 its line stays what it was."""
+    """Assign the points first..last to line i; with fewer than 2 points the fit does not change."""
     lines[i].first, lines[i].last = first, last
     if last > first:
         lines[i].a, lines[i].b, lines[i].c = fit(sums(x, y, first, last), rules)
@@ -339,7 +345,7 @@ def refit(x, y, lines, i, first, last, rules):
 
 @kernel
 def erase(x, y, lines, count, rules, dropped, log):
-    """Too short lines go; the line behind one that went is not looked at."""
+    """Remove lines that are too short; the line after a removed one is not checked."""
     i = 0
     while i < count:
         first, last, line = lines[i].first, lines[i].last, line_at(lines, i)

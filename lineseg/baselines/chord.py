@@ -1,4 +1,4 @@
-"""The line through the ends of a stretch of points, and what lies off it."""
+"""The line through the first and last point of a stretch, and the points farthest from it."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ..total_least_squares import signed_distance
 
 @kernel
 def chord(x, y, first, last):
-    """The line (a, b, c) through the points first and last, c ≤ 0; across the beam where they coincide."""
+    """The line (a, b, c), c ≤ 0, through the points first and last; perpendicular to the beam if they coincide."""
     ux, uy = x[last] - x[first], y[last] - y[first]
     norm = math.hypot(ux, uy)
     if norm == 0.0:
@@ -23,7 +23,7 @@ def chord(x, y, first, last):
 
 @kernel
 def farthest(x, y, first, last, line):
-    """(the point between first and last that lies farthest from the line, its distance); (first, 0) if none is off."""
+    """(the point between first and last farthest from the line, its distance); (first, 0) if all lie on the line."""
     place, most = first, 0.0
     for k in range(first + 1, last):
         away = abs(signed_distance(line, x[k], y[k]))
@@ -34,13 +34,13 @@ def farthest(x, y, first, last, line):
 
 @kernel
 def step_to(x, y, k):
-    """Distance of point k from the point before it."""
+    """Distance from point k to point k − 1."""
     return math.hypot(x[k] - x[k - 1], y[k] - y[k - 1])
 
 
 @kernel
 def widest_step(x, y, first, last):
-    """(the point behind the widest gap between first and last, its width); (first, 0) for a single point."""
+    """(the point after the widest gap between first and last, its width); (first, 0) for a single point."""
     place, widest = first, 0.0
     for k in range(first + 1, last + 1):
         gap = step_to(x, y, k)

@@ -1,4 +1,4 @@
-"""From a guessed line to the points that agree with it: what Hough transform and RANSAC do with their hypotheses."""
+"""From a hypothesis to the points that agree with it; used by Hough transform and RANSAC."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ REFINEMENTS = 2
 def consensus(
     points: Sequence, free: NDArray[np.bool_], line: Line, epsilon: float, bridge: int, max_gap: float
 ) -> Positions:
-    """The longest run of `free` points nearer to the line than ε, the line fitted to it and the run sought once more.
+    """The longest run of `free` points nearer to the line than ε, after refitting the line once to the first such run.
 
-    A guess says nothing about where on its line the points are: of the runs along it one is taken, and the others
-    wait until they are guessed themselves. Possibly empty.
+    A hypothesis does not say where along the line the points are. Only the longest run is taken; other runs need
+    hypotheses of their own. May be empty.
     """
     run = np.empty(0, np.intp)
     for _ in range(REFINEMENTS):

@@ -12,7 +12,7 @@ from ..tracing.log import note_ends
 
 @kernel
 def place_endpoints(x, y, lines, count, kind, log):
-    """Project the outermost points of each line on it; also its length, and the rms of the distances."""
+    """Project the outermost points of each line onto it, and compute its length and the rms of the distances."""
     for i in range(count):
         row, line = lines[i], line_at(lines, i)
         row.x1, row.y1 = project(line, x[row.first], y[row.first])
@@ -22,7 +22,7 @@ def place_endpoints(x, y, lines, count, kind, log):
 
 @kernel
 def measure(x, y, lines, i, kind, log):
-    """Length and rms of a line whose endpoints are placed."""
+    """Length and rms of a line that has its endpoints."""
     row, line = lines[i], line_at(lines, i)
     row.length = math.hypot(row.x2 - row.x1, row.y2 - row.y1)
     row.rms = math.sqrt(squares_of(x, y, row.first, row.last, line) / (row.last - row.first + 1))

@@ -1,11 +1,11 @@
-"""Expectation maximisation: lines and outliers as a mixture, whose shares and places are found in turn.
+"""Expectation maximisation: a mixture of lines and outliers, whose weights and lines are estimated in turn.
 
 Nguyen, Gächter, Martinelli, Tomatis, Siegwart: *A comparison of line extraction algorithms using 2D range data for
 indoor mobile robotics*, Autonomous Robots 23, 2007; Pfister, Burdick: *Multi-scale point and line range data algorithms
 for mapping and localization*, ICRA 2006; Dempster, Laird, Rubin: *Maximum likelihood from incomplete data via the EM
-algorithm*, J. Royal Statistical Society B 39, 1977. Nguyen et al. begin with one line drawn at random and look for the
-next when it is found; here all begin together, as the lines through pieces of the scan, and those that come to lie on
-another one, or keep too few points, are taken out.
+algorithm*, J. Royal Statistical Society B 39, 1977. Nguyen et al. start with one random line and look for the next
+once it is found. Here all lines start together, one through each piece of the scan, and a line is removed if it
+coincides with another or keeps too few points.
 """
 
 from __future__ import annotations
@@ -25,9 +25,9 @@ from .found import Found, Method, vocabulary
 from .knobs import BRIDGE, MAX_GAP, MIN_LENGTH, MIN_POINTS
 from .sequence import Sequence, fit, runs
 
-# What no line explains has this density, beside that of a line at its middle.
+# Density of the outliers, relative to the peak density of a line.
 OUTLIER = 0.001
-# Farther than this from its line, in standard deviations, a point is an outlier.
+# A point farther than this from its line, in standard deviations, is an outlier.
 REACH = 3.0
 SAME_ANGLE = 0.05
 STILL = 1e-4
@@ -43,7 +43,8 @@ class EmParams(Thresholds):
             "σ", 0.002, 0.1, "m", 0.001, log=True, least=1e-5, most=10.0, scatter=0.33,
             label="noise of a point",
             why="without noise no point would belong to a line that moves",
-            help="Standard deviation of a point's distance to its line. Points within 3 σ can become its own.",
+            help="Standard deviation of a point's distance to its line. Higher lets lines take points from farther "
+            "away, up to 3 σ.",
         ),
     ] = 0.01  # fmt: skip
     piece: Annotated[
@@ -51,8 +52,8 @@ class EmParams(Thresholds):
         Knob(
             "N_piece", 3, 200, "", 1, least=3, most=100_000,
             label="points in a first piece",
-            why="a line through fewer points lies nowhere in particular",
-            help="The scan is cut into pieces of so many points; each begins as a line. Fewer make more lines.",
+            why="a line through fewer points has no reliable direction",
+            help="Points in each piece of the scan that starts as a line. Higher starts with fewer lines.",
         ),
     ] = 20  # fmt: skip
     iterations: Annotated[
@@ -61,7 +62,7 @@ class EmParams(Thresholds):
             "N_iter", 1, 200, "", 1, least=1, most=10_000,
             label="iterations",
             why="without an iteration nothing is assigned",
-            help="Most rounds of assigning points and fitting lines; it ends sooner when no line moves.",
+            help="Largest number of rounds of assigning points and fitting lines. Stops earlier when no line moves.",
         ),
     ] = 40  # fmt: skip
     bridge: Annotated[int, BRIDGE] = 3
@@ -80,16 +81,17 @@ VOCABULARY = vocabulary(
     ),
     Kind(
         "line emptied", "iterations", "gone", "drop",
-        "line taken out: it explains {value:.1f} points, P_min = {limit:g}",
+        "line removed: it explains {value:.1f} points, P_min = {limit:g}",
     ),
-    Kind("line doubled", "iterations", "gone", "merge", "line taken out: it lies on one that explains more points"),
-    Kind("mixture settled", "segments", "gone", "", "mixture settled: the runs of this line are its segments"),
+    Kind("line doubled", "iterations", "gone", "merge", "line removed: it coincides with one that explains more "
+    "points"),
+    Kind("mixture settled", "segments", "gone", "", "mixture converged: the runs of this line become segments"),
 )  # fmt: skip
 
 
 @dataclass
 class Mixture:
-    """lines: (k, 3) of (a, b, c); shares: (k,) of all points; names: (k,) which first piece each line was."""
+    """lines: (k, 3) of (a, b, c); shares: (k,) of all points; names: (k,) the initial piece of each line."""
 
     lines: NDArray[np.float64]
     shares: NDArray[np.float64]
@@ -100,7 +102,7 @@ class Mixture:
 
 
 def find(points: Sequence, params: EmParams, found: Found) -> None:
-    """Let the mixture settle; each point then belongs to its likeliest line, and a line's runs are its segments."""
+    """Iterate until the mixture converges, assign each point to its likeliest line, and make segments of the runs."""
     mixture = settled(points, params, found)
     if not len(mixture.lines):
         return
@@ -115,7 +117,7 @@ def find(points: Sequence, params: EmParams, found: Found) -> None:
 
 
 def settled(points: Sequence, params: EmParams, found: Found) -> Mixture:
-    """E and M in turn until no line moves and none is taken out, or for so many iterations."""
+    """Alternate E and M steps until no line moves or is removed, or until the iterations are used up."""
     mixture = first_pieces(points, params, found)
     for _ in range(params.iterations):
         weights = expectation(points, mixture, params.sigma)
@@ -131,7 +133,7 @@ def settled(points: Sequence, params: EmParams, found: Found) -> Mixture:
 
 
 def first_pieces(points: Sequence, params: EmParams, found: Found) -> Mixture:
-    """A line through each `piece` of neighbouring points with no wide gap between them, all with the same share."""
+    """A line through each `piece` of neighbouring points without a wide gap, all with the same share."""
     breaks = np.flatnonzero(points.gaps()[1:] > params.max_gap) + 1
     whole = np.split(np.arange(len(points.x)), breaks)
     pieces = [piece for each in whole for piece in np.array_split(each, math.ceil(len(each) / params.piece))]
@@ -144,7 +146,7 @@ def first_pieces(points: Sequence, params: EmParams, found: Found) -> Mixture:
 
 
 def standing(points: Sequence, mixture: Mixture, weights: NDArray[np.float64], params: EmParams) -> NDArray[np.bool_]:
-    """Which lines stay: they have P_min points, and the same line has not more in another form."""
+    """Which lines stay: those with P_min points that do not coincide with a line that has more."""
     sizes = weights.sum(axis=0)
     stays = sizes >= max(params.min_points, 2)
     middles = np.column_stack((weights.T @ points.x, weights.T @ points.y)) / np.maximum(sizes, 1e-9)[:, None]
@@ -159,7 +161,7 @@ def standing(points: Sequence, mixture: Mixture, weights: NDArray[np.float64], p
 
 
 def expectation(points: Sequence, mixture: Mixture, sigma: float) -> NDArray[np.float64]:
-    """(n, k): how likely each point belongs to each line; what is left to 1 is the outliers'."""
+    """(n, k): probability that each point belongs to each line; the remainder to 1 belongs to the outliers."""
     weights = np.empty((len(points.x), len(mixture.lines)))
     expect(points.x, points.y, mixture.lines, mixture.shares, sigma, OUTLIER, weights)
     return weights
@@ -181,7 +183,7 @@ def expect(x, y, lines, shares, sigma, outlier, weights):
 
 @entry_kernel
 def maximise(x, y, weights, lines, shares):
-    """Each line by total least squares with the weights of the points, and its share of them."""
+    """Each line fitted by weighted total least squares, and its share of the points."""
     n, count = weights.shape
     for j in range(count):
         w = sx = sy = sxx = sxy = syy = 0.0

@@ -1,4 +1,4 @@
-"""What a baseline finds: runs of points that become segments or are dropped; and its notes."""
+"""The result of a baseline: runs of points that become segments or are dropped, and its decisions."""
 
 from __future__ import annotations
 
@@ -21,9 +21,9 @@ KEPT, DROPPED = "line kept", "line dropped"
 
 
 def vocabulary(phase: str, checks: tuple[str, ...], *kinds: Kind) -> Vocabulary:
-    """The kinds of a baseline, and those that all have: a line is kept, or dropped for its points or its length.
+    """The kinds of a baseline plus the common ones: line kept, and line dropped for its points or its length.
 
-    phase: in which a line is kept or dropped.
+    phase: the phase that keeps or drops a line.
     """
     kept = Kind(
         KEPT, phase, "stands", "line", "line kept: {span}, {points} points, {value:.3f} m ≥ L_min = {limit:.3f} m"
@@ -34,7 +34,7 @@ def vocabulary(phase: str, checks: tuple[str, ...], *kinds: Kind) -> Vocabulary:
 
 
 class Method(NamedTuple):
-    """find: looks for lines in a `Sequence` of 2 points or more and hands each to `Found`."""
+    """find: looks for lines in a `Sequence` of 2 points or more and adds each to `Found`."""
 
     name: str
     vocabulary: Vocabulary
@@ -47,7 +47,7 @@ class Method(NamedTuple):
     def trace(self, scan: Scan, params: Any) -> Trace:
         """The same run with its decisions."""
         found = self._run(scan, params, traced=True)
-        # On a full circle a line may go on from the last point to the first.
+        # On a full circle a line may continue from the last point to the first.
         positions = np.concatenate((found.points.beam, found.points.beam))
         extraction = found.extraction(self.name, len(scan))
         return Trace(scan, params, extraction, self.vocabulary, np.array(found.rows, ROW), positions)
@@ -62,7 +62,7 @@ class Method(NamedTuple):
 class Found:
     """The lines of one run of a method; params has min_points and min_length.
 
-    rows: of the log; traced: whether anybody wants them; candidates: how many lines the notes have told of.
+    rows: of the log; traced: whether to write them; candidates: number of lines noted so far.
     """
 
     def __init__(self, points: Sequence, params: Any, vocabulary: Vocabulary, traced: bool) -> None:
@@ -78,7 +78,7 @@ class Found:
     def keep(self, run: Positions, candidate: int | None = None) -> bool:
         """Whether the run has P_min points and a length of L_min, and becomes a segment.
 
-        candidate: by which number the notes call it; the next one if None.
+        candidate: its number in the log; the next free one if None.
         """
         beams, count = self.points.beam[run], len(run)
         first, last = int(beams[0]), int(beams[-1])
@@ -129,5 +129,5 @@ class Found:
         """(check, value, limit) of the requirement that a line fails, P_min first; check "" if it meets both."""
         if count < max(self.params.min_points, 2):
             return "min_points", float(count), float(self.params.min_points)
-        # Not `<`: of points too close to have a direction, the length is NaN.
+        # Not `<`: the length is NaN for points too close together to have a direction.
         return "" if length >= self.params.min_length else "min_length", length, self.params.min_length

@@ -23,7 +23,7 @@ from .found import Found, Method, vocabulary
 from .knobs import BRIDGE, EPSILON, MAX_GAP, MIN_LENGTH, MIN_POINTS
 from .sequence import Positions, Sequence
 
-# So many cells at most: beyond, ρ gets coarser, for lasers that see very far.
+# Largest number of cells. Lasers with a very long range get coarser cells in ρ.
 MOST_CELLS = 8_000_000
 SPENT = np.iinfo(np.int32).min // 2
 
@@ -39,7 +39,7 @@ class HoughParams(Thresholds):
             "Δθ", 0.25, 10.0, "°", 0.25, log=True, least=0.05, most=45.0,
             label="step of the directions",
             why="a grid of finer steps would not fit into memory",
-            help="Width of a cell in θ. A finer one finds longer lines, and parts the votes of noisy ones.",
+            help="Width of a cell in θ. Higher collects the votes of noisier lines, but finds shorter ones.",
         ),
     ] = 1.0  # fmt: skip
     rho_step: Annotated[
@@ -48,7 +48,8 @@ class HoughParams(Thresholds):
             "Δρ", 0.01, 0.5, "m", 0.01, log=True, least=0.001, most=10.0, scatter=1.5,
             label="step of the distances",
             why="a grid of finer steps would not fit into memory",
-            help="Width of a cell in ρ. Set it to a few times the range precision of the laser.",
+            help="Width of a cell in ρ. Higher collects the votes of noisier lines. Set it to a few times the range "
+            "noise.",
         ),
     ] = 0.05  # fmt: skip
     min_votes: Annotated[
@@ -56,8 +57,8 @@ class HoughParams(Thresholds):
         Knob(
             "V_min", 3, 200, "", 1, least=2, most=100_000,
             label="votes of a line",
-            why="2 points are the fewest that make a line",
-            help="Fewest points that must vote for one cell.",
+            why="a line needs at least 2 points",
+            help="Fewest votes for a cell to become a line. Higher finds fewer lines.",
         ),
     ] = 10  # fmt: skip
     bridge: Annotated[int, BRIDGE] = 3
@@ -88,18 +89,18 @@ class Grid:
         self.votes = np.zeros((len(angles), 2 * self.middle + 1), np.int32)
 
     def count(self, points: Sequence, run: Positions, weight: int) -> None:
-        """Give or take the votes of some points."""
+        """Add or remove the votes of some points."""
         x, y = points.x[run], points.y[run]
         vote(x, y, self.cosines, self.sines, self.middle, self.step, self.votes, weight)
 
     def peak(self) -> tuple[int, int]:
-        """The cell with the most votes; of equals the first."""
+        """The cell with the most votes; the first one in a tie."""
         angle, cell = divmod(int(np.argmax(self.votes)), self.votes.shape[1])
         return angle, cell
 
 
 def find(points: Sequence, params: HoughParams, found: Found) -> None:
-    """Peak after peak: the longest run of points along it is taken out together with its votes, segment or not."""
+    """For each peak, remove the longest run of points along it and their votes, whether or not it makes a segment."""
     free = np.ones(len(points.x), bool)
     grid = Grid(points, params)
     grid.count(points, np.arange(len(points.x)), 1)
@@ -111,7 +112,7 @@ def find(points: Sequence, params: HoughParams, found: Found) -> None:
         line = grid.cosines[angle], grid.sines[angle], -(cell - grid.middle) * grid.step
         run = consensus(points, free, line, params.epsilon, params.bridge, params.max_gap)
         if len(run) < 2:
-            # Its voters lie in the cell, but none near another; they may still be in other lines.
+            # The voters are too far apart to make a run, but may still belong to other lines.
             grid.votes[angle, cell] = SPENT
             continue
         found.note("peak found", run, line, check="min_votes", value=votes, limit=params.min_votes)

@@ -45,7 +45,7 @@ VOCABULARY = Vocabulary(
 
 
 def run(scan: Scan, params: EndPointFitParams, logged: bool) -> Run:
-    """The stretches that are left, each the line through its ends."""
+    """The remaining stretches, each with the line through its ends."""
     beam, xy = loop_of(scan)
     n = len(beam)
     rules = Splitting(params.split_distance, params.max_gap, params.min_points, params.min_length)

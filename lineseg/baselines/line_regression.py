@@ -1,4 +1,4 @@
-"""Line regression: lines through a sliding window, and in the space of lines the clusters of those that agree.
+"""Line regression: fit a line to each sliding window, and cluster the lines that agree.
 
 Arras, Siegwart: *Feature extraction and scene interpretation for map-based navigation and map building*, Proc. SPIE
 3210, 1997; "Line regression" in Nguyen, Gächter, Martinelli, Tomatis, Siegwart: *A comparison of line extraction
@@ -35,7 +35,7 @@ class RegressionParams(Thresholds):
             "σ_r", 0.002, 0.1, "m", 0.001, log=True, least=1e-5, most=10.0, scatter=0.5,
             label="noise of a range",
             why="without noise no two lines agree",
-            help="Standard deviation of a range. It says how far the lines of neighbouring windows may differ.",
+            help="Standard deviation of a range. Higher lets the lines of neighbouring windows differ more.",
         ),
     ] = 0.015  # fmt: skip
     window: Annotated[
@@ -44,7 +44,7 @@ class RegressionParams(Thresholds):
             "N_f", 3, 51, "", 1, least=3, most=1000,
             label="points in a window",
             why="a window needs 3 or more points, because any 2 points fit a line exactly",
-            help="Consecutive points to which each line is fitted. More make lines surer and corners rounder.",
+            help="Consecutive points in each fit. Higher makes lines more accurate and corners rounder.",
         ),
     ] = 11  # fmt: skip
     max_spread: Annotated[
@@ -52,8 +52,9 @@ class RegressionParams(Thresholds):
         Knob(
             "D_max", 0.1, 50.0, "", 0.1, log=True, least=1e-3, most=1e6,
             label="spread of three windows",
-            why="lines that must not differ at all never agree",
-            help="Largest sum of the squared Mahalanobis distances of three neighbouring lines to their mean.",
+            why="with 0 no lines would ever agree",
+            help="Largest sum of squared Mahalanobis distances from three neighbouring lines to their mean. Higher "
+            "makes longer clusters.",
         ),
     ] = 3.0  # fmt: skip
     max_merge: Annotated[
@@ -61,8 +62,9 @@ class RegressionParams(Thresholds):
         Knob(
             "M_max", 0.1, 100.0, "", 0.1, log=True, least=1e-3, most=1e6,
             label="distance of a merge",
-            why="lines that must not differ at all are never merged",
-            help="Largest squared Mahalanobis distance between the lines of neighbouring clusters that become one.",
+            why="with 0 no lines would ever be merged",
+            help="Largest squared Mahalanobis distance between neighbouring clusters that are merged. Higher merges "
+            "more.",
         ),
     ] = 40.0  # fmt: skip
     max_gap: Annotated[float, MAX_GAP] = 0.5
@@ -83,13 +85,13 @@ VOCABULARY = vocabulary(
     ),
     Kind(
         "overlap cut", "clusters", "parted", "cut",
-        "overlap cut at beam {beam}, the first that is nearer to the next line; {span} stay",
+        "overlap cut at beam {beam}, the first one nearer to the next line; this line keeps {span}",
     ),
 )  # fmt: skip
 
 
 def find(points: Sequence, params: RegressionParams, found: Found) -> None:
-    """Windows that agree with their neighbours make clusters; the nearest neighbours merge as long as they agree."""
+    """Cluster windows that agree with their neighbours, then merge the nearest clusters while they agree."""
     points = found.points = opened_between_lines(
         points, lambda circle: _clustered(Clusters(circle, params, None)).spans
     )
@@ -108,7 +110,7 @@ def _clustered(clusters: Clusters) -> Clusters:
 class Clusters:
     """Clusters of windows, in scan order.
 
-    spans: (first, last) positions of each; names: by which numbers the notes call them.
+    spans: (first, last) positions of each; names: their numbers in the log.
     """
 
     def __init__(self, points: Sequence, params: RegressionParams, found: Found | None) -> None:
@@ -120,13 +122,13 @@ class Clusters:
         self._breaks = np.concatenate(([0], np.cumsum(points.gaps()[1:] > params.max_gap)))
 
     def find(self) -> None:
-        """The runs of windows that spread less than D_max about the mean of their lines and both neighbours'."""
+        """The runs of windows whose line and both neighbouring lines spread less than D_max about their mean."""
         window, count = self.params.window, len(self.points.x) - self.params.window + 1
         if count < 3:
             return
         spreads, models = np.full(count, np.inf), np.empty((count, 5))
         spread_of_windows(self.points.x, self.points.y, *self._noise, window, models, spreads)
-        # Three windows reach from the first point of the one before to the last point of the one after.
+        # Three windows span from the first point of the first window to the last point of the third.
         spreads[1:-1][self._breaks[window + 1 :] != self._breaks[: count - 2]] = np.inf
         edges = np.flatnonzero(
             np.diff(np.concatenate(([False], spreads < self.params.max_spread, [False])).astype(int))
@@ -138,7 +140,7 @@ class Clusters:
             self._note("cluster found", len(self.spans) - 1, check="max_spread", value=worst, limit=limit)
 
     def merge(self) -> None:
-        """The two neighbours that are nearest become one, until none are near enough (agglomerative, hierarchical)."""
+        """Merge the two nearest neighbours until none are near enough (agglomerative, hierarchical)."""
         distances = [self._distance(k) for k in range(len(self.spans) - 1)]
         while distances:
             k = int(np.argmin(distances))
@@ -159,7 +161,7 @@ class Clusters:
         return distance_of(self.points.x, self.points.y, *self._noise, *one, *other)
 
     def part(self) -> None:
-        """Neighbours share the points of their windows: cut them at the first that is not nearer to the one before."""
+        """Cut neighbours that share points at the first one that is not nearer to the earlier line."""
         for k in range(len(self.spans) - 1):
             (first, last), (first_2, last_2) = self.spans[k : k + 2]
             if first_2 > last:
@@ -168,7 +170,7 @@ class Clusters:
             shared = np.arange(first_2, min(last, last_2) + 1)
             farther = self.points.distances(line)[shared] >= self.points.distances(other)[shared]
             cut = int(shared[np.argmax(farther)]) if farther.any() else int(shared[-1]) + 1
-            # Each keeps a point at least.
+            # Each keeps at least one point.
             cut = min(max(cut, first + 1), last_2)
             self.spans[k : k + 2] = [(first, cut - 1), (cut, last_2)]
             self._note("overlap cut", k, partner=self.names[k + 1], beam=cut, other=other)
@@ -182,7 +184,7 @@ class Clusters:
 
 @entry_kernel
 def spread_of_windows(x, y, sigma, exact, window, models, spreads):
-    """Fit every window, and of each but the first and last the spread of the three lines about their weighted mean.
+    """Fit every window, and find the spread of each three neighbouring lines about their weighted mean.
 
     With xⱼ = (ρ, θ) and Cⱼ of the three windows, Σ (xⱼ − x̄)ᵀ Cⱼ⁻¹ (xⱼ − x̄), x̄ = (Σ Cⱼ⁻¹)⁻¹ Σ Cⱼ⁻¹ xⱼ.
     models: (windows, 5) and spreads: (windows,) are memory.
@@ -218,7 +220,7 @@ def model_of(x, y, sigma, exact, first, last):
 
 @kernel
 def difference(rho, theta, rho_2, theta_2):
-    """(ρ₂ − ρ, θ₂ − θ) with the second line written in the one of its two forms that is nearer to the first."""
+    """(ρ₂ − ρ, θ₂ − θ), with the second line in whichever of its two forms is nearer to the first."""
     turn = theta_2 - theta
     turn -= 2.0 * math.pi * math.floor(turn / (2.0 * math.pi) + 0.5)
     if abs(turn) > 0.5 * math.pi:

@@ -1,4 +1,4 @@
-"""Line tracking, the incremental method: a line follows the points until one is too far off.
+"""Line tracking, the incremental method: extend a line point by point until one is too far from it.
 
 Siadat, Kaske, Klausmann, Dufaut, Husson: *An optimized segmentation method for a 2D laser-scanner applied to mobile
 robot navigation*, 3rd IFAC Symposium on Intelligent Components and Instruments for Control Applications, 1997;
@@ -32,8 +32,9 @@ class TrackingParams(Thresholds):
         Knob(
             "S_num", 2, 20, "", 1, least=2, most=1000,
             label="points at the start",
-            why="2 points are the fewest that make a line",
-            help="Points that begin a line, taken unseen. Few give a rash direction, many hide a corner.",
+            why="a line needs at least 2 points",
+            help="Points that start a line without a check. Higher gives a more reliable direction but can hide a "
+            "corner.",
         ),
     ] = 4  # fmt: skip
     max_gap: Annotated[float, MAX_GAP] = 0.5
@@ -44,24 +45,24 @@ class TrackingParams(Thresholds):
 VOCABULARY = vocabulary(
     "tracking",
     ("epsilon", "max_gap", "end"),
-    Kind("line begun", "tracking", "shown", "seed", "line begun: through the first points, {span}"),
+    Kind("line begun", "tracking", "shown", "seed", "line started: through the first points, {span}"),
     Kind(
         "point refused", "tracking", "shown", "refusal",
-        "line ended: beam {beam} lies {value:.3f} m from it, ε = {limit:.3f} m; it takes {span}",
+        "line ended: beam {beam} lies {value:.3f} m from it, ε = {limit:.3f} m; it keeps {span}",
     ),
     Kind(
         "gap", "tracking", "shown", "refusal",
-        "line ended: before beam {beam} lies a gap of {value:.3f} m, G_max = {limit:.3f} m; it takes {span}",
+        "line ended: a gap of {value:.3f} m lies before beam {beam}, G_max = {limit:.3f} m; it keeps {span}",
     ),
-    Kind("last point", "tracking", "shown", "", "line ended: the last point is reached; it takes {span}"),
+    Kind("last point", "tracking", "shown", "", "line ended at the last point; it keeps {span}"),
 )  # fmt: skip
 
 
 def find(points: Sequence, params: TrackingParams, found: Found) -> None:
-    """Line after line in the order of the points, each beginning at the point that the one before refused.
+    """Find lines in scan order, each starting at the point that the previous line refused.
 
-    No point is looked at twice, and none goes back: what a line has taken at a corner, the next one lacks, so that the
-    lines of a scan run backward are others.
+    Each point is tested once and never reassigned. A line may therefore keep a corner point that fits the next line
+    better, and the result depends on the direction of the scan.
     """
     points = found.points = opened_between_lines(points, lambda circle: _spans(circle, circle.gaps(), params))
     gaps = points.gaps()
@@ -83,8 +84,8 @@ def _spans(points: Sequence, gaps: np.ndarray, params: TrackingParams) -> list[t
 
 @entry_kernel
 def track(x, y, gaps, first, start_points, epsilon, max_gap):
-    """The last point of the line that begins at `first`: no gap before it is wider than max_gap, and from
-    `start_points` on each lies nearer than ε to the line through those before it."""
+    """The last point of the line that starts at `first`: no gap is wider than max_gap, and each point after the first
+    `start_points` lies nearer than ε to the line through the points before it."""
     last, stop = first, len(x)
     while last + 1 < min(first + start_points, stop) and gaps[last + 1] <= max_gap:
         last += 1

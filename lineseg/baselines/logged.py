@@ -1,4 +1,4 @@
-"""Methods that are kernels from end to end, which write lines and, if asked, a log."""
+"""Methods that run entirely in kernels, which write lines and optionally a log."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from ..tracing.vocabulary import Vocabulary
 
 
 class Run(NamedTuple):
-    """What one run leaves behind: rows of LINE, DROPPED and ROW; positions (m,) turns their positions into beams."""
+    """The output of one run: rows of LINE, DROPPED and ROW. positions: (m,) maps their positions to beams."""
 
     lines: NDArray
     dropped: NDArray

@@ -1,4 +1,4 @@
-"""RANSAC: lines through two points drawn at random, and the one that most points agree with is taken.
+"""RANSAC: draw lines through two random points, and take the one that most points agree with.
 
 Fischler, Bolles: *Random sample consensus: a paradigm for model fitting with applications to image analysis and
 automated cartography*, Communications of the ACM 24, 1981, DOI 10.1145/358669.358692; for laser scans Nguyen, Gächter,
@@ -21,7 +21,7 @@ from .found import Found, Method, vocabulary
 from .knobs import BRIDGE, EPSILON, MAX_GAP, MIN_LENGTH, MIN_POINTS, SEED
 from .sequence import Line, Sequence
 
-# So many hypotheses in a row may come to nothing before the search ends.
+# The search ends after this many failed hypotheses in a row.
 FAILURES = 5
 GOLDEN = 0x9E3779B97F4A7C15
 
@@ -37,7 +37,7 @@ class RansacParams(Thresholds):
             "N_trials", 1, 1000, "", 1, log=True, least=1, most=100_000,
             label="samples for a line",
             why="without a sample there is no hypothesis",
-            help="Pairs of points drawn before the best of them is taken. More miss fewer lines and take longer.",
+            help="Pairs of points drawn for each line. Higher misses fewer lines and takes longer.",
         ),
     ] = 100  # fmt: skip
     reach: Annotated[
@@ -46,7 +46,8 @@ class RansacParams(Thresholds):
             "R_max", 1, 2000, "", 1, log=True, least=1, most=1_000_000,
             label="reach of a sample",
             why="a pair is two points",
-            help="Farthest along the scan that the second point of a pair may lie from the first.",
+            help="Largest distance between the points of a pair, counted in points along the scan. Higher finds "
+            "longer lines and misses more short ones.",
         ),
     ] = 100  # fmt: skip
     seed: Annotated[int, SEED] = 1
@@ -67,9 +68,9 @@ VOCABULARY = vocabulary(
 
 
 def find(points: Sequence, params: RansacParams, found: Found) -> None:
-    """Line after line, each from the best of `trials` samples of the points that no line has taken yet.
+    """Find lines one after another, each from the best of `trials` samples of the points that no line has taken.
 
-    It ends when too few points are left, or when FAILURES times in a row no hypothesis had P_min points in one run.
+    Ends when too few points are left, or after FAILURES hypotheses in a row without a run of P_min points.
     """
     free = np.ones(len(points.x), bool)
     state = np.array([((params.seed + 1) * GOLDEN) % 2**64], np.uint64)
@@ -101,10 +102,10 @@ def _through(points: Sequence, one: int, other: int) -> Line:
 
 @entry_kernel
 def best_pair(x, y, trials, reach, epsilon, state):
-    """Of `trials` pairs, the two positions whose line has the most points nearer than ε, and how many.
+    """The positions of the pair, out of `trials` pairs, whose line has the most points nearer than ε, and their number.
 
-    The second of a pair is one of the `reach` points behind the first; behind the last point comes the first. Of equals
-    the first drawn is taken; −1 points if all pairs coincide.
+    The second point of a pair is one of the `reach` points after the first; the last point is followed by the first.
+    In a tie the pair drawn first wins. The number is −1 if all pairs coincide.
     """
     n = len(x)
     one, other, most = 0, 0, -1
@@ -131,7 +132,7 @@ def agreeing(x, y, x0, y0, dx, dy, epsilon):
 
 @kernel
 def below(n, state):
-    """A whole number in 0..n − 1 by SplitMix64 (Steele, Lea, Flood 2014), the same on every machine.
+    """A random whole number in 0..n − 1 by SplitMix64 (Steele, Lea, Flood 2014), the same on every machine.
 
     state: (1,) uint64.
     """

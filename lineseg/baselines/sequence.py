@@ -1,4 +1,4 @@
-"""The points of a scan as a sequence, its runs, and the line through a run."""
+"""The points of a scan as a sequence, runs of points in it, and the line through a run."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from ..scan import Scan
 from ..total_least_squares import line_of, moments_of, project, squared_distance
 
 Line = tuple[float, float, float]
-# Positions in a sequence, in its order; on a full circle they may go on from the last to the first.
+# Positions in a sequence, in order; on a full circle they may continue from the last to the first.
 Positions = NDArray[np.intp]
 
 
 class Sequence(NamedTuple):
-    """The valid points in scan order; on a full circle from some opening on, all round.
+    """The valid points in scan order; on a full circle, all the way round from some opening.
 
-    x, y: (n,) [m]; beam: (n,) their beams; circle: whether the first point follows the last.
+    x, y: (n,) [m]; beam: (n,) beam of each point; circle: whether the first point follows the last.
     """
 
     x: NDArray[np.float64]
@@ -34,20 +34,20 @@ class Sequence(NamedTuple):
         return Sequence(np.roll(self.x, -place), np.roll(self.y, -place), np.roll(self.beam, -place), self.circle)
 
     def gaps(self) -> NDArray[np.float64]:
-        """(n,) from the point before to each point [m]; infinite before the first of an open scan."""
+        """(n,) distance from the previous point to each point [m]; infinite for the first point of an open scan."""
         gaps = np.hypot(self.x - np.roll(self.x, 1), self.y - np.roll(self.y, 1))
         if not self.circle:
             gaps[:1] = np.inf
         return gaps
 
     def distances(self, line: Line) -> NDArray[np.float64]:
-        """(n,) of the points to a line [m]."""
+        """(n,) distance from each point to a line [m]."""
         a, b, c = line
         return np.abs(a * self.x + b * self.y + c)
 
 
 class Fit(NamedTuple):
-    """A line through points: (a, b, c), the outermost points projected on it [m], and the rms of the distances [m]."""
+    """A line through points: (a, b, c), the outermost points projected onto it [m], and the rms distance [m]."""
 
     line: Line
     start: tuple[float, float]
@@ -57,7 +57,7 @@ class Fit(NamedTuple):
 
 
 def sequence_of(scan: Scan) -> Sequence:
-    """A full circle has no first beam: it is opened at its widest gap, wherever the device begins."""
+    """The sequence of a scan. A full circle has no first beam, so it is opened at its widest gap."""
     beam = np.flatnonzero(scan.valid)
     x, y = scan.xy[beam].T.copy()
     points = Sequence(x, y, beam, scan.full_circle)
@@ -65,9 +65,9 @@ def sequence_of(scan: Scan) -> Sequence:
 
 
 def opened_between_lines(points: Sequence, spans: Callable[[Sequence], list[tuple[int, int]]]) -> Sequence:
-    """A full circle opened where a line begins, so that a method that goes from point to point cuts none there.
+    """A full circle opened where a line begins, so that a point-by-point method cuts no line at the opening.
 
-    spans: first and last position of each line that the method finds.
+    spans: first and last position of each line found by the method.
     """
     if not points.circle:
         return points
@@ -76,7 +76,7 @@ def opened_between_lines(points: Sequence, spans: Callable[[Sequence], list[tupl
 
 
 def runs(points: Sequence, members: NDArray[np.bool_], bridge: int, max_gap: float) -> list[Positions]:
-    """Members (n,) that follow one another: at most `bridge` other points between two of them, and `max_gap` [m]."""
+    """Runs of members (n,) with at most `bridge` other points and at most `max_gap` [m] between neighbours."""
     place = np.flatnonzero(members)
     if not len(place):
         return []

@@ -1,4 +1,4 @@
-"""Split-and-Merge as the ROS package laser_line_extraction has it (Gallant, 2014), its slips switches.
+"""Split-and-Merge as in the ROS package laser_line_extraction (Gallant, 2014), with a switch for each of its bugs.
 
 Filters by range and for outliers; splits at the farthest point from the line through the ends, else at the widest gap;
 fits each line weighted by the noise of its beams (Pfister et al. 2003); merges consecutive lines by the χ² distance of
@@ -32,7 +32,7 @@ from .weighted_fit import Fitting, Polar, chi_squared, combined, fit_weighted
 
 @dataclass(frozen=True)
 class SplitAndMergeParams(Thresholds):
-    """Thresholds under the names of the package; and its slips."""
+    """Thresholds with the names of the package, and a switch for each of its bugs."""
 
     split_distance: SplitDistance = 0.04
     max_gap: LineGap = 0.5
@@ -44,7 +44,8 @@ class SplitAndMergeParams(Thresholds):
             "d_out", 0.01, 1.0, "m", 0.005, log=True, least=1e-6, most=1000.0, ros="outlier_dist", scatter=2.0,
             label="range step of an outlier",
             why="a distance of 0 would make an outlier of every point",
-            help="A point whose range differs by more from both neighbours, and that is off their line, is left out.",
+            help="Drops a point whose range differs by more than this from both neighbours and that is off their line. "
+            "Higher drops fewer points.",
         ),
     ] = 0.06  # fmt: skip
     range_noise: Annotated[
@@ -53,7 +54,7 @@ class SplitAndMergeParams(Thresholds):
             "σ_r", 0.001, 0.1, "m", 0.001, log=True, least=1e-6, most=10.0, ros="range_std_dev", scatter=0.4,
             label="noise of a range",
             why="without noise no line has a covariance",
-            help="Standard deviation of a range; weighs the points, and says which lines are one.",
+            help="Standard deviation of a range, for weighting points and comparing lines. Higher merges more lines.",
         ),
     ] = 0.012  # fmt: skip
     bearing_noise: Annotated[
@@ -62,7 +63,7 @@ class SplitAndMergeParams(Thresholds):
             "σ_φ", 1e-6, 0.01, "rad", 1e-6, log=True, least=0.0, most=1.0, ros="bearing_std_dev",
             label="noise of a bearing",
             why="a standard deviation is never negative",
-            help="Standard deviation of a bearing.",
+            help="Standard deviation of a bearing. Higher gives far points less weight and merges more lines.",
         ),
     ] = 1e-5  # fmt: skip
     merge_distance: Annotated[
@@ -71,43 +72,42 @@ class SplitAndMergeParams(Thresholds):
             "χ²", 0.0, 30.0, "", 0.1, least=0.0, most=1e6,
             label="χ² that merges",
             why="a square is never negative",
-            help="Consecutive lines nearer than this are one. 0: none are. Fixed at 3 in the program.",
+            help="Consecutive lines with a smaller χ² distance are merged. Higher merges more; 0 merges none. The "
+            "program uses 3.",
         ),
     ] = 3.0  # fmt: skip
     min_range: Annotated[
         float,
         Knob(
             "r_min", 0.0, 2.0, "m", 0.01, least=0.0, most=1000.0, ros="min_range",
-            label="nearest range", why="a range is never negative", help="Nearer points are left out.",
+            label="nearest range", why="a range is never negative", help="Ignores nearer points. Higher ignores more.",
         ),
     ] = 0.1  # fmt: skip
     max_range: Annotated[
         float,
         Knob(
             "r_max", 1.0, 1000.0, "m", 0.1, log=True, least=0.0, most=1e6, ros="max_range",
-            label="farthest range", why="a range is never negative", help="Farther points are left out.",
+            label="farthest range", why="a range is never negative", help="Ignores farther points. Higher keeps more.",
         ),
     ] = 250.0  # fmt: skip
     loses_points: Annotated[
         bool,
         switch(
             "1", "each split loses points",
-            "A split loses the point before it and the last point of its second part, and cuts a gap one point early.",
+            "Loses the point before each split and the last point of its second part, and cuts gaps one point early.",
         ),
     ] = True  # fmt: skip
-    loses_last_beam: Annotated[
-        bool, switch("2", "the last beam is lost", "The last beam of a scan is not looked at.")
-    ] = True
+    loses_last_beam: Annotated[bool, switch("2", "the last beam is lost", "Ignores the last beam of a scan.")] = True
     unwrapped: Annotated[
         bool,
         switch(
             "3", "angles are not wrapped",
-            "Two lines whose angles lie on both sides of ±π, or whose normals point apart, are never merged.",
+            "Never merges two lines with angles on both sides of ±π, or with opposite normals.",
         ),
     ] = True  # fmt: skip
 
 
-# At which the program's fit is done [m, rad].
+# The program's fit has converged when it changes by less than this [m, rad].
 ITERATION_STEP = 1e-4
 OUTLIER, LINE_FITTED, LINES_MERGED, LINES_KEPT_APART, ENDPOINTS = range(len(KINDS), len(KINDS) + 5)
 OUTLIER_DISTANCE, MERGE_DISTANCE = range(len(SPLIT_CHECKS), len(SPLIT_CHECKS) + 2)
@@ -117,7 +117,7 @@ VOCABULARY = Vocabulary(
         Kind("outlier", "filter", "none", "refusal", "outlier: beam {beam} lies {value:.3f} m off its neighbours"),
         Kind("line fitted", "fit", "stands", "line", "line fitted: {span}, {points} points"),
         Kind("lines merged", "merge", "joined", "merge", "lines merged: χ² = {value:.2f} < {limit:g}; now {span}"),
-        Kind("lines kept apart", "merge", "none", "", "lines stay two: χ² = {value:.3g} ≥ {limit:g}"),
+        Kind("lines kept apart", "merge", "none", "", "lines not merged: χ² = {value:.3g} ≥ {limit:g}"),
         Kind("endpoints", "endpoints", "placed", "", "endpoints placed: {span}, {limit:.3f} m apart"),
     ),
     (*SPLIT_CHECKS, Check("outlier_distance"), Check("merge_distance")),
@@ -125,7 +125,7 @@ VOCABULARY = Vocabulary(
 
 
 def run(scan: Scan, params: SplitAndMergeParams, logged: bool) -> Run:
-    """The lines that the package finds."""
+    """The same lines as the package."""
     ranges = scan.ranges.astype(np.float64)
     near = scan.valid & (ranges >= params.min_range) & (ranges <= params.max_range)
     if params.loses_last_beam:
@@ -155,7 +155,7 @@ SPLIT_AND_MERGE = LoggedMethod("split-and-merge", VOCABULARY, run)
 
 @entry_kernel
 def find_outliers(ranges, x, y, outlier_distance, split_distance, steps):
-    """Write to `steps` (n,) by how much the range of an outlier differs from the nearer of its two neighbours' [m]."""
+    """Write to `steps` (n,) the range difference between an outlier and the nearer of its two neighbours [m]."""
     n = len(ranges)
     for k in range(n if n > 2 else 0):
         i, j = (k + 1, k + 2) if k == 0 else (k - 2, k - 1) if k == n - 1 else (k - 1, k + 1)
@@ -169,7 +169,7 @@ def find_outliers(ranges, x, y, outlier_distance, split_distance, steps):
 def extract_lines(ranges, rays, xy, rules, merging, how, stack, models, lines, dropped, used, log):
     """Number of lines through points at `ranges` (n,) along `rays` (2, n), which are xy (2, n).
 
-    stack (n + 2, 3), models (n + 1, 5): memory for stretches that wait, and for lines in polar form.
+    stack (n + 2, 3), models (n + 1, 5): memory for waiting stretches and for lines in polar form.
     """
     x, y = xy[0], xy[1]
     used[0] = 0
@@ -186,7 +186,7 @@ def extract_lines(ranges, rays, xy, rules, merging, how, stack, models, lines, d
 
 @kernel
 def fit(x, y, ranges, rays, how, lines, models, count, log):
-    """Fit each line anew, weighted; its ends are its outermost points projected."""
+    """Refit each line with weights, and project its outermost points onto it as endpoints."""
     for i in range(count):
         row = lines[i]
         polar = fit_weighted(ranges, rays[0], rays[1], row.first, row.last, line_at(lines, i), how)
@@ -208,7 +208,7 @@ def put(lines, models, i, polar):
 
 @kernel
 def merge(merging, lines, models, count, log):
-    """Consecutive lines nearer than χ² become one, the weighted mean of both; that is compared with the next."""
+    """Merge consecutive lines nearer than χ² into their weighted mean, and compare that with the next line."""
     limit, unwrapped = merging
     kept = 0
     for i in range(1, count):
@@ -241,9 +241,9 @@ def merge(merging, lines, models, count, log):
 
 @kernel
 def beside(one, other):
-    """The other line, written so that its angle is the nearest to that of the first."""
+    """The other line, in the form whose angle is nearest to that of the first."""
     turns = math.floor((other.angle - one.angle) / math.pi + 0.5)
     radius = -other.radius if turns % 2 else other.radius
-    # With the radius the sign of its covariance with the angle turns too.
+    # Negating the radius also negates its covariance with the angle.
     ra = -other.ra if turns % 2 else other.ra
     return Polar(radius, other.angle - turns * math.pi, other.rr, ra, other.aa)

@@ -1,4 +1,4 @@
-"""Split-and-Merge as textbooks have it: split by the distance to a fitted line, then merge neighbours that fit one.
+"""Textbook Split-and-Merge: split by the distance to a fitted line, then merge neighbours that fit one line.
 
 Pavlidis, Horowitz: *Segmentation of plane curves*, IEEE Transactions on Computers C-23, 1974. Nguyen, Gächter,
 Martinelli, Tomatis, Siegwart: *A comparison of line extraction algorithms using 2D range data for indoor mobile
@@ -53,7 +53,7 @@ VOCABULARY = Vocabulary(
     (
         *KINDS,
         Kind("lines merged", "merge", "joined", "merge", "lines merged: {span}, all within {value:.3f} m"),
-        Kind("lines kept apart", "merge", "none", "", "lines stay two: {value:.3f} ≥ {limit:.3f} m"),
+        Kind("lines kept apart", "merge", "none", "", "lines not merged: {value:.3f} ≥ {limit:.3f} m"),
         Kind("line kept", "select", "stands", "line", "line kept: {span}, {points} points"),
         Kind("endpoints", "endpoints", "placed", "", "endpoints placed: {span}, {limit:.3f} m apart"),
     ),
@@ -62,7 +62,7 @@ VOCABULARY = Vocabulary(
 
 
 def run(scan: Scan, params: TextbookParams, logged: bool) -> Run:
-    """The lines that are left after splitting and merging; on a full circle also across its opening."""
+    """The lines left after splitting and merging; on a full circle also across the opening."""
     beam, xy = loop_of(scan)
     n = len(beam)
     rules = Splitting(params.split_distance, params.max_gap, params.min_points, params.min_length, by_fit=True)
@@ -78,7 +78,7 @@ SPLIT_AND_MERGE_TEXTBOOK = LoggedMethod("split-and-merge-textbook", VOCABULARY, 
 
 @entry_kernel
 def extract_lines(xy, circle, rules, stack, lines, dropped, used, log):
-    """Number of lines through the points xy (2, 2·n), which are there twice; see `split` for the stack."""
+    """Number of lines through the points xy (2, 2·n), each point twice; see `split` for the stack."""
     x, y, n = xy[0], xy[1], len(xy[0]) // 2
     used[0] = 0
     if n < 2:
@@ -96,7 +96,7 @@ def extract_lines(xy, circle, rules, stack, lines, dropped, used, log):
 
 @kernel
 def merge(x, y, n, circle, rules, lines, count, log):
-    """Neighbours become one while no point lies too far from the line through both; on a circle also last and first."""
+    """Merge neighbours if no point lies too far from their common line; on a circle also the last and the first."""
     i = 0
     while i + 1 < count:
         if merged(x, y, lines, i, i + 1, 0, rules, log):

@@ -1,4 +1,4 @@
-"""What the methods that split have in common: stretches of points, cut until each is straight."""
+"""Splitting stretches of points until each is straight; shared by the split methods."""
 
 from __future__ import annotations
 
@@ -25,7 +25,8 @@ SplitDistance = Annotated[
         "d_split", 0.005, 0.3, "m", 0.001, log=True, least=1e-6, most=100.0, ros="min_split_dist", scatter=1.3,
         label="distance that splits",
         why="a distance of 0 would split at every point",
-        help="A stretch is split at its farthest point if that lies at least so far from the line through its ends.",
+        help="Splits a stretch at its farthest point if that lies at least this far from the line through its ends. "
+        "Higher splits less.",
     ),
 ]  # fmt: skip
 LineGap = Annotated[
@@ -33,17 +34,17 @@ LineGap = Annotated[
     Knob(
         "G_max", 0.05, 5.0, "m", 0.01, log=True, least=1e-6, most=1000.0, ros="max_line_gap",
         label="gap that splits",
-        why="a gap of 0 would part every point from the next",
-        help="A stretch with a gap as wide as this between neighbouring points is split there.",
+        why="a gap of 0 would separate every point from the next",
+        help="Splits a stretch at a gap at least this wide between neighbouring points. Higher splits less.",
     ),
 ]  # fmt: skip
 
 
 class Splitting(NamedTuple):
-    """What decides on splits, and which lines are kept.
+    """The limits for splits and for keeping lines.
 
-    loses_points: whether each split loses two points; by_fit: whether the line fitted to a stretch says if it is
-    straight, instead of that through its ends, which says where to split in any case.
+    loses_points: whether each split loses two points; by_fit: whether to test straightness against the fitted line
+    instead of the line through the ends. The line through the ends always decides where to split.
     """
 
     split_distance: float
@@ -55,12 +56,12 @@ class Splitting(NamedTuple):
 
 
 FARTHEST, WIDEST_GAP, SPLIT, POINT_LEFT, STRETCH_KEPT, LINE_DROPPED = range(6)
-# Every vocabulary of a method that splits begins with these.
+# The vocabulary of every split method begins with these.
 KINDS = (
     Kind("farthest point", "split", "shown", "", "farthest of {span}: beam {beam}, {value:.3f} ≥ {limit:.3f} m off"),
     Kind("widest gap", "split", "shown", "", "widest gap of {span}: {value:.3f} ≥ {limit:.3f} m, at beam {beam}"),
     Kind("split", "split", "parted", "seed", "split at beam {beam}: the first part is {span}"),
-    Kind("point left", "split", "gone", "", "beam {first} is left alone"),
+    Kind("point left", "split", "gone", "", "beam {first} is left over as a single point"),
     Kind("stretch kept", "split", "stands", "", "straight: {span}, all within {value:.3f} < {limit:.3f} m"),
     Kind("line dropped", "select", "gone", "drop", "line dropped: {span}; {refusal}"),
 )
@@ -69,7 +70,7 @@ SPLIT_DISTANCE, LINE_GAP = range(len(CHECKS), len(CHECKS) + 2)
 
 
 def loop_of(scan: Scan) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
-    """(beams with a return, their points (2, n)); a full circle begins at its farthest point, which is a corner."""
+    """(beams with a return, their points (2, n)); a full circle starts at its farthest point, which is a corner."""
     beam = np.flatnonzero(scan.valid)
     if scan.full_circle and len(beam):
         beam = np.roll(beam, -int(np.argmax(scan.ranges[beam])))
@@ -84,9 +85,9 @@ def fitted(x, y, first, last):
 
 @kernel
 def split(x, y, last_point, rules, stack, lines, log):
-    """Number of straight stretches of the points 0..last_point, each split at its farthest point, else at a gap.
+    """Number of straight stretches of the points 0..last_point, split at farthest points, else at gaps.
 
-    stack: (n + 2, 3) int64, memory for stretches that wait.
+    stack: (n + 2, 3) int64, memory for waiting stretches.
     """
     count, waiting, names = 0, 1, 1
     stack[0, 0], stack[0, 1], stack[0, 2] = 0, last_point, 0
@@ -100,7 +101,7 @@ def split(x, y, last_point, rules, stack, lines, log):
         line = chord(x, y, first, last)
         place, away = farthest(x, y, first, last, line)
         if rules.by_fit:
-            # Of a bent stretch the farthest point from its fit often lies beside an end, and would be split off alone.
+            # In a bent stretch the point farthest from the fit often lies next to an end; it would be split off alone.
             line = fitted(x, y, first, last)
             other, away = farthest(x, y, first, last, line)
             place = other if place == first else place
@@ -110,7 +111,7 @@ def split(x, y, last_point, rules, stack, lines, log):
             check = SPLIT_DISTANCE
         elif gap >= rules.max_gap:
             check, value, limit = LINE_GAP, gap, rules.max_gap
-            # The program splits one point early, but for a gap at the start.
+            # The program splits one point early, except for a gap at the start.
             place = behind - 1 if rules.loses_points and first < behind - 1 else behind
         if check == NONE:
             count = append(lines, count, first, last, name, line)
@@ -132,7 +133,7 @@ def split(x, y, last_point, rules, stack, lines, log):
 
 @kernel
 def select(x, y, rules, lines, count, dropped, log):
-    """Drop what is too short, between its ends, or too sparse."""
+    """Drop lines that are too short between their ends or have too few points."""
     kept = 0
     for i in range(count):
         first, last = lines[i].first, lines[i].last

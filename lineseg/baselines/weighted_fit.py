@@ -1,4 +1,4 @@
-"""A line in polar form, weighted by the noise of each beam, with its covariance.
+"""Weighted fit of a line in polar form, using the noise of each beam, with its covariance.
 
 Pfister, Roumeliotis, Burdick: *Weighted line fitting algorithms for mobile robot map building and efficient data
 representation*, ICRA 2003.
@@ -25,7 +25,7 @@ class Polar(NamedTuple):
 
 
 class Fitting(NamedTuple):
-    """Variances of a range [m²] and of a bearing [rad²]; the iteration ends when R and α move by less."""
+    """Variances of a range [m²] and a bearing [rad²], and the changes of R and α below which the iteration ends."""
 
     range_variance: float
     bearing_variance: float
@@ -37,8 +37,8 @@ class Fitting(NamedTuple):
 def fit_weighted(r, cosines, sines, first, last, line, how):
     """The line through the points first..last that minimises Σ dₖ²/Pₖ, dₖ = rₖ·cos(α − φₖ) − R; starts from `line`.
 
-    Pₖ is the variance of dₖ: σ_r²·cos² + σ_φ²·r²·sin². In turns, R is the weighted mean at α, and α takes a step of
-    Newton's method.
+    Pₖ is the variance of dₖ: σ_r²·cos² + σ_φ²·r²·sin². Each iteration sets R to the weighted mean at α, then moves α
+    by a step of Newton's method.
     """
     radius, angle = -line[2], math.atan2(line[1], line[0])
     former_radius = former_angle = 0.0

@@ -147,5 +147,5 @@ class Comparison:
 
 def _method(name: str) -> Extractor:
     if name not in EXTRACTORS:
-        raise ValueError(f"there is no method {name!r}; there are {', '.join(EXTRACTORS)}")
+        raise ValueError(f"there is no method {name!r}; choose from {', '.join(EXTRACTORS)}")
     return EXTRACTORS[name]

@@ -1,4 +1,4 @@
-"""Scores of a frame that need no truth: where extraction is doubtful, judged by the frame and the one before it."""
+"""Scores without truth: how doubtful the extraction of a frame is, judged from the frame and its neighbours."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from ..region_growing.overlap import resolve_overlaps
 from ..region_growing.points import Points
 from ..total_least_squares import signed_distance
 
-# A score must not follow the threshold that it judges: these stay what they are when merge_angle and max_gap change.
+# A score must not follow the threshold it judges, so these do not depend on merge_angle and max_gap.
 SPLIT_ANGLE = 0.1
 SPLIT_GAP = 0.3
 LOOSER = 2.0
@@ -28,9 +28,9 @@ CHANGE_OF_THRESHOLD = 0.05
 
 @dataclass(frozen=True)
 class Score:
-    """How a score is called and read; worse: in which direction extraction becomes doubtful.
+    """The name and meaning of a score; worse: whether higher or lower values are doubtful.
 
-    least: a difference between frames that is worth a look, and weight: how much it says, for the rank of suspicion.py.
+    least: smallest difference between frames that matters; weight: its weight in the suspicion, see suspicion.py.
     """
 
     name: str
@@ -56,62 +56,63 @@ SCORES = {
         ),
         Score(
             "rms", "largest rms", "m",
-            "Largest root mean square distance of the points to their line.",
+            "Largest root mean square distance from the points of a segment to its line.",
             "higher", least=0.003, weight=0.5,
         ),
         Score(
             "splits", "over-split neighbours", "",
             f"Pairs of neighbouring segments on one line: less than {SPLIT_ANGLE} rad and {SPLIT_GAP} m apart, "
-            f"the facing endpoints within {LOOSER:g}·ε of the other's line.",
+            f"with facing endpoints within {LOOSER:g}·ε of each other's line.",
             "higher", least=0.5, weight=1.0,
         ),
         Score(
             "gap", "widest gap bridged", "m",
-            f"By how much two neighbouring points of one segment are farther apart than the points beside them; "
-            f"points within {LEAST_GAP:g} m of each other do not count.",
+            f"Largest difference between a gap inside a segment and the wider of the two gaps next to it. "
+            f"Gaps of up to {LEAST_GAP:g} m do not count.",
             "higher", least=0.2, weight=1.0,
         ),
         Score(
             "misses", "probable misses", "",
-            f"Lines that the method finds in the points that no segment took if ε and δ are {LOOSER:g} times as large.",
+            f"Lines found in the points without a segment when ε and δ are {LOOSER:g} times as large.",
             "higher", least=0.5, weight=0.5,
         ),
         Score(
             "change", "change", "",
-            "Share of the bearings covered now or in the frame before that do not belong to the same segment in both.",
+            "Share of the covered bearings that changed segment since the previous frame.",
             "higher", least=0.05, weight=0.5,
         ),
         Score(
             "near", "fits near ε", "",
-            f"Segments whose root mean square distance is more than {NEAR_EPSILON:g}·ε: they could hardly be worse.",
+            f"Segments with a root mean square distance above {NEAR_EPSILON:g}·ε: they only just fit.",
             "higher", least=0.5, weight=0.5,
         ),
         Score(
             "brief", "short-lived lines", "m",
-            "Length of the segments that neither the frame before nor the one behind has, moved as the sensor has.",
+            "Total length of the segments that neither the previous nor the next frame has, after correcting for "
+            "motion.",
             "higher", least=0.3, weight=0.5,
         ),
         Score(
             "gone", "interrupted lines", "m",
-            "Length of the segments that the frame before and the one behind have, moved as the sensor has, and this "
-            "one has not.",
+            "Total length of the segments that the previous and the next frame have and this one lacks, after "
+            "correcting for motion.",
             "higher", least=0.3, weight=3.0,
         ),
         Score(
             "jump", "jump of the count", "",
-            "By how many segments the frame has more, or fewer, than both the frame before and the one behind.",
+            "How many more, or fewer, segments the frame has than both the previous and the next frame.",
             "higher", least=1.0, weight=1.0,
         ),
         Score(
             "jolt", "jolt", "rad",
-            "How much the sensor's turn to the frame behind differs from its turn to this one, both as the segments "
-            "tell.",
+            "Difference between the sensor's turn to this frame and its turn to the next, estimated from the segments.",
             "higher", least=0.05, weight=2.0,
         ),
         Score(
             "unstable", "unstable segments", "",
-            f"Most segments that come or go if one threshold changes by {CHANGE_OF_THRESHOLD:.0%}, "
-            "a whole number by 1 at least.",
+            f"Largest number of segments that appear or disappear when one threshold changes by "
+            f"{CHANGE_OF_THRESHOLD:.0%}, "
+            "or by at least 1 if it is a whole number.",
             "higher", least=0.5, weight=0.5,
         ),
     ]
@@ -119,8 +120,8 @@ SCORES = {
 
 
 class Spans(NamedTuple):
-    """low, high: (capacity,) [rad] the bearings between which the segments of a frame lie, rising; used: (1,) their
-    number, −1 for no frame at all."""
+    """low, high: (capacity,) [rad] bearings where the segments of a frame start and end, rising; used: (1,) number of
+    segments, −1 if there is no frame."""
 
     low: NDArray[np.float64]
     high: NDArray[np.float64]
@@ -129,7 +130,7 @@ class Spans(NamedTuple):
 
 @kernel
 def coverage_of(lines, count, points):
-    """Valid beams in segments / valid beams; 0 where no beam is valid."""
+    """Valid beams in segments / valid beams; 0 if no beam is valid."""
     covered = 0
     for i in range(count):
         covered += lines[i].last - lines[i].first + 1
@@ -138,7 +139,7 @@ def coverage_of(lines, count, points):
 
 @kernel
 def invalid_share(points, beams):
-    """Invalid beams / beams; 1 where there is no beam."""
+    """Invalid beams / beams; 1 if there are no beams."""
     return 1.0 - points.returns / beams if beams > 0 else 1.0
 
 
@@ -162,8 +163,8 @@ def fits_near_epsilon(lines, count, limits):
 
 @kernel
 def over_split(lines, count, circle, epsilon, pairs):
-    """Number of pairs of neighbouring segments that are one line, cut in two; on a full circle the last and the first
-    are neighbours. The first of each pair is written to `pairs`, as far as it reaches."""
+    """Number of pairs of neighbouring segments that are one line cut in two; on a full circle the last and the first
+    are neighbours. Writes the first segment of each pair to `pairs`, up to its length."""
     neighbours = count if circle and count > 1 else count - 1
     found = 0
     for i in range(neighbours):
@@ -176,9 +177,9 @@ def over_split(lines, count, circle, epsilon, pairs):
 
 @kernel
 def are_one_line(lines, i, j, epsilon):
-    """Whether segment j goes on where segment i ends.
+    """Whether segment j continues segment i.
 
-    With (x₂, y₂) the end of one and (x₁, y₁) the start of the next: |sin of the angle between the lines| <
+    With (x₂, y₂) the end of i and (x₁, y₁) the start of j: |sin of the angle between the lines| <
     sin SPLIT_ANGLE, |(x₁, y₁) − (x₂, y₂)| ≤ SPLIT_GAP, and each of the two points lies within LOOSER·ε of the other's
     line.
     """
@@ -202,13 +203,13 @@ def find_splits(segments, circle, epsilon, pairs):
 def widest_gap(lines, count, points):
     """max over the neighbouring points p of each segment of |pₖ₊₁ − pₖ| − max(|pₖ − pₖ₋₁|, |pₖ₊₂ − pₖ₊₁|) [m], or 0.
 
-    Where a wall is seen at a grazing angle all points are far apart, and nothing is bridged; nor is anything by a step
-    of LEAST_GAP or less.
+    On a wall seen at a grazing angle all points are far apart, so the difference stays small. Steps of LEAST_GAP or
+    less do not count.
     """
     widest = 0.0
     for i in range(count):
         first, last = lines[i].first, lines[i].last
-        # Few segments have such a step, and only these are gone through step by step.
+        # Few segments have such a step; only these are examined step by step.
         if wide_steps(points.x[first : last + 1], points.y[first : last + 1]) == 0:
             continue
         before, here = 0.0, squared_step(points, first)
@@ -240,17 +241,17 @@ def squared_step(points, k):
 
 @kernel
 def probable_misses(lines, count, points, limits, dropped):
-    """Number of lines that the method finds with LOOSER·ε and LOOSER·δ in the runs of points that no segment took.
+    """Number of lines found with LOOSER·ε and LOOSER·δ in the runs of points without a segment.
 
-    A run is what lies between two neighbouring segments, before the first or behind the last; each is searched by
-    itself, with P_min, L_min and the other limits as they are. The rows of `lines` behind `count` and of `dropped` are
-    overwritten.
+    A run lies between two neighbouring segments, before the first or after the last. Each is searched by itself, with
+    P_min, L_min and the other limits unchanged. Overwrites the rows of `lines` from `count` on, and those of
+    `dropped`.
     """
     looser = loosened(limits, LOOSER)
     found = 0
     start, stop = points.start, points.start + points.period
     if points.circle and count > 0:
-        # The run that holds the opening lies behind the last segment.
+        # The run that contains the opening comes after the last segment.
         start, stop = lines[0].first, lines[0].first + points.period
     for i in range(count + 1):
         end = lines[i].first if i < count else stop
@@ -263,7 +264,7 @@ def probable_misses(lines, count, points, limits, dropped):
 
 @kernel
 def lines_in(points, start, end, limits, lines, dropped):
-    """Number of lines in the positions start..end − 1, as if there were no others."""
+    """Number of lines in the positions start..end − 1, searched by themselves."""
     run = Points(
         points.x[start:end],
         points.y[start:end],
@@ -280,7 +281,7 @@ def lines_in(points, start, end, limits, lines, dropped):
 
 @kernel
 def spans_of(lines, count, points, bearings, spans):
-    """Put down between which bearings (n,) [rad] the segments lie; past the seam of a full circle they go on."""
+    """Store the bearings (n,) [rad] where segments start and end; past the seam of a full circle they keep rising."""
     n = len(bearings)
     falling = n > 1 and bearings[n - 1] < bearings[0]
     turn = -2.0 * math.pi if falling else 2.0 * math.pi
@@ -295,10 +296,10 @@ def spans_of(lines, count, points, bearings, spans):
 
 @kernel
 def change_of(now, before, circle):
-    """1 − Σ|Bᵢ ∩ B′ⱼ| / |∪B ∪ ∪B′|, in [0, 1]; 0 where neither frame has a segment, and for the first frame.
+    """1 − Σ|Bᵢ ∩ B′ⱼ| / |∪B ∪ ∪B′|, in [0, 1]; 0 if neither frame has a segment, and for the first frame.
 
-    B, B′: the intervals of bearings of the segments now and in the frame before. The sum runs over the pairs that are
-    the same segment: those that share more than half of what they cover together.
+    B, B′: intervals of bearings of the segments in this and the previous frame. The sum is over pairs that count as
+    the same segment: those whose intersection is more than half of their union.
     """
     if before.used[0] < 0:
         return 0.0
@@ -322,7 +323,7 @@ def covered_by(spans):
 
 @kernel
 def shared_by(now, before, turn):
-    """What intervals of both frames share [rad], and what those pairs share that are the same segment."""
+    """Overlap [rad] of the intervals of both frames: of all of them, and of the pairs that are the same segment."""
     common = same = 0.0
     j = 0
     for i in range(now.used[0]):
@@ -341,7 +342,7 @@ def shared_by(now, before, turn):
 
 @kernel
 def score_frame(lines, count, points, beams, limits, dropped, now, before, scores):
-    """Write those SCORES of a frame that need no frame behind it, in their order, to `scores` (9,)."""
+    """Write the SCORES of a frame that do not need the next frame to `scores` (9,), in order."""
     scores[0] = count
     scores[1] = coverage_of(lines, count, points)
     scores[2] = invalid_share(points, beams)

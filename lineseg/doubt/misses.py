@@ -1,4 +1,4 @@
-"""Probable misses of a frame: where a looser method finds a line that this one did not, and what refused it."""
+"""Probable misses of a frame: lines that only looser thresholds find, and which threshold refused them."""
 
 from __future__ import annotations
 
@@ -20,10 +20,11 @@ from . import LOOSER
 
 @dataclass(frozen=True)
 class Miss:
-    """A run of beams that no segment took, though they are a line if ε and δ are LOOSER times as large.
+    """A run of beams in no segment that forms a line when ε and δ are LOOSER times as large.
 
-    first, last: beams; points: the valid ones among them; length [m]. check: which threshold refused it, "" where no
-    seed was sought; beam: at which beam, −1 for a line that was grown and dropped; value, limit: what was compared.
+    first, last: beams; points: number of valid beams among them; length [m]. check: the threshold that refused it, ""
+    if no seed was sought; beam: where it was refused, −1 for a line that grew and was dropped; value, limit: the
+    numbers compared.
     """
 
     first: int
@@ -38,7 +39,7 @@ class Miss:
 
 
 def misses(scan: Scan, params: Params | None = None) -> tuple[Miss, ...]:
-    """The probable misses of a scan, in its order: as many as its score "misses" says."""
+    """The probable misses of a scan, in scan order; their number is the score "misses"."""
     need_scan(scan)
     params = Params() if params is None else params
     need_thresholds(params, Params)
@@ -48,7 +49,7 @@ def misses(scan: Scan, params: Params | None = None) -> tuple[Miss, ...]:
     )
     found: list[Miss] = []
     for run in _runs(scan, traced):
-        # What lines pass behind has been taken away before.
+        # Objects that lines pass behind have already been removed.
         beams = run[~traced.looked_past[run]]
         part = Scan(scan.ranges[beams], np.unwrap(scan.bearings[beams]), scan.range_min, scan.range_max)
         lines = extract(part.opened(), looser).segments
@@ -57,25 +58,25 @@ def misses(scan: Scan, params: Params | None = None) -> tuple[Miss, ...]:
 
 
 def why_none(traced: Trace, beams: NDArray[np.intp]) -> str:
-    """What kept a run of beams from being a line, in words; "" where the method does not tell."""
+    """Why a run of beams is not a line, in words; "" if the method does not say."""
     valid, labels = traced.scan.valid[beams], traced.extraction.labels[beams]
     if 2 * np.count_nonzero(valid) < len(beams):
         return "most of its beams have no return"
     taken = np.bincount(labels[labels >= 0]) if (labels >= 0).any() else np.zeros(1, int)
     if 2 * taken.max() > np.count_nonzero(valid):
-        return f"segment {np.argmax(taken)} has its beams"
+        return f"its beams belong to segment {np.argmax(taken)}"
     return _reason(traced, _widened(traced.scan, beams))[-1] if isinstance(traced, GrowthTrace) else ""
 
 
 def _widened(scan: Scan, beams: NDArray[np.intp]) -> NDArray[np.intp]:
-    """The beams and a quarter more to either side: a line that was tried need not have begun where another ended."""
+    """The beams and a quarter more on either side: a tried line need not have started where another ended."""
     more = max(len(beams) // 4, 3)
     wide = np.arange(beams[0] - more, beams[0] + len(beams) + more)
     return wide % len(scan) if scan.full_circle else wide[(wide >= 0) & (wide < len(scan))]
 
 
 def _runs(scan: Scan, traced: Trace) -> Iterator[NDArray[np.intp]]:
-    """The beams before the first segment, between two neighbours, and behind the last."""
+    """The beams before the first segment, between neighbours, and after the last."""
     n, segments = len(scan), traced.extraction.segments
     ends = [(segment.first, segment.last) for segment in segments]
     if not scan.full_circle:
@@ -89,7 +90,7 @@ def _runs(scan: Scan, traced: Trace) -> Iterator[NDArray[np.intp]]:
 
 
 def _opening(scan: Scan) -> int:
-    """The beam behind the widest gap of a full circle."""
+    """The beam after the widest gap of a full circle."""
     beams = np.flatnonzero(scan.valid)
     if not len(beams):
         return 0
@@ -100,12 +101,12 @@ def _opening(scan: Scan) -> int:
 def _miss(traced: Trace, beams: NDArray[np.intp], points: int, length: float) -> Miss:
     check, beam, value, limit, reason = _reason(traced, beams)
     first, last = int(beams[0]), int(beams[-1])
-    text = f"a probable miss: beams {first}–{last}, {points} points, {length:.1f} m, no line – {reason}"
+    text = f"a line was probably missed: beams {first}–{last}, {points} points, {length:.1f} m – {reason}"
     return Miss(first, last, points, length, check, beam, value, limit, text)
 
 
 def _reason(traced: Trace, beams: NDArray[np.intp]) -> tuple[str, int, float, float, str]:
-    """(check, beam, value, limit, words): the longest line dropped here; else the nearest to a seed."""
+    """(check, beam, value, limit, words) of the longest line dropped here, else of the window nearest to a seed."""
     inside = np.zeros(len(traced.scan), np.bool_)
     inside[beams] = True
     log = traced.log
@@ -114,11 +115,11 @@ def _reason(traced: Trace, beams: NDArray[np.intp]) -> tuple[str, int, float, fl
     if len(dropped):
         row = longest(dropped)
         told = traced.told(row)
-        words = f"its line of {told.span} was dropped, {told.refusal}{_stop(traced, row)}"
+        words = f"its line of {told.span} was dropped: {told.refusal}{_stop(traced, row)}"
         return told.check.name, -1, row.value, row.limit, words
     rejected = rows[rows["kind"] == SEED_REJECTED]
     if not len(rejected):
-        return "", -1, np.nan, np.nan, "no seed was sought here"
+        return "", -1, np.nan, np.nan, "no search for a seed started here"
     row = nearest(rejected)
     told = traced.told(row)
     symbol = next(knob.symbol for name, _, knob in traced.params.knobs() if name == told.check.name)
@@ -127,9 +128,9 @@ def _reason(traced: Trace, beams: NDArray[np.intp]) -> tuple[str, int, float, fl
 
 
 def _stop(traced: Trace, dropped: Row) -> str:
-    """Where a line that was dropped had stopped to grow, by the threshold that it missed least."""
+    """Why a dropped line stopped growing, by the threshold that it missed by least."""
     log = traced.log
     stops = log[(log["kind"] == GROWTH_STOPPED) & (log["candidate"] == dropped.candidate) & (log["beam"] >= 0)]
     if not len(stops):
         return ""
-    return f"; it stopped where {traced.told(nearest(stops)).refusal}"
+    return f"; it stopped growing where {traced.told(nearest(stops)).refusal}"

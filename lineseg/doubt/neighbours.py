@@ -1,4 +1,4 @@
-"""A frame's segments beside those of the frame before and the frame behind it: what only this one has, or lacks."""
+"""Compares a frame's segments with those of the previous and next frame: which only it has, or only it lacks."""
 
 from __future__ import annotations
 
@@ -11,15 +11,15 @@ from ..kernel import entry_kernel, kernel
 from ..scan import Recording
 from ..total_least_squares import signed_distance
 
-# A turn between two frames is sought within MOST_TURN [rad], its sine in steps of one VOTES-th.
+# A turn between two frames is sought within ±MOST_TURN [rad], its sine in steps of one VOTES-th.
 MOST_TURN = 0.75
 VOTES = 151
-# Closer than this [rad, m] a line is still the same one.
+# Two lines closer than this [rad, m] are the same line.
 SAME_ANGLE = 0.1
 SAME_DISTANCE = 0.1
-# Lines this far apart [m] are paired at first, and then ever nearer ones, while the motion is found.
+# Largest distance [m] between paired lines in each round of finding the motion.
 REACHES = (0.4, 0.15)
-# All pairs are looked at: a frame of more segments is not compared.
+# The work grows with the square of the segments, so a frame with more is not compared.
 MOST_SEGMENTS = 256
 
 
@@ -27,10 +27,10 @@ MOST_SEGMENTS = 256
 def compare_frames(segments, offsets, views, start, stop, votes, brief, gone, jump, jolt, cancelled):
     """Write four scores of the frames start..stop − 1; views: (frames, 2), see `views_of`; votes: (VOTES,) memory.
 
-    brief: length of the segments that neither the frame before nor the one behind has, moved as the sensor has [m];
-    gone: of those that both have, and this one has not though it looks there [m]. jump: by how many segments the frame
-    has more, or fewer, than both. jolt: how much the turn to the frame behind differs from that of the frame before to
-    this one [rad].
+    brief: total length of the segments that neither the previous nor the next frame has, after correcting for motion
+    [m]; gone: of those that both have and this frame lacks although it looks there [m]. jump: how many more, or fewer,
+    segments the frame has than both. jolt: difference between the turn from the previous frame to this one and the turn
+    to the next [rad].
     All are 0 for the first and the last frame.
     """
     known = -1
@@ -53,7 +53,7 @@ def compare_frames(segments, offsets, views, start, stop, votes, brief, gone, ju
             past, sought = come, False
             for i in range(len(before)):
                 if is_lost(before[i], here, come, views[frame]):
-                    # Most frames lose nothing, and this motion need not be known.
+                    # Most frames lose nothing, so this motion is not needed.
                     if not sought:
                         past, sought = motion_between(before, behind, votes), True
                     if is_among(before[i], behind, past):
@@ -63,9 +63,9 @@ def compare_frames(segments, offsets, views, start, stop, votes, brief, gone, ju
 
 @entry_kernel
 def mark_frame(before, here, behind, view, votes, brief, gone):
-    """Mark what `brief` and `gone` count: (len(here),) and (len(before),) bool; view: a row of `views_of`.
+    """Mark the segments that `brief` and `gone` count: (len(here),) and (len(before),) bool; view: a row of `views_of`.
 
-    Returns the motions from the frame before to this one, and from this one to the frame behind.
+    Returns the motions from the previous frame to this one, and from this one to the next.
     """
     to_here, to_behind = motion_between(before, here, votes), motion_between(here, behind, votes)
     back, past = reversed_motion(to_here), motion_between(before, behind, votes)
@@ -77,7 +77,7 @@ def mark_frame(before, here, behind, view, votes, brief, gone):
 
 
 def views_of(recording: Recording) -> NDArray[np.float64]:
-    """(frames, 2) the least and the greatest bearing of each frame [rad], counted on beyond a turn."""
+    """(frames, 2) least and greatest bearing of each frame [rad], unwrapped."""
     if recording.bearings is None:
         last = recording.angle_min + recording.angle_increment * (np.diff(recording.offsets) - 1)
         return np.sort(np.column_stack((recording.angle_min, last)).astype(np.float64), axis=1)
@@ -97,13 +97,13 @@ def is_gone(segment, here, to_here, behind, to_behind, view):
 
 @kernel
 def is_lost(segment, here, to_here, view):
-    """Whether this frame lacks a segment of the frame before, though it looks there."""
+    """Whether this frame lacks a segment of the previous frame although it looks there."""
     return not is_among(segment, here, to_here) and is_in_view(segment, to_here, view)
 
 
 @kernel
 def is_in_view(segment, motion, view):
-    """Whether there are beams to the middle of a moved segment."""
+    """Whether some beam points at the middle of a moved segment."""
     x1, y1, x2, y2 = moved(segment, motion)
     return (math.atan2(y1 + y2, x1 + x2) - view[0]) % (2.0 * math.pi) <= view[1] - view[0]
 
@@ -116,11 +116,11 @@ def reversed_motion(motion):
 
 @kernel
 def motion_between(here, there, votes):
-    """(cos, sin, x, y) of the motion that lays the segments of one frame on those of another.
+    """(cos, sin, x, y) of the motion that aligns the segments of one frame with those of another.
 
-    The turn is the one that most pairs of segments agree on, by the lengths they share; the shift then minimises
-    Σ w·(distance between paired lines)², each with the nearest one that it overlaps, in a few rounds. What no line
-    holds, as the way along a bare corridor, stays 0.
+    The turn is the one that most pairs of segments agree on, weighted by shared length. The shift then minimises
+    Σ w·(distance between paired lines)² in a few rounds, each line paired with the nearest one it overlaps. A
+    direction that no line constrains, such as along a bare corridor, stays 0.
     """
     turn = turn_between(here, there, votes)
     motion = (math.cos(turn), math.sin(turn), 0.0, 0.0)
@@ -141,7 +141,7 @@ def turn_between(here, there, votes):
     best, most = VOTES // 2, 0.0
     for k in range(1, VOTES - 1):
         total = votes[k - 1] + votes[k] + votes[k + 1]
-        # Of equals the smaller turn; sums of the same lengths in another order are equal.
+        # In a tie the smaller turn wins; sums of the same lengths in another order count as equal.
         smaller = abs(k - VOTES // 2) < abs(best - VOTES // 2)
         if total > most * (1.0 + 1e-9) or (smaller and total >= most * (1.0 - 1e-9)):
             best, most = k, total
@@ -202,9 +202,9 @@ def turned(segment, motion):
 
 @kernel
 def shared_with(ends, normal, other, reach):
-    """What of a moved segment lies beside another [m], and its middle's distance to the other's line [m].
+    """Length over which a moved segment lies beside another [m], and distance from its middle to the other's line [m].
 
-    Nothing does where they differ by more than SAME_ANGLE, or the distance is not below `reach`.
+    The length is 0 if they differ by more than SAME_ANGLE, or the distance is not below `reach`.
     """
     (x1, y1, x2, y2), (a, b) = ends, normal
     distance = signed_distance((other.a, other.b, other.c), 0.5 * (x1 + x2), 0.5 * (y1 + y2))
@@ -217,7 +217,7 @@ def shared_with(ends, normal, other, reach):
 
 @kernel
 def is_among(segment, others, motion):
-    """Whether the others, together, hold more than half of this segment."""
+    """Whether the others together cover more than half of this segment."""
     ends, normal, held = moved(segment, motion), turned(segment, motion), 0.0
     for j in range(len(others)):
         shared, _ = shared_with(ends, normal, others[j], SAME_DISTANCE)

@@ -1,4 +1,4 @@
-"""One rank out of all scores: how far each frame stands out from the others of its recording, to the bad side."""
+"""Combines all scores into one: how far each frame stands out from its recording in the doubtful direction."""
 
 from __future__ import annotations
 
@@ -10,23 +10,23 @@ from numpy.typing import NDArray
 
 from . import SCORES
 
-# Of normally distributed numbers a tenth lie so many standard deviations above the median.
+# A tenth of normally distributed numbers lie more than this many standard deviations above the median.
 TENTH = 1.2816
-# From here on worse is no longer worse: one score alone shall not decide.
+# Cap on the doubt of one score, so that no single score decides.
 MOST_DOUBT = 6.0
-# Frames around a frame, itself among them, that it is compared with.
+# Each frame is compared with this many frames around it, itself included.
 AROUND = 11
 
 WEIGHTS = {name: score.weight for name, score in SCORES.items()}
 
 
 def doubts(scores: NDArray[np.floating]) -> NDArray[np.float64]:
-    """(frames, len(SCORES)) how doubtful each score makes each frame, from 0 to MOST_DOUBT; unknown scores are 0.
+    """(frames, len(SCORES)) how doubtful each frame is by each score, from 0 to MOST_DOUBT; unknown scores give 0.
 
-    The mean of two: how far the score stands out of the whole recording, and how far out of the AROUND frames around.
-    Each is min(max(d / spread, 0), MOST_DOUBT), where d is how much worse the score is than the median of the recording
-    or of the frames around, and spread = max(that d which a tenth of all frames exceed / 1.2816, least), with `least`
-    the score's own smallest difference that is worth a look.
+    The mean of two numbers: how far the score stands out from the whole recording, and from the AROUND frames around
+    it. Each is min(max(d / spread, 0), MOST_DOUBT), where d is how much worse the score is than the median of the
+    recording or of the frames around, and spread = max(the d that a tenth of all frames exceed / 1.2816, least), with
+    `least` the smallest difference of this score that matters.
     """
     scores = np.asarray(scores, np.float64)
     if not len(scores):
@@ -43,7 +43,7 @@ def _standing_out(by: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _around(values: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The median of the AROUND frames around each frame; at the ends, of the first or last AROUND."""
+    """The median of the AROUND frames around each frame; near the ends, of the first or last AROUND frames."""
     width = min(AROUND, len(values))
     medians = np.median(sliding_window_view(values, width, axis=0), axis=-1)
     return medians[np.clip(np.arange(len(values)) - width // 2, 0, len(medians) - 1)]
@@ -52,14 +52,14 @@ def _around(values: NDArray[np.float64]) -> NDArray[np.float64]:
 def suspicion(scores: NDArray[np.floating], weights: Mapping[str, float] = WEIGHTS) -> NDArray[np.float64]:
     """(frames,) Σ weight·doubt / Σ weight over the scores (frames, len(SCORES)), from 0 to MOST_DOUBT.
 
-    weights: by the names of SCORES; a score without one does not count, nor does one that is not known.
+    weights: by name of score; a score without a weight or without a known value does not count.
     """
     for name in weights:
         if name not in SCORES:
-            raise ValueError(f"there is no score {name!r}; there are {', '.join(SCORES)}")
+            raise ValueError(f"there is no score {name!r}; choose from {', '.join(SCORES)}")
     by_score = np.array([float(weights.get(name, 0.0)) for name in SCORES])
     if (by_score < 0).any() or not np.isfinite(by_score).all():
-        raise ValueError("a weight is a number ≥ 0")
+        raise ValueError("a weight must be a number ≥ 0")
     if len(scores):
         by_score = by_score * ~np.isnan(scores).all(axis=0)
     total = by_score.sum()
@@ -67,5 +67,5 @@ def suspicion(scores: NDArray[np.floating], weights: Mapping[str, float] = WEIGH
 
 
 def worst_first(scores: NDArray[np.floating], weights: Mapping[str, float] = WEIGHTS) -> NDArray[np.intp]:
-    """(frames,) the frames from the most suspicious to the least; of equals the earlier first."""
+    """(frames,) the frames from most to least suspicious; ties in order of time."""
     return np.argsort(-suspicion(scores, weights), kind="stable")

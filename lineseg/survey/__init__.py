@@ -1,4 +1,4 @@
-"""A whole recording at once: every frame, over all cores, in compact arrays."""
+"""Extraction from every frame of a recording, on all cores, into compact arrays."""
 
 from .result import SEGMENT, Survey
 from .threads import BESIDE, cores, survey

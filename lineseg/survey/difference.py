@@ -1,4 +1,4 @@
-"""Two results for the same scans beside each other: which lines are kept, lost, gained, split and merged."""
+"""Compares two results for the same scans: which lines are kept, lost, gained, split and merged."""
 
 from __future__ import annotations
 
@@ -17,12 +17,13 @@ FATES = ("kept", "lost", "gained", "split", "merged")
 
 
 class Difference(NamedTuple):
-    """What became of the lines of A in B.
+    """What happened to the lines of A in B.
 
-    fates_a (lines of A,), fates_b (lines of B,): an index of FATES each, by the beams from the first of a line to its
-    last. A line of A is split if two or more lines of B lie in it with more than half of their beams, and so are they;
-    a line of B is merged if it holds more than half of two or more lines of A, and so are they. Of the rest two are the
-    same line, kept, if their intersection over union is more than one half; what is left is lost in B, or gained.
+    fates_a (lines of A,), fates_b (lines of B,): indices into FATES, decided by the beams from first to last of each
+    line. "split": a line of A that contains more than half of the beams of two or more lines of B, and these lines of
+    B. "merged": a line of B that contains more than half of the beams of two or more lines of A, and these lines of A.
+    "kept": of the rest, a pair whose intersection over union is more than one half. All others are lost (in A) or
+    gained (in B).
     """
 
     fates_a: NDArray[np.int8]
@@ -30,13 +31,13 @@ class Difference(NamedTuple):
 
     @property
     def counts(self) -> dict[str, int]:
-        """Number of lines kept, lost and split of A, gained and merged of B."""
+        """Numbers of lines of A kept, lost and split, and of lines of B gained and merged."""
         of_a, of_b = np.bincount(self.fates_a, minlength=5), np.bincount(self.fates_b, minlength=5)
         return {name: int((of_b if fate in (GAINED, MERGED) else of_a)[fate]) for fate, name in enumerate(FATES)}
 
 
 def difference(a: Extraction, b: Extraction) -> Difference:
-    """What became in B of the lines of A, two extractions of the same scan by other thresholds or methods."""
+    """What happened in B to the lines of A, where A and B are two extractions from the same scan."""
     spans = [np.array([(s.first, s.last) for s in each.segments], np.int32).reshape(-1, 2) for each in (a, b)]
     found = Difference(np.empty(len(spans[0]), np.int8), np.empty(len(spans[1]), np.int8))
     _compare(*spans, len(a.labels), *found)
@@ -44,12 +45,14 @@ def difference(a: Extraction, b: Extraction) -> Difference:
 
 
 def differences(a: Survey, b: Survey, recording: Recording) -> NDArray[np.int32]:
-    """(frames, 5) the `counts` of every frame of a recording, in the order of FATES.
+    """(frames, 5) `counts` of every frame of a recording, in the order of FATES.
 
-    Raises ValueError if the surveys are not of as many frames as the recording has.
+    Raises ValueError if the number of frames differs between the surveys and the recording.
     """
     if not len(a) == len(b) == len(recording):
-        raise ValueError(f"surveys of {len(a)} and {len(b)} frames do not belong to a recording of {len(recording)}")
+        raise ValueError(
+            f"the surveys have {len(a)} and {len(b)} frames, the recording {len(recording)}; use surveys of it"
+        )
     counts = np.zeros((len(a), len(FATES)), np.int32)
     spans = [np.column_stack((each.segments["first"], each.segments["last"])) for each in (a, b)]
     most = [int(np.diff(each.offsets).max(initial=0)) for each in (a, b)]
@@ -76,7 +79,7 @@ def _compare(a, b, beams, fates_a, fates_b):
 
 @kernel
 def fates_of(a, b, beams, fates_a, fates_b):
-    """Write down what became of lines; a (m, 2) and b (n, 2) are their first and last beams."""
+    """Write the fates of lines; a (m, 2) and b (n, 2) are their first and last beams."""
     fates_a[:] = LOST
     fates_b[:] = GAINED
     for i in range(len(a)):
@@ -92,7 +95,7 @@ def fates_of(a, b, beams, fates_a, fates_b):
 
 @kernel
 def mark(whole, parts, beams, fate, fates, name):
-    """Name the fate of a line and of its parts, if two or more lie in it with more than half of their beams."""
+    """Set the fate of a line and of its parts, if it contains more than half of the beams of two or more lines."""
     inside = 0
     for k in range(len(parts)):
         inside += 2 * shared_beams(whole, parts[k], beams) > length_of(parts[k], beams)
@@ -112,7 +115,7 @@ def length_of(line, beams):
 
 @kernel
 def shared_beams(line, other, beams):
-    """Number of beams that both lines have, on a circle of so many."""
+    """Number of beams that both lines share, on a circle of `beams`."""
     length, length_2 = length_of(line, beams), length_of(other, beams)
     ahead = (other[0] - line[0]) % beams
     return max(0, min(length, ahead + length_2) - ahead) + max(0, min(length, ahead + length_2 - beams))

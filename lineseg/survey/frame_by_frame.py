@@ -1,4 +1,4 @@
-"""Surveys by the other methods: frame by frame in Python, with the scores of the same kernels."""
+"""Surveys with the other methods: frame by frame in Python, scored by the same kernels."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ from ..scan import Recording, Scan
 from ..segment import Extraction
 from .stretch import Workspace
 
-# What a score takes from a method that has it; everything else is as usual, so that methods are judged alike.
+# Thresholds that a score takes from the method if it has them. The others keep their defaults, to judge alike.
 JUDGED_BY = ("epsilon", "delta", "seed_points", "min_points", "min_length")
 COVERAGE = list(SCORES).index("coverage")
 
 
 def judge_of(params: Thresholds) -> Params:
-    """The thresholds of region growing by which the segments of a method are scored."""
+    """The region-growing thresholds used for scoring the segments of a method."""
     return Params().but(**{name: value for name, value in params.numbers().items() if name in JUDGED_BY})
 
 
@@ -37,11 +37,11 @@ def survey_stretch(
     counts: NDArray[np.int64],
     scores: NDArray[np.float32] | None,
 ) -> NDArray[np.void]:
-    """The segments of the frames start..stop − 1; counts and scores: of all frames, written to."""
+    """The segments of the frames start..stop − 1; writes to `counts` and `scores`, which have all frames."""
     method, limits = method_of(params), limits_of(judge_of(params))
     memory.spans.used[:] = -1
     found = [memory.segments[:0]]
-    # The first frame is compared with the one before, which belongs to another stretch.
+    # The first frame is compared with the previous one, which belongs to another stretch.
     for frame in range(max(start - 1, 0) if scores is not None else start, stop):
         if cancelled[0]:
             break
@@ -58,7 +58,7 @@ def survey_stretch(
 
 
 def segment_rows(extraction: Extraction, kind: np.dtype) -> NDArray[np.void]:
-    """Segments as rows of the kind that a survey has."""
+    """Segments as rows of a survey."""
     rows = [
         (*s.line, *s.start, *s.end, s.length, s.rms, s.first, s.last, s.points) for s in extraction.segments
     ]  # fmt: skip
@@ -78,7 +78,7 @@ def _score(
         scan.ranges.astype(np.float64), scan.rays, np.asarray(scan.bearings, np.float64), float(scan.range_min),
         float(scan.range_max), scan.full_circle, rows, limits, *memory.arguments, *memory.spans, turn, scores,
     )  # fmt: skip
-    # The kernel counts from the first beam of a segment to its last, some methods leave beams out between.
+    # The kernel counts all beams from first to last, but some methods leave out beams in between.
     scores[COVERAGE] = extraction.covered / max(int(np.count_nonzero(scan.valid)), 1)
 
 
@@ -87,7 +87,7 @@ def score_segments(
     ranges, rays, bearings, range_min, range_max, circle, segments, limits, xy, numbers, lines, dropped, low, high,
     shown, turn, scores,
 ):  # fmt: skip
-    """Score the segments of one frame; turn: 0 and 1 in turns, so that a frame is compared with the one before."""
+    """Score the segments of one frame; turn: alternately 0 and 1, to compare each frame with the previous one."""
     rows, drops = lines.view(LINE), Dropping(dropped.view(DROPPED), numbers[3])
     fields = unpacked(limits)
     points = points_of(ranges, rays, range_min, range_max, circle, fields, xy, numbers)
@@ -103,7 +103,7 @@ def score_segments(
 
 @kernel
 def put_in_order(points, beams, segment, lines, count):
-    """Number of lines with the segment among them, by their first position."""
+    """Number of lines after inserting the segment, ordered by first position."""
     first = position_of(points, segment.first, points.start, beams)
     last = position_of(points, segment.last, first, beams)
     k = count
@@ -119,7 +119,7 @@ def put_in_order(points, beams, segment, lines, count):
 
 @kernel
 def position_of(points, beam, start, beams):
-    """The first position from `start` on whose beam is not before `beam`; on a circle beams go on counting."""
+    """The first position from `start` on whose beam is at least `beam`; on a circle beam numbers keep rising."""
     wanted = beam
     while points.circle and wanted < points.beam[start]:
         wanted += beams

@@ -1,4 +1,4 @@
-"""The rays of many scans at once: scans of one geometry share them, as most of a recording do."""
+"""The rays of many scans; scans with the same geometry share them."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ from ..scan import Recording, regular_fan
 
 
 class Geometry(NamedTuple):
-    """The geometry of consecutive frames; the numbers are those that `Scan` computes.
+    """The geometry of consecutive frames, with the same numbers as `Scan` computes.
 
-    bearings: (total,) [rad], one geometry after the other; rays: (2·total,) cosines and then sines of each of them.
-    place: (frames,) where in `bearings` the geometry of a frame begins; circle: (frames,) whether it is a full circle.
+    bearings: (total,) [rad], one geometry after another; rays: (2·total,) cosines, then sines, of each geometry.
+    place: (frames,) where the geometry of a frame starts in `bearings`; circle: (frames,) whether it is a full circle.
     """
 
     bearings: NDArray[np.float64]
@@ -60,7 +60,7 @@ def _differs_from_the_one_before(recording: Recording, start: int, stop: int, le
 
 
 def _bearings(recording: Recording, frames: NDArray[np.int64], places: NDArray[np.int64]) -> NDArray[np.floating]:
-    """The bearings of the given frames, one after the other."""
+    """The bearings of the given frames, concatenated."""
     if recording.bearings is not None:
         offsets = recording.offsets
         return np.concatenate([recording.bearings[offsets[frame] : offsets[frame + 1]] for frame in frames.tolist()])
@@ -73,7 +73,7 @@ def _bearings(recording: Recording, frames: NDArray[np.int64], places: NDArray[n
 
 @entry_kernel
 def find_new(bearings, offsets, new):
-    """Mark the frames whose bearings differ from the frame before; `new` knows already where their number does."""
+    """Mark the frames whose bearings differ from the previous frame; `new` already marks other numbers of beams."""
     for frame in range(1, len(new)):
         before, here = offsets[frame - 1], offsets[frame]
         k, beams = 0, offsets[frame + 1] - here

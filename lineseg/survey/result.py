@@ -1,4 +1,4 @@
-"""What a survey gives back: the segments and the scores of all frames, in compact arrays."""
+"""The result of a survey: segments and scores of all frames, in compact arrays."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from ..doubt import SCORES
 from ..knobs import Thresholds
 
-# The fields are those of `Segment`; a frame's rows stand in the order of its `Extraction`.
+# The fields of `Segment`; the rows of a frame are in the order of its `Extraction`.
 SEGMENT = np.dtype(
     [
         *((name, np.float64) for name in ("a", "b", "c", "x1", "y1", "x2", "y2", "length")),
@@ -22,11 +22,11 @@ SEGMENT = np.dtype(
 
 @dataclass(frozen=True, eq=False)
 class Survey:
-    """What a method finds in every frame of a recording.
+    """The segments and scores of every frame of a recording.
 
-    segments: of SEGMENT, frame after frame; offsets: (frames + 1,) where the segments of each frame begin.
-    scores: (frames, len(SCORES)) float32, a column for each of SCORES; None where they were not asked for. What takes
-    many surveys is NaN, see `stability`.
+    segments: array of SEGMENT, frame after frame; offsets: (frames + 1,) where the segments of each frame start.
+    scores: (frames, len(SCORES)) float32, a column for each score; None if they were not requested. A score that needs
+    several surveys is NaN, see `stability`.
     """
 
     params: Thresholds
@@ -40,19 +40,19 @@ class Survey:
     def __getitem__(self, frame: int) -> NDArray[np.void]:
         """The segments of one frame."""
         if not -len(self) <= frame < len(self):
-            raise IndexError(f"frame {frame} of a survey of {len(self)} frames")
+            raise IndexError(f"frame {frame}: the survey has the frames 0 to {len(self) - 1}")
         frame %= len(self)
         return self.segments[self.offsets[frame] : self.offsets[frame + 1]]
 
     def score(self, name: str) -> NDArray[np.float32]:
-        """(frames,) one score of every frame; the names are those of SCORES."""
+        """(frames,) one of SCORES, by name, for every frame."""
         if name not in SCORES:
-            raise ValueError(f"there is no score {name!r}; there are {', '.join(SCORES)}")
+            raise ValueError(f"there is no score {name!r}; choose from {', '.join(SCORES)}")
         if self.scores is None:
-            raise ValueError("this survey was made without scores")
+            raise ValueError("this survey has no scores; call survey with scores=True")
         return self.scores[:, list(SCORES).index(name)]
 
 
 def joined(parts: list[NDArray[np.void]]) -> NDArray[np.void]:
-    """A new array of the same segments; copied field by field it would take ten times as long."""
+    """A copy of the segments; copying field by field would take ten times as long."""
     return np.concatenate([np.empty(0, np.uint8), *(part.view(np.uint8) for part in parts)]).view(SEGMENT)

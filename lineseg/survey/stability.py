@@ -1,4 +1,4 @@
-"""How much of a recording's segments hangs on the exact thresholds: each of them is moved a little, either way."""
+"""How much the segments of a recording depend on the exact thresholds: each is varied a little, up and down."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ from .threads import survey
 
 
 def variations(params: Thresholds) -> Iterator[tuple[str, Thresholds]]:
-    """(threshold, `params` with it moved) for each, either way: by CHANGE_OF_THRESHOLD, a whole number by 1 at least.
+    """(threshold, varied `params`) for each threshold, up and down by CHANGE_OF_THRESHOLD, whole numbers by 1 or more.
 
-    What is not allowed, or changes nothing, is left out.
+    Values that are not allowed or change nothing are left out.
     """
     for name, kind, knob in params.knobs():
         value = getattr(params, name)
@@ -32,9 +32,9 @@ def variations(params: Thresholds) -> Iterator[tuple[str, Thresholds]]:
 def changes(
     recording: Recording, base: Survey, cancelled: NDArray[np.bool_] | None = None, threads: int | None = None
 ) -> Iterator[tuple[str, Thresholds, NDArray[np.int32]]]:
-    """(threshold, thresholds, (frames,) number of segments that come or go) of each variation of a survey.
+    """(threshold, params, (frames,) number of segments that appear or disappear) for each variation of a survey.
 
-    A segment stays if there is one with which it shares more than half of the beams that both span.
+    A segment stays if the intersection over union of its beams with some segment of the other survey exceeds one half.
     """
     beams = np.diff(recording.offsets)
     for name, params in variations(base.params):
@@ -51,12 +51,12 @@ def with_stability(
     progress: Callable[[int, int], None] | None = None,
     threads: int | None = None,
 ) -> Survey:
-    """A survey with its last score, "unstable", which takes a survey for each variation; see `survey` for the rest.
+    """The survey with its last score, "unstable", filled in. Needs a survey for each variation; see `survey`.
 
-    Raises ValueError for a survey without scores, `Cancelled` when it is stopped.
+    Raises ValueError for a survey without scores, `Cancelled` when stopped.
     """
     if base.scores is None:
-        raise ValueError("this survey was made without scores")
+        raise ValueError("this survey has no scores; call survey with scores=True")
     total = sum(1 for _ in variations(base.params))
     most = np.zeros(len(base), np.int32)
     for done, (_, _, count) in enumerate(changes(recording, base, cancelled, threads)):
@@ -70,7 +70,7 @@ def with_stability(
 
 @entry_kernel
 def count_changes(segments, offsets, others, other_offsets, beams, count):
-    """Number of segments without a counterpart, on both sides, frame by frame."""
+    """Number of segments without a counterpart, in both surveys, for each frame."""
     for frame in range(len(count)):
         here = segments[offsets[frame] : offsets[frame + 1]]
         there = others[other_offsets[frame] : other_offsets[frame + 1]]
@@ -91,7 +91,7 @@ def pairs_in(here, there, beams):
             pairs += is_same(first, last, there[j], 0, beams)
             j += 1
         if len(there) > 0:
-            # What crosses the seam stands last, and its counterpart may not.
+            # A segment across the seam is last, but its counterpart may not be.
             pairs += is_same(first, last, there[0], beams, beams)
             pairs += is_same(first, last, there[len(there) - 1], -beams, beams)
     return pairs

@@ -1,4 +1,4 @@
-"""Region growing over consecutive frames: one call of a kernel for thousands of them."""
+"""Region growing over consecutive frames: one kernel call for thousands of frames."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from .result import SEGMENT, joined
 
 
 class Flat(NamedTuple):
-    """A recording in arrays of one kind each: for every other kind a kernel would be compiled anew."""
+    """A recording in arrays of fixed types; other types would compile the kernel again."""
 
     ranges: NDArray[np.floating]
     offsets: NDArray[np.int64]
@@ -40,7 +40,7 @@ def flattened(recording: Recording) -> Flat:
 class Stretch:
     """The frames start..stop − 1 of a recording, ready to be surveyed again and again.
 
-    compared: whether the frame before comes along, with which the first is compared by its score.
+    compared: whether to include the previous frame, for comparing the first one with it.
     """
 
     def __init__(self, recording: Recording, flat: Flat, start: int, stop: int, compared: bool) -> None:
@@ -56,7 +56,7 @@ class Stretch:
         counts: NDArray[np.int64],
         scores: NDArray[np.float32] | None,
     ) -> NDArray[np.void]:
-        """The segments of these frames, in an array of their own; counts and scores: of all frames, written to."""
+        """The segments of these frames, in a new array; writes to `counts` and `scores`, which have all frames."""
         memory.spans.used[:] = -1
         scored = np.empty((0, len(SCORES)), np.float32) if scores is None else scores
         frame, used = self._scans.lead, 0
@@ -71,11 +71,11 @@ class Stretch:
 
 
 class Workspace(Memory):
-    """What one thread writes to."""
+    """The memory that one thread writes to."""
 
     def __init__(self, beams: int) -> None:
         super().__init__(beams, circle=True)
-        # Of the frame at hand and of the one before, in turns.
+        # Alternately of this frame and of the previous one.
         self.spans = Spans(np.empty((2, beams + 1)), np.empty((2, beams + 1)), np.zeros(2, np.int64))
         self.segments = np.empty(max(4096, beams), SEGMENT)
 
@@ -84,7 +84,7 @@ class Workspace(Memory):
 
 
 class Scans(NamedTuple):
-    """A recording as the kernel takes it; place and circle begin with the frame `lead`."""
+    """A recording as the kernel takes it; place and circle start with the frame `lead`."""
 
     ranges: NDArray[np.floating]
     offsets: NDArray[np.int64]
@@ -102,9 +102,9 @@ def survey_frames(
     scans, frame, start, stop, limits, xy, numbers, lines, dropped, low, high, shown, cancelled, segments, used, counts,
     scores,
 ):  # fmt: skip
-    """Extract and score the frames frame..stop − 1: (the first that is not done, number of segments written).
+    """Extract and score the frames frame..stop − 1: (first frame not done, number of segments written).
 
-    A frame before `start` is only there to be compared with. It ends early when `cancelled` or `segments` is full.
+    A frame before `start` is only used for comparison. Ends early when `cancelled` is set or `segments` is full.
     """
     rows, drops = lines.view(LINE), Dropping(dropped.view(DROPPED), numbers[3])
     fields = unpacked(limits)
@@ -137,7 +137,7 @@ def survey_frames(
 
 @kernel
 def write_segments(lines, count, points, beams, segments, used):
-    """Put lines down as segments, by their first beam: those that begin past the seam of a full circle come first."""
+    """Write lines as segments, ordered by first beam: those that start past the seam of a full circle come first."""
     past = 0
     while past < count and points.beam[lines[past].first] // beams == points.beam[lines[0].first] // beams:
         past += 1

@@ -1,4 +1,4 @@
-"""The survey of a recording, shared out among all cores."""
+"""The survey of a recording, distributed over all cores."""
 
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ from .frame_by_frame import survey_stretch
 from .result import Survey, joined
 from .stretch import Stretch, Workspace, flattened
 
-# Scores for which the frame behind must be known.
+# Scores that need the next frame.
 BESIDE = ("brief", "gone", "jump", "jolt")
-# A chunk is some milliseconds of work: long enough that Python costs nothing, short enough to share out evenly.
+# A chunk takes a few milliseconds: long enough to hide the cost of Python, short enough to balance the threads.
 CHUNK_BEAMS = 200_000
-# Less is not worth a thread.
+# Smaller recordings are not worth another thread.
 LEAST_BEAMS = 20_000
 
 
@@ -38,12 +38,12 @@ def survey(
     progress: Callable[[int, int], None] | None = None,
     threads: int | None = None,
 ) -> Survey:
-    """What `extract` finds in every frame by the method whose thresholds these are, and the scores of every frame.
+    """The result of `extract` for every frame, and its scores. The type of the thresholds selects the method.
 
-    cancelled: (1,) bool; set it in another thread and the survey stops after the frame at hand, raising `Cancelled`.
-    progress: called in the calling thread with (frames done, frames); what it raises comes through.
-    threads: as many as there are cores without.
-    Raises TypeError, which says what to pass, for anything but a Recording and thresholds.
+    cancelled: (1,) bool; set it in another thread to stop after the current frame with `Cancelled`.
+    progress: called in the calling thread with (frames done, frames); its exceptions are passed on.
+    threads: number of threads; default: one per core.
+    Raises TypeError for arguments of the wrong type.
     """
     need_recording(recording)
     params = Params() if params is None else params
@@ -58,7 +58,7 @@ def survey(
     try:
         job.work(progress or (lambda done, total: None))
     finally:
-        # Where the calling thread was stopped, there is nothing left to do for the others.
+        # If the calling thread was stopped, the others can stop too.
         job.waiting.clear()
         for helper in helpers:
             helper.join()
@@ -71,12 +71,12 @@ def survey(
 
 
 def cores() -> int:
-    """How many cores this process may use."""
+    """Number of cores that this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 class _Job:
-    """Chunks of frames that wait for a thread, and what has come of them."""
+    """The queue of chunks of frames, and their results."""
 
     def __init__(self, recording: Recording, params: Thresholds, cancelled: NDArray[np.bool_], scored: bool) -> None:
         self.recording, self.params, self.cancelled = recording, params, cancelled
@@ -97,7 +97,7 @@ class _Job:
             self.waiting.clear()
 
     def work(self, progress: Callable[[int, int], None]) -> None:
-        """Take chunk after chunk until none waits."""
+        """Work on chunks until the queue is empty."""
         memory = Workspace(self.recording.beams[1])
         while not self.cancelled[0]:
             try:
@@ -125,7 +125,7 @@ class _Job:
     def _compare(
         self, segments: NDArray[np.void], offsets: NDArray[np.int64], scores: NDArray[np.float32], threads: int
     ) -> None:
-        """The scores for which the frames on both sides must be known."""
+        """Compute the scores that need the previous and the next frame."""
         columns = [scores[:, list(SCORES).index(name)] for name in BESIDE]
         for column in columns:
             column[:] = 0
@@ -141,7 +141,7 @@ class _Job:
 
 
 def _chunks(offsets: NDArray[np.int64]) -> list[tuple[int, int]]:
-    """(start, stop) of the frames of each chunk; there are enough for all cores, if there are enough frames."""
+    """(start, stop) frames of each chunk; at least one chunk per core if there are enough frames."""
     frames, beams = len(offsets) - 1, int(offsets[-1])
     if frames < 1:
         return []

@@ -1,4 +1,4 @@
-"""What looks wrong in a frame, in words."""
+"""Describes in words what looks wrong in a frame."""
 
 from __future__ import annotations
 
@@ -23,15 +23,15 @@ from .result import Survey
 from .stability import changes
 from .threads import survey
 
-# From here on a score that every frame has is told.
+# A score that every frame has is mentioned from this doubt on.
 STANDS_OUT = 1.0
 
 
 @dataclass(frozen=True)
 class Remark:
-    """One thing that looks wrong. score: which of SCORES it belongs to; first, last: the beams it is about, or −1.
+    """One thing that looks wrong. score: the name of its score; first, last: the beams concerned, or −1.
 
-    doubt: how far that score stands out, times its weight; see suspicion.py.
+    doubt: how far the score stands out, times its weight; see suspicion.py.
     """
 
     score: str
@@ -44,9 +44,9 @@ class Remark:
 def why(
     recording: Recording, frame: int, params: Thresholds | None = None, scores: NDArray[np.floating] | None = None
 ) -> tuple[Remark, ...]:
-    """What looks wrong in a frame, the most doubtful first; nothing where nothing does.
+    """What looks wrong in a frame, most doubtful first; empty if nothing does.
 
-    params: of the method; the others tell less than region growing does of what kept a line away.
+    params: select the method; only region growing says in full why a line was not found.
 
     scores: (frames, len(SCORES)) of the whole recording; without, only the frames around are surveyed, and the frame is
     measured against them.
@@ -70,7 +70,7 @@ def why(
 
 
 class _Scene:
-    """A frame among those around it, as surveyed."""
+    """A frame and the surveyed frames around it."""
 
     def __init__(self, recording: Recording, found: Survey, frame: int, params: Thresholds) -> None:
         self.recording, self.found, self.frame, self.params = recording, found, frame, params
@@ -92,12 +92,12 @@ class _Scene:
 
     @cached_property
     def _in_lines(self) -> NDArray[np.bool_]:
-        """(n,) the valid beams, of region growing without those of things that lines pass behind."""
+        """(n,) the valid beams; for region growing without those on objects that lines pass behind."""
         return extract(self.scan, self.params).labels >= 0 if type(self.params) is Params else self.scan.valid
 
 
 def _lines(scene: _Scene) -> Iterator[Remark]:
-    """What is wrong with single lines."""
+    """Doubts about single lines."""
     rows, epsilon = scene.rows, scene.epsilon
     yield from _misses(scene)
     pairs = np.empty(len(rows), np.int64)
@@ -108,7 +108,7 @@ def _lines(scene: _Scene) -> Iterator[Remark]:
         yield Remark("splits", text, int(one["first"]), int(other["last"]))
     for i, row in enumerate(rows):
         if row["rms"] > NEAR_EPSILON * epsilon:
-            text = f"segment {i} hardly fits: its points lie {row['rms']:.3f} m from it, ε = {epsilon:.3f} m"
+            text = f"segment {i} only just fits: its rms distance is {row['rms']:.3f} m, ε = {epsilon:.3f} m"
             yield Remark("near", text, int(row["first"]), int(row["last"]))
         yield from _gap(scene, i, row)
 
@@ -119,7 +119,9 @@ def _misses(scene: _Scene) -> Iterator[Remark]:
             yield Remark("misses", miss.text, miss.first, miss.last)
     elif count := int(scene.score("misses")):
         lines = f"{count} line{'s' if count > 1 else ''}"
-        yield Remark("misses", f"region growing, made {LOOSER:g} times looser, finds {lines} in what is left over")
+        yield Remark(
+            "misses", f"region growing with ε and δ {LOOSER:g} times as large finds {lines} in the remaining points"
+        )
 
 
 def _gap(scene: _Scene, i: int, row: np.void) -> Iterator[Remark]:
@@ -129,11 +131,12 @@ def _gap(scene: _Scene, i: int, row: np.void) -> Iterator[Remark]:
     if len(excess) and excess.max() >= SCORES["gap"].least:
         k = int(np.argmax(excess))
         where = f"between beams {beams[k]} and {beams[k + 1]}"
-        yield Remark("gap", f"segment {i} bridges {steps[k + 1]:.2f} m {where}", int(beams[k]), int(beams[k + 1]))
+        text = f"segment {i} bridges a gap of {steps[k + 1]:.2f} m {where}"
+        yield Remark("gap", text, int(beams[k]), int(beams[k + 1]))
 
 
 def _beside(scene: _Scene) -> Iterator[Remark]:
-    """What the frame before and the one behind say otherwise."""
+    """Doubts from comparing with the previous and the next frame."""
     if not 0 < scene.frame < len(scene.found) - 1:
         return
     before, behind = scene.found[scene.frame - 1], scene.found[scene.frame + 1]
@@ -142,26 +145,27 @@ def _beside(scene: _Scene) -> Iterator[Remark]:
     to_here, to_behind = mark_frame(before, scene.rows, behind, view, np.empty(VOTES), brief, gone)
     for i in np.flatnonzero(brief):
         row = scene.rows[i]
-        text = f"segment {i}, {row['length']:.1f} m, is in this frame only"
+        text = f"segment {i}, {row['length']:.1f} m, appears only in this frame"
         yield Remark("brief", text, int(row["first"]), int(row["last"]))
     traced = trace(scene.scan, scene.params) if gone.any() else None
     for row in before[gone]:
         beams = _beams_to(scene.scan, moved(row, to_here))
         place = f"beams {beams[0]}–{beams[-1]}" if len(beams) else "between two beams"
         reason = why_none(traced, beams) if traced is not None and len(beams) else ""
-        text = f"a line of {row['length']:.1f} m of the frames beside is missing, {place}{reason and f' – {reason}'}"
+        because = f" – {reason}" if reason else ""
+        text = f"a {row['length']:.1f} m line of both neighbouring frames is missing, {place}{because}"
         yield Remark("gone", text, *((int(beams[0]), int(beams[-1])) if len(beams) else ()))
     if scene.score("jump") > SCORES["jump"].least:
-        counts = f"{len(before)} before, {len(behind)} behind"
-        yield Remark("jump", f"{len(scene.rows)} segments; the frames beside it have {counts}")
+        counts = f"{len(before)} in the previous frame, {len(behind)} in the next"
+        yield Remark("jump", f"{len(scene.rows)} segments here, {counts}")
     if scene.score("jolt") > SCORES["jolt"].least:
         come, go = (-np.degrees(np.arctan2(sin, cos)) for cos, sin, _, _ in (to_here, to_behind))
         turns = f"{come:+.0f}° to this frame and {go:+.0f}° to the next".replace("-", "−")
-        yield Remark("jolt", f"a jolt, or an uneven turn: {turns}")
+        yield Remark("jolt", f"the sensor jolted or turned unevenly: {turns}")
 
 
 def _beams_to(scan: Scan, ends: tuple[float, float, float, float]) -> NDArray[np.intp]:
-    """The beams that look at a line between two points, in the order of the scan."""
+    """The beams that point at a line between two points, in scan order."""
     one, other = np.arctan2(ends[1], ends[0]), np.arctan2(ends[3], ends[2])
     across = (other - one + np.pi) % (2 * np.pi) - np.pi
     start = one if across > 0 else other
@@ -172,37 +176,39 @@ def _beams_to(scan: Scan, ends: tuple[float, float, float, float]) -> NDArray[np
 
 
 def _whole(scene: _Scene, doubt: dict[str, float]) -> Iterator[Remark]:
-    """Scores that every frame has, where this frame's stand out."""
+    """Doubts from scores that every frame has, if they stand out in this frame."""
     if doubt["coverage"] >= STANDS_OUT:
         cover = f"{scene.score('coverage'):.0%} of the valid beams"
-        yield Remark("coverage", f"segments cover {cover}, {scene.around('coverage'):.0%} in the frames around")
+        yield Remark("coverage", f"segments cover {cover}; nearby frames: {scene.around('coverage'):.0%}")
     if doubt["invalid"] >= STANDS_OUT:
         first, last = _longest_run(~scene.scan.valid)
-        share, around = f"{scene.score('invalid'):.0%}", f"{scene.around('invalid'):.0%} in the frames around"
-        text = f"{share} of the beams have no return, {around}; the longest run is beams {first}–{last}"
+        share, around = f"{scene.score('invalid'):.0%}", f"nearby frames: {scene.around('invalid'):.0%}"
+        text = f"{share} of the beams have no return ({around}); the longest run is beams {first}–{last}"
         yield Remark("invalid", text, first, last)
     if doubt["change"] >= STANDS_OUT:
-        share = f"{scene.score('change'):.0%} of what is covered here or in the frame before"
-        yield Remark("change", f"{share} is not in the same segment")
+        share = f"{scene.score('change'):.0%} of the covered bearings"
+        yield Remark("change", f"{share} changed segment since the previous frame")
     if doubt["rms"] >= STANDS_OUT and len(scene.rows):
         row = scene.rows[np.argmax(scene.rows["rms"])]
-        text = f"the poorest fit has an rms of {row['rms']:.3f} m, {scene.around('rms'):.3f} m in the frames around"
+        text = f"the worst fit has an rms of {row['rms']:.3f} m; nearby frames: {scene.around('rms'):.3f} m"
         yield Remark("rms", text, int(row["first"]), int(row["last"]))
 
 
 def _stability(scene: _Scene) -> Iterator[Remark]:
-    """The threshold whose small change changes most."""
+    """The threshold to which the segments are most sensitive."""
     alone = scene.recording.only(np.array([scene.frame]))
     base = survey(alone, scene.found.params, scores=False)
     name, params, count = max(changes(alone, base), key=lambda each: each[2][0])
     if count[0]:
         symbol = next(knob.symbol for each, _, knob in params.knobs() if each == name)
         value = f"{symbol} = {getattr(params, name):g} instead of {getattr(base.params, name):g}"
-        yield Remark("unstable", f"with {value}, {count[0]} segment{'s' if count[0] > 1 else ''} would come or go")
+        yield Remark(
+            "unstable", f"with {value}, {count[0]} segment{'s' if count[0] > 1 else ''} would appear or disappear"
+        )
 
 
 def _longest_run(flags: NDArray[np.bool_]) -> tuple[int, int]:
-    """First and last index of the longest run of true flags; there is one."""
+    """First and last index of the longest run of true flags; at least one flag must be true."""
     edges = np.flatnonzero(np.diff(np.concatenate(([0], flags, [0]))))
     runs = edges.reshape(-1, 2)
     first, stop = runs[np.argmax(runs[:, 1] - runs[:, 0])]

@@ -90,7 +90,7 @@ def knob_of(name: str) -> tuple[type, Knob]:
     """(int or float, Knob) of a threshold; an unknown name is a ValueError that lists the known ones."""
     known = {field: (kind, knob) for field, kind, knob in Params.knobs()}
     if name not in known:
-        raise ValueError(f"there is no threshold {name[:40]!r}; there are {', '.join(known)}")
+        raise ValueError(f"there is no threshold {name[:40]!r}; choose from {', '.join(known)}")
     return known[name]
 
 

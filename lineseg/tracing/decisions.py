@@ -159,7 +159,7 @@ class Trace:
         """Indices of the decisions of a kind."""
         names = self.vocabulary.names
         if kind not in names:
-            raise ValueError(f"there is no decision {kind!r}; there are {', '.join(names)}")
+            raise ValueError(f"there is no decision {kind!r}; choose from {', '.join(names)}")
         return np.flatnonzero(self.log["kind"] == names.index(kind))
 
     def jump(self, name: str) -> NDArray[np.intp]:

@@ -32,7 +32,7 @@ class Objective:
             raise ValueError(f"there is no objective {self.kind!r}; there are truth and label-free")
         for name, least in (("recall", 1e-3), ("completeness", 0.0), ("rms", 1e-6)):
             if not least <= getattr(self, name) <= 1e3:
-                raise ValueError(f"{name} is {getattr(self, name):g}; allowed are {least:g} to 1000")
+                raise ValueError(f"{name} is {getattr(self, name):g}; allowed: {least:g} to 1000")
 
     def score(self, totals: Totals) -> float:
         """Of the totals of one setting."""

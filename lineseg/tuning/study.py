@@ -86,7 +86,7 @@ class Tuning:
             raise ValueError(f"{blocks.name} has no truth; tune it with the label-free objective")
         thresholds = objective.thresholds if thresholds is None else thresholds
         if not thresholds:
-            raise ValueError(f"no threshold to tune is given; there are {', '.join(asdict(Params()))}")
+            raise ValueError(f"no threshold to tune is given; choose from {', '.join(asdict(Params()))}")
         self.objective, self._blocks = objective, blocks
         self._base = base or Params()
         self._optuna = optuna_module()

@@ -35,7 +35,7 @@ def read_params(text: str, kind: type[T] = Params) -> T:
     known = {alias: name for name, _, knob in kind.knobs() for alias in (name, knob.ros) if alias}
     found = list(_finder(text, start)(text.removeprefix("\ufeff"), known))
     if not found:
-        raise ValueError(f"there is no threshold in the text; there are {_names(kind)}.")
+        raise ValueError(f"there is no threshold in the text; choose from {_names(kind)}.")
     return _params(found, kind, known)
 
 
@@ -53,7 +53,7 @@ def _params(found: list[Found], kind: type[T], known: Known) -> T:
         where = f"line {line}: " if line else ""
         name = known.get(written)
         if name is None:
-            raise ValueError(f"{where}there is no threshold {written!r}; there are {_names(kind)}.")
+            raise ValueError(f"{where}there is no threshold {written!r}; choose from {_names(kind)}.")
         try:
             kind(**{name: (value := _number(value))})
         except ValueError as error:

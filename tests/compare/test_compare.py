@@ -154,11 +154,11 @@ def test_the_command_compares_samples_and_files(hallway: Recording, tmp_path: Pa
 @pytest.mark.parametrize(
     ("arguments", "sentence"),
     [
-        (["gone"], "gone: there is no such file, nor a sample or world of that name"),
-        (["hallway", "--methods", "guess"], "there is no method 'guess'; there are region-growing"),
+        (["gone"], "gone: there is no such file, sample or world"),
+        (["hallway", "--methods", "guess"], "there is no method 'guess'; choose from region-growing"),
         (["hallway", "--frames", "3"], "3 frames are too few to compare by"),
         (["hallway", "--budget", "-1"], "the budget is -1 evaluations"),
-        (["hallway", "-o", "out.pdf"], "out.pdf: a comparison is written as .md, .csv, .json"),
+        (["hallway", "-o", "out.pdf"], "out.pdf: use a name that ends in .md, .csv, .json"),
         (["hallway", "-o", "nowhere/out.md"], "the folder nowhere does not exist"),
     ],
 )
@@ -178,10 +178,10 @@ def test_a_recording_of_three_frames_has_no_halves(hallway: Recording):
 def test_ctrl_c_writes_the_finished_part():
     process = lineseg("compare", "hallway", "--methods", *TWO, "--budget", 100_000)
     assert process.stderr
-    assert "hallway.npz: 30 frames to tune on, 30 to judge by" in process.stderr.readline()
+    assert "hallway.npz: 30 frames for tuning, 30 for judging" in process.stderr.readline()
     process.send_signal(signal.SIGINT)
     out, error = process.communicate(timeout=120)
-    assert (process.returncode, error) == (0, "lineseg: stopped; this is what is done.\n")
+    assert (process.returncode, error) == (0, "lineseg: stopped; writing the results so far.\n")
     assert "| 1 | Region growing |" in out or "| 1 | Line tracking |" in out
 
 

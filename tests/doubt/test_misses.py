@@ -36,8 +36,8 @@ def test_a_rough_wall_was_refused_by_epsilon():
     assert miss.check == "epsilon"
     assert miss.value > miss.limit == 0.01
     assert miss.first <= miss.beam <= miss.last
-    assert miss.text.startswith(f"a probable miss: beams {miss.first}–{miss.last}, {miss.points} points,")
-    assert f"no line – seed refused by ε: beam {miss.beam} lies {miss.value:.3f} m from the line" in miss.text
+    assert miss.text.startswith(f"a line was probably missed: beams {miss.first}–{miss.last}, {miss.points} points,")
+    assert f" – seed refused by ε: beam {miss.beam} lies {miss.value:.3f} m from the line" in miss.text
 
 
 def test_a_grazing_wall_was_refused_by_delta():
@@ -52,8 +52,8 @@ def test_a_line_cut_short_says_where_it_stopped():
     bent = Scan(scan.ranges + 0.05 * (np.abs(scan.bearings) < 0.04), scan.bearings)
     (miss,) = misses(bent)
     assert (miss.check, miss.limit) == ("min_length", 0.6)
-    assert "no line – its line of beams 61–83 was dropped, 0.300 m < L_min = 0.600 m" in miss.text
-    assert "it stopped where beam 84 lies 0.050 m from the line, ε = 0.030 m" in miss.text
+    assert " – its line of beams 61–83 was dropped: 0.300 m < L_min = 0.600 m" in miss.text
+    assert "it stopped growing where beam 84 lies 0.050 m from the line, ε = 0.030 m" in miss.text
 
 
 def test_nothing_is_missed_without_points():

@@ -83,5 +83,5 @@ def test_every_frame_of_a_recording_has_the_counts_of_its_own_difference(circle)
 
 def test_surveys_of_another_recording_are_refused():
     recording = Recording.from_scans([Scan.regular(np.full(30, 2.0), -0.1, 0.007)] * 3)
-    with pytest.raises(ValueError, match="surveys of 3 and 2 frames do not belong to a recording of 3"):
+    with pytest.raises(ValueError, match="the surveys have 3 and 2 frames, the recording 3"):
         differences(survey(recording), survey(Recording.from_scans(list(recording)[:2])), recording)

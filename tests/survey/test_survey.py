@@ -193,7 +193,7 @@ def test_progress_ends_with_all_frames():
 
 def test_an_unknown_score_or_frame_is_refused():
     result = survey(Recording.from_scans([wall_ahead()]))
-    with pytest.raises(ValueError, match="'misery'; there are segments, coverage"):
+    with pytest.raises(ValueError, match="'misery'; choose from segments, coverage"):
         result.score("misery")
     with pytest.raises(IndexError, match="frame 1 of a survey of 1 frames"):
         result[1]

@@ -77,9 +77,7 @@ def test_a_frame_without_a_return_is_handled():
     blind = Scan(np.full(180, np.nan), wall_ahead().bearings)
     recording = Recording.from_scans([wall_ahead(), wall_ahead(), blind, wall_ahead(), wall_ahead()])
     said = {remark.score: remark.text for remark in why(recording, 2)}
-    assert (
-        said["invalid"] == "100% of the beams have no return, 0% in the frames around; the longest run is beams 0–179"
-    )
+    assert said["invalid"] == "100% of the beams have no return (nearby frames: 0%); the longest run is beams 0–179"
     assert "is missing, beams 1–178 – most of its beams have no return" in said["gone"]
     assert why(Recording.from_scans([Scan(np.empty(0), np.empty(0))]), 0) == ()
 
@@ -88,7 +86,7 @@ def test_a_line_that_is_missing_says_what_refused_it():
     rough = Scan(wall_ahead().ranges + np.where(np.arange(180) % 2, 0.05, -0.05), wall_ahead().bearings)
     recording = Recording.from_scans([wall_ahead(), wall_ahead(), rough, wall_ahead(), wall_ahead()])
     (gone,) = (remark.text for remark in why(recording, 2) if remark.score == "gone")
-    assert "m of the frames beside is missing, beams" in gone
+    assert "m line of both neighbouring frames is missing, beams" in gone
     assert "seed refused by" in gone
 
 

@@ -32,7 +32,7 @@ def test_an_invalid_sweep_is_refused_with_an_example(text):
 def test_a_value_that_no_threshold_may_have_is_refused_before_the_work():
     with pytest.raises(ValueError, match="epsilon is 0; a distance of 0 would refuse"):
         Grid(Params(), {"epsilon": axis_values("0:0.1:3", "epsilon")})
-    with pytest.raises(ValueError, match="there is no threshold 'beauty'; there are epsilon"):
+    with pytest.raises(ValueError, match="there is no threshold 'beauty'; choose from epsilon"):
         axis_values("1:2:3", "beauty")
 
 

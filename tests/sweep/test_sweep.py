@@ -164,7 +164,7 @@ def test_without_truth_the_table_leaves_the_rates_empty(tmp_path: Path, files: l
     ("arguments", "said"),
     [
         (["--epsilon", "0.01:0.1"], "--epsilon is '0.01:0.1'; a sweep is FROM:TO:COUNT"),
-        (["--measure", "beauty"], "there is no measure 'beauty'; there are coverage"),
+        (["--measure", "beauty"], "there is no measure 'beauty'; choose from coverage"),
         (["-o", "sweep.xlsx"], "sweep.xlsx: a sweep is written as .csv or .parquet"),
         (["-o", "nowhere/sweep.csv"], "the folder nowhere does not exist"),
         (["--plot", "sweep.gif"], "sweep.gif: a plot is written as .png or .svg"),

@@ -113,7 +113,7 @@ def test_a_whole_command_line_is_read():
     ("text", "sentence"),
     [
         ("", "the text is empty"),
-        ('{"epsilonn": 1}', "line 1: there is no threshold 'epsilonn'; there are least_thresh"),
+        ('{"epsilonn": 1}', "line 1: there is no threshold 'epsilonn'; choose from least_thresh"),
         ('{\n"epsilon": true}', "line 2: epsilon is True, which is not a number"),
         ('{"epsilon": ', "line 1: this is no JSON"),
         (

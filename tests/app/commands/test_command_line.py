@@ -139,7 +139,7 @@ def test_options_of_text_files_are_flags(run, tmp_path):
         (["nowhere.bag"], "lineseg: nowhere.bag: there is no such file or folder."),
         (["extract", "nowhere.bag"], "lineseg: nowhere.bag: there is no such file or folder."),
         (["info", "nowhere.bag"], "lineseg: nowhere.bag: there is no such file or folder."),
-        (["extract", "{hall}", "-o", "out.txt"], "lineseg: out.txt: segments are written as .jsonl, .csv, .geojson."),
+        (["extract", "{hall}", "-o", "out.txt"], "lineseg: out.txt: use a name that ends in .jsonl, .csv, .geojson."),
         (
             ["extract", "{hall}", "-o", "no/such/out.csv"],
             "lineseg: no/such/out.csv: the folder no/such does not exist.",
@@ -148,7 +148,7 @@ def test_options_of_text_files_are_flags(run, tmp_path):
         (["extract", "{hall}", "--params", "no.yaml"], "lineseg: no.yaml: No such file or directory."),
         (
             ["params", "--params", "{hall}"],
-            "lineseg: {hall}: this is not text; a launch file, YAML or JSON is expected.",
+            "lineseg: {hall}: this is not text; give a launch file, YAML or JSON.",
         ),
         (
             ["params", "--seed-points", "2"],
@@ -244,9 +244,9 @@ def test_a_file_alone_is_viewed_until_ctrl_c(hall, tmp_path, arguments):
 @pytest.mark.parametrize(
     ("arguments", "sentence"),
     [
-        (("ws://",), "'ws://' is no address of a robot; an address is like ws://robot:9090"),
-        (("view", "ws://robot:99999"), "no address of a robot"),
-        (("ws://robot:9090", "--keep", "0"), "--keep is 0; allowed are 1 to 20000 scans"),
+        (("ws://",), "'ws://' is not the address of a robot; give one like ws://robot:9090"),
+        (("view", "ws://robot:99999"), "not the address of a robot"),
+        (("ws://robot:9090", "--keep", "0"), "--keep is 0; allowed: 1 to 20000 scans"),
     ],
 )
 def test_an_unreachable_robot_is_named(run, arguments, sentence):

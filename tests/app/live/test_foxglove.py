@@ -139,7 +139,7 @@ def test_a_topic_of_another_type_is_named(robots: list[Robot], tmp_path: Path):
     with watching(robot.url, tmp_path) as server, page_of(server) as page:
         page.say(type="hello")
         waiting = page.heard("loading", lambda m: "needed" in m["note"])
-        assert "/scan is std_msgs/msg/String as cdr; a sensor_msgs/LaserScan" in waiting["note"]
+        assert "/scan is std_msgs/msg/String as cdr; choose a sensor_msgs/LaserScan" in waiting["note"]
 
 
 def test_segments_for_a_server_that_takes_no_messages_are_refused(robots: list[Robot], tmp_path: Path):
@@ -154,5 +154,5 @@ def test_segments_for_a_server_that_takes_no_messages_are_refused(robots: list[R
         server.post("/api/robot/segments", json={"session": session, "on": True})
         channel.log(encoded("cdr", scan_message(wall(3.0))))
         told = page.heard("live", lambda m: m["publishTrouble"])
-        assert "its Foxglove server has no clientPublish" in told["publishTrouble"]
+        assert "enable clientPublish on its Foxglove server" in told["publishTrouble"]
         assert told["publisher"] == ""

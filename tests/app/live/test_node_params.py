@@ -58,7 +58,7 @@ def test_a_robot_of_ros_1_has_them_on_its_parameter_server(server: Address, peer
     ("asked", "status", "sentence"),
     [
         ({"node": "/nobody"}, 400, "says: Service /nobody/set_parameters does not exist"),
-        ({"address": "http://robot:9090"}, 400, "no address of a robot; an address is like ws://robot:9090"),
+        ({"address": "http://robot:9090"}, 400, "not the address of a robot; give one like ws://robot:9090"),
         ({"address": "ws://127.0.0.1:1"}, 502, "nothing listens at 127.0.0.1:1"),
         ({"address": "ws://" + 300 * "r"}, 422, "address: string should have at most 300 characters"),
         ({"turbo": True}, 422, "turbo: extra inputs are not permitted"),
@@ -78,4 +78,4 @@ def test_a_peer_that_does_not_speak_rosbridge_is_named(server: Address):
     values = {"address": server.ws, "node": "/line_extraction", "params": {}}
     answer = server.post("/api/robot/params", json=values)
     assert answer.status_code == 502
-    assert "speaks no WebSocket that can be used" in answer.json()["message"]
+    assert "does not offer a usable WebSocket" in answer.json()["message"]

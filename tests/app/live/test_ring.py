@@ -51,6 +51,6 @@ def test_a_snapshot_is_made_once():
 def test_a_scan_that_is_too_large_is_refused_and_nothing_is_lost():
     ring = Ring(most=4, most_beams=5)
     ring.add(scan(0))
-    with pytest.raises(ValueError, match="a scan of 6 beams; 5 are the most"):
+    with pytest.raises(ValueError, match="the scan has 6 beams; send at most 5"):
         ring.add(scan(1, beams=6))
     assert ring.total == 1

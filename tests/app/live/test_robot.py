@@ -98,8 +98,8 @@ def test_a_missing_robot_is_named_and_another_recording_can_be_opened(tmp_path: 
 @pytest.mark.parametrize(
     ("topic", "peer_of", "sentence"),
     [
-        ("/chatter", {}, "/chatter is std_msgs/msg/String; a sensor_msgs/LaserScan is needed; there is /scan"),
-        ("/rear", {}, "the robot has no topic /rear; of laser scans it has /scan"),
+        ("/chatter", {}, "/chatter is std_msgs/msg/String; choose a sensor_msgs/LaserScan topic, such as /scan"),
+        ("/rear", {}, "the robot has no topic /rear; its laser topics: /scan"),
         (None, {"topics": {"/chatter": TEXT}}, "no sensor_msgs/LaserScan topic; it has /chatter (std_msgs/String)"),
         (
             None,
@@ -187,7 +187,7 @@ def test_only_one_tab_publishes_and_a_closed_tab_stops(peer: RosBridgePeer, tmp_
         asked = [{"session": session, "on": True} for session in sessions]
         assert server.post("/api/robot/segments", json=asked[0]).status_code == 200
         refused = server.post("/api/robot/segments", json=asked[1])
-        assert (refused.status_code, "another tab publishes" in refused.text) == (400, True)
+        assert (refused.status_code, "another tab already publishes" in refused.text) == (400, True)
         assert page.heard("live", lambda m: m["publisher"])["publisher"] == "this"
         assert other.heard("live", lambda m: m["publisher"])["publisher"] == "another"
         page.say(type="close")
@@ -200,7 +200,7 @@ def test_an_impossible_message_ends_the_connection_and_not_the_program(peer: Ros
     with watching(peer.url, tmp_path) as server, page_of(server) as page:
         page.say(type="hello")
         note = page.heard("loading", lambda m: "trying again" in m["note"])["note"]
-        assert "sent what cannot be understood" in note
+        assert "sent a message that cannot be understood" in note
 
 
 def test_a_publication_that_fails_says_why(server: Address, page: Page):

@@ -153,7 +153,7 @@ def test_the_command_line_writes_the_frames_it_is_asked_for(tmp_path: Path, caps
         assert main(["record", str(SAMPLE), "-o", str(file), "--frames", frames]) == 2
         assert complaint in capsys.readouterr().err
     assert main(["record", str(SAMPLE), "-o", str(tmp_path / "run.bag")]) == 2
-    assert "is written as .rrd" in capsys.readouterr().err
+    assert "use a name that ends in .rrd" in capsys.readouterr().err
     assert main(["record", str(SAMPLE), "-o", str(file), "--method", "magic"]) == 2
     assert "there is no method 'magic'" in capsys.readouterr().err
 

@@ -70,7 +70,7 @@ def test_a_live_recording_is_recorded_for_rerun_in_its_current_state(server: Add
     [
         ("a", b"[1, 2]", 400, "a LaserScan is an object"),
         ("a", b"{", 400, "this is no JSON"),
-        ("a", b'{"angle_min": 0, "angle_increment": 0.1, "ranges": []}', 400, "a scan without ranges"),
+        ("a", b'{"angle_min": 0, "angle_increment": 0.1, "ranges": []}', 400, "the scan has no ranges"),
         ("a", b'{"ranges": ' + b"[" * 100_000, 400, "this is no JSON"),
         ("a", b" " * (LARGEST + 1), 413, "no more than"),
         ("a" * 65, b"{}", 400, "is no name"),
@@ -91,7 +91,7 @@ def test_too_many_beams_or_names_are_refused(server: Address):
     answers = [server.post(f"/api/scans/name{k}", json=scan_message([1.0])) for k in range(MOST_PUSHED)]
     assert [answer.status_code for answer in answers] == [200] * (MOST_PUSHED - 1) + [429]
     with connect(f"{server.ws}/api/scans/another", proxy=None) as socket:
-        assert "the most this server takes" in json.loads(socket.recv(timeout=20))["error"]
+        assert "are pushed under" in json.loads(socket.recv(timeout=20))["error"]
         with pytest.raises(ConnectionClosed):
             socket.recv(timeout=20)
 
@@ -128,4 +128,4 @@ def test_a_program_sends_the_token_as_bearer(tmp_path: Path):
 def test_an_unknown_live_source_is_named(server: Address):
     with page_of(server) as page:
         page.hello()
-        assert "nothing was pushed under this name" in page.refused(recording="live:nobody")["message"]
+        assert "push a scan under this name first" in page.refused(recording="live:nobody")["message"]
