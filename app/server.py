@@ -52,13 +52,13 @@ SHUTDOWN_SECONDS = 3
 
 @dataclass(frozen=True)
 class Settings:
-    """How to serve.
+    """Settings of the server.
 
-    files: recordings to offer, the first is shown; topic: of the first. robots: their scans are shown as they come;
-    of each the newest `keep` are kept. host: any but the loopback needs a token, and
-    gets one if there is none. names: further names this machine has for others. upload_limit, upload_total: [bytes].
-    data_folder: where recent files are remembered, and labels that cannot be beside their recording; the user's own
-    without. watch: is told what is drawn in any tab.
+    files: recordings to offer, the first is shown; topic: of the first file. robots: sources of live scans; the newest
+    `keep` scans of each are kept. host: any address but the loopback needs a token; one is made if none
+    is given. names: other host names of this machine. upload_limit, upload_total: [bytes].
+    data_folder: for the list of recent files and for labels that cannot be next to their recording (default: the user's
+    data folder). watch: gets whatever is drawn in any tab.
     """
 
     files: tuple[Path, ...] = ()
@@ -79,9 +79,9 @@ class Settings:
 
 
 def create_app(settings: Settings) -> FastAPI:
-    """The application; whoever serves it on more than the loopback must give it a token."""
+    """The application. Any address but the loopback requires a token."""
     if not is_loopback(settings.host) and not settings.token:
-        raise ValueError(f"host is {settings.host!r}, which others can reach; such a server needs a token")
+        raise ValueError(f"host is {settings.host!r}, which others can reach; set a token")
     uploads = Uploads(settings.upload_limit, settings.upload_number, settings.upload_total)
     live = Live(settings.robots, settings.keep)
     library = Library(settings.files, Recent(settings.data_folder), uploads, live)
@@ -127,7 +127,7 @@ def create_app(settings: Settings) -> FastAPI:
 def serve(settings: Settings, announce: Callable[[str], None] = lambda address: None) -> None:
     """Serve until interrupted. announce: called with the address to open, once the server answers there.
 
-    A busy port is an OSError that says what to do.
+    Raises OSError, with what to do, if the port is busy.
     """
     if not is_loopback(settings.host) and not settings.token:
         settings = replace(settings, token=secrets.token_urlsafe(16))
@@ -170,12 +170,12 @@ def server_of(app: FastAPI, ready: Callable[[], None] = lambda: None) -> Server:
 
 
 def listen(host: str, port: int) -> socket.socket:
-    """A listening socket; port 0 takes a free one."""
+    """A listening socket; port 0 picks a free port."""
     try:
         family = socket.getaddrinfo(host or None, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE)[0][0]
     except OSError:
-        raise OSError(f"host is {host!r}, which is no address of this machine") from None
-    # With the protocol named, asyncio switches Nagle's algorithm off; else a second message waits 40 ms for the first.
+        raise OSError(f"host is {host!r}, which is not an address of this machine; try 127.0.0.1") from None
+    # With an explicit protocol, asyncio turns off Nagle's algorithm, which would delay a second message by 40 ms.
     listener = socket.socket(family, socket.SOCK_STREAM, socket.IPPROTO_TCP)
     try:
         listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
@@ -196,14 +196,14 @@ def address_of(settings: Settings, port: int) -> str:
 
 def _why_not(error: OSError, host: str, port: int) -> str:
     if error.errno == errno.EADDRINUSE:
-        return f"port {port} of {host} is taken, perhaps by another lineseg; give another --port, or 0 for any free one"
+        return f"port {port} of {host} is in use, perhaps by another lineseg; give another --port, or 0 for a free one"
     if error.errno == errno.EACCES:
-        return f"port {port} may not be used by you; give a --port above 1023, or 0 for any free one"
+        return f"you may not use port {port}; give a --port above 1023, or 0 for a free one"
     return f"{host}, port {port}: {error.strerror}"
 
 
 class Static(StaticFiles):
-    """Files as they are written, asked for again each time; an unchanged one is answered by its ETag."""
+    """Static files that the browser revalidates every time; unchanged ones are answered by their ETag."""
 
     def file_response_of(self, path: str, scope: Scope) -> Response:
         full, status = self.lookup_path(path)
@@ -227,13 +227,13 @@ async def _sentence(request: Request, error: Exception) -> Response:
 
 
 async def _complaint(request: Request, error: Exception) -> Response:
-    """The first thing that is wrong with the body of a request."""
+    """The first error in the body of a request."""
     assert isinstance(error, RequestValidationError)
     first = error.errors()[0]
     place = ".".join(str(part) for part in first["loc"][1:]) or "the request"
     return JSONResponse({"message": f"{place}: {first['msg'][:1].lower()}{first['msg'][1:]}"}, status_code=422)
 
 
-# Some systems have no type, or a wrong one, for these.
+# Some systems have no media type, or a wrong one, for these.
 mimetypes.add_type("text/javascript", ".js")
 mimetypes.add_type("image/svg+xml", ".svg")

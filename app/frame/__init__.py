@@ -1,1 +1,1 @@
-"""What is known of one frame under a View: what a method found, how it agrees with the truth, what the page is told."""
+"""One frame under a View: the findings of a method, its agreement with the truth, and the state for the page."""

@@ -1,4 +1,4 @@
-"""What a method found in one frame, with the numbers the page shows about it."""
+"""The findings of a method in one frame, with the numbers that the page shows."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ BINS = 24
 
 @dataclass(frozen=True)
 class Histogram:
-    """How often the quantity that a threshold cuts had which value; `passed` and `failed` have the same bins."""
+    """Histogram of the quantity that a threshold limits; `passed` and `failed` have the same bins."""
 
     low: float
     high: float
@@ -33,7 +33,7 @@ class Histogram:
 
 @dataclass(frozen=True, eq=False)
 class Findings:
-    """One frame under one method and its thresholds. extraction_us: time of the extraction without its trace."""
+    """One frame under a method and its thresholds. extraction_us: time of the extraction without the trace."""
 
     scan: Scan
     extraction: Extraction
@@ -42,7 +42,7 @@ class Findings:
 
     @cached_property
     def seeds(self) -> dict[int, tuple[int, int]]:
-        """First and last beam of the window each candidate grew from; none where a method has no seeds."""
+        """First and last beam of the seed of each candidate; none if the method has no seeds."""
         if "seed found" not in self.trace.vocabulary.names:
             return {}
         found = (self.trace[int(index)] for index in self.trace.indices("seed found"))
@@ -54,13 +54,13 @@ class Findings:
         return tuple(self.trace[int(index)] for index in self.trace.jump("drop"))
 
     def ends(self, decision: Decision) -> NDArray[np.float64]:
-        """(2, 2): the outermost points of its span [m]; a program that takes dropouts for points may end it at one."""
+        """(2, 2): the outermost points of its span [m]; if dropouts count as points, it may end at a dropout."""
         beams = self.trace.beams(decision.first, decision.last)
         return self.scan.xy[beams[[0, -1]]] if len(beams) else np.zeros((2, 2))
 
     @cached_property
     def marks(self) -> dict[str, list[int]]:
-        """Decision indices at which replay may halt."""
+        """Indices of the decisions at which the replay may pause."""
         marks = {name: self.trace.jump(name).tolist() for name in ("seed", "line", "drop", "merge")}
         return marks | {"phase": self.trace.starts("phase").tolist()}
 
@@ -73,7 +73,7 @@ def findings(recording: Recording, frame: int, method: str, params: Thresholds) 
     """Run the method on one frame."""
     scan = recording[frame]
     extractor = EXTRACTORS[method]
-    # The faster of two, because other threads may take the processor away in between.
+    # The faster of two runs, because other threads may interrupt one of them.
     elapsed = min(_seconds(lambda: extractor.extract(scan, params)) for _ in range(2))
     trace = extractor.trace(scan, params)
     return Findings(scan, trace.extraction, trace, elapsed * 1e6)
@@ -86,7 +86,7 @@ def _seconds(work: Callable[[], object]) -> float:
 
 
 def histograms(found: Findings) -> dict[str, Histogram]:
-    """For ε and δ every distance that was compared with it; for P_min and L_min every line that was grown."""
+    """For ε and δ, every distance that was compared with it; for P_min and L_min, every line that was grown."""
     measured = _lines_measured(found)
     if isinstance(found.trace, GrowthTrace):
         measured |= _distances_measured(found, found.trace)
@@ -99,7 +99,7 @@ def histograms(found: Findings) -> dict[str, Histogram]:
 
 
 def _lines_measured(found: Findings) -> dict[str, tuple[Any, Any]]:
-    """(kept, dropped) of the numbers of points and of the lengths of all lines."""
+    """(kept, dropped): the numbers of points and the lengths of all lines."""
     segments, dropped = found.extraction.segments, found.extraction.dropped
     return {
         "min_points": ([s.points for s in segments], [d.points for d in dropped if d.check == "min_points"]),
@@ -108,7 +108,7 @@ def _lines_measured(found: Findings) -> dict[str, tuple[Any, Any]]:
 
 
 def _distances_measured(found: Findings, trace: GrowthTrace) -> dict[str, tuple[Any, Any]]:
-    """(accepted, refused) of the distances to the line and to the predicted point."""
+    """(accepted, refused): the distances to the line and to the predicted point."""
     to_line, to_predicted = _seed_distances(found)
     growth = trace.log[trace.indices("point added")]["value"]
     return {
@@ -118,7 +118,7 @@ def _distances_measured(found: Findings, trace: GrowthTrace) -> dict[str, tuple[
 
 
 def histogram(passed: NDArray, failed: NDArray, low: float, high: float, log: bool) -> Histogram:
-    """Counts between low and high, even in the logarithm if `log`; what lies beyond falls into the outermost bins."""
+    """Counts in bins from low to high, logarithmic if `log`; values beyond fall into the outermost bins."""
     scale: Callable[[Any], Any] = np.log if log else np.asarray
     tiny = low * 1e-6 if log else -np.inf
 
@@ -132,7 +132,7 @@ def histogram(passed: NDArray, failed: NDArray, low: float, high: float, log: bo
 
 
 def _seed_distances(found: Findings) -> tuple[NDArray, NDArray]:
-    """Distances to the line, and to the predicted point, of all points of the seeds that were found."""
+    """Distances to the line and to the predicted point, for all points of the seeds found."""
     rows = found.trace.log[found.trace.indices("seed found")]
     if not len(rows):
         return np.empty(0), np.empty(0)

@@ -1,4 +1,4 @@
-"""Boxes around the points of a scan and of a recording [m], and the beam at a place."""
+"""Bounding boxes of scans and recordings [m], and the beam nearest to a point."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ FRAMES_FOR_BOUNDS = 60
 
 
 def bounds_of(recording: Recording) -> Bounds:
-    """A box around the laser and nearly all points of the recording; stray far points do not widen it."""
+    """A box around the laser and nearly all points of the recording; ignores stray far points."""
     frames = np.unique(np.linspace(0, len(recording) - 1, FRAMES_FOR_BOUNDS).astype(int)) if len(recording) else []
     scans = [recording[int(frame)] for frame in frames]
     xy = np.concatenate([scan.xy[scan.valid] for scan in scans]) if scans else np.empty((0, 2))
@@ -25,7 +25,7 @@ def bounds_of(recording: Recording) -> Bounds:
 
 
 def extent_of(scan: Scan, bounds: Bounds) -> Bounds:
-    """The box around the points of one scan; that of the recording if there are none."""
+    """The box around the points of one scan; the box of the recording if it has none."""
     xy = scan.xy[scan.valid]
     if not len(xy):
         return bounds
@@ -39,7 +39,7 @@ def united(one: Bounds, other: Bounds) -> Bounds:
 
 
 def beam_near(scan: Scan, point: tuple[float, float], radius: float) -> int | None:
-    """The beam whose point is nearest to `point`; None if none lies within `radius`."""
+    """The beam whose point is nearest to `point`; None if no point lies within `radius`."""
     if not scan.valid.any():
         return None
     distances = np.hypot(*(scan.xy - point).T)

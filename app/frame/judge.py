@@ -1,4 +1,4 @@
-"""The segments of a frame against its true lines."""
+"""Compares the segments of a frame with its true lines."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ from ..shelf.label_files import Known
 from ..told import drawn as told
 from .findings import Findings
 
-# Of a longer recording so many frames are judged, evenly spread: each is extracted once more for this.
+# A longer recording is judged by this many evenly spread frames, because each is extracted again.
 MOST_FRAMES = 2000
 
 
 class Judged(NamedTuple):
-    """matching: which segment is which true line; ends: (lines, 2, 2) [m] of the true lines."""
+    """matching: of segments and true lines; ends: (lines, 2, 2) [m] of the true lines."""
 
     matching: Matching
     ends: NDArray[np.float64]
@@ -30,10 +30,10 @@ class Judged(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Reference:
-    """By what the segments of a recording are judged.
+    """The reference for judging the segments of a recording.
 
-    available: what there is, "labels" of people and the "wall" that the recording holds; chosen: one of them, or "".
-    known: what people say of the recording, if anything can be said.
+    available: the existing references: "labels" made by people, "wall" stored in the recording; chosen: one, or "".
+    known: the labels of the recording, if it can have any.
     """
 
     available: list[told.Reference]
@@ -42,7 +42,7 @@ class Reference:
 
     @classmethod
     def of(cls, wanted: str, recording: Recording, known: Known | None) -> Reference:
-        """The wanted one, else the one that there is."""
+        """The wanted reference if available, else another one."""
         available: list[told.Reference] = []
         if known is not None and known.labelled:
             available.append("labels")
@@ -53,12 +53,12 @@ class Reference:
 
     @property
     def said(self) -> Known | None:
-        """What people say, where that is the truth."""
+        """The labels, if they are the chosen reference."""
         return self.known if self.chosen == "labels" else None
 
 
 def judged(found: Findings, said: FrameLabels | None = None) -> Judged | None:
-    """None where the truth is unknown. said: is the truth instead of the walls."""
+    """None if the truth is unknown. said: labels to use instead of the walls."""
     if said is not None:
         truth = said.truth(found.scan)
         return None if truth is None else Judged(match(found.extraction, truth, said.ends), said.ends)
@@ -72,9 +72,9 @@ def judged(found: Findings, said: FrameLabels | None = None) -> Judged | None:
 def judged_recording(
     recording: Recording, method: str, params: Thresholds, said: Labels | None = None
 ) -> tuple[Agreement, int]:
-    """How a method agrees with the truth over a recording, and of how many frames one was looked at.
+    """The agreement of a method with the truth over a recording, and the stride between the judged frames.
 
-    said: is the truth instead of the walls, of the frames that have lines in it.
+    said: labels to use instead of the walls, for the frames that have true lines.
     """
     frames = np.arange(len(recording)) if said is None else np.array([f for f in said if said[f].lines is not None])
     stride = -(-len(frames) // MOST_FRAMES)
@@ -88,7 +88,7 @@ def judged_recording(
 
 
 def agreement_told(agreement: Agreement) -> told.Agreement:
-    """The numbers of the paper's Table 4 and more; null where one is not defined."""
+    """The numbers of the paper's Table 4 and more; null if undefined."""
     return {
         "trueLines": finite_or_none(agreement.true_lines),
         "segments": finite_or_none(agreement.segments),

@@ -1,4 +1,4 @@
-"""What the page is told about a picture: the `state` of a `drawn` message."""
+"""The `state` of a `drawn` message: everything the page shows about a picture."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def state_of(
     pinned: Findings | None = None,
     judged: Judged | None = None,
 ) -> told.Scene:
-    """Everything but the marks, which are long and change with the trace only, and how long the drawing took."""
+    """Everything except the drawing time and the marks, which are long and change only with the trace."""
     scan, trace = found.scan, found.trace
     chosen = trace[view.step] if view.step is not None else None
     return {
@@ -127,7 +127,7 @@ def _decision(decision: Decision) -> told.Decision:
         "beam": decision.beam,
         "first": decision.first,
         "last": decision.last,
-        # What was kept passed every check; the last of them was its length.
+        # A kept line passed every check; the last one was its length.
         "check": "min_length" if decision.kind == "line kept" else decision.check,
         "direction": decision.direction,
         "points": decision.points,
@@ -174,7 +174,7 @@ def _labels(known: Known, frame: int) -> told.Labels:
 
 
 def labels_told(said: FrameLabels) -> told.Labelled:
-    """What people say of a frame."""
+    """The labels of a frame."""
     lines = None if said.lines is None else [_true_line(line) for line in said.lines]
     return {"revision": said.revision, "lines": lines, "tags": said.tags, "note": said.note}
 

@@ -1,4 +1,4 @@
-"""A frame's trace as the page steps through it: columns, sent once, from which the page tells every decision."""
+"""The trace of a frame as columns, sent once, for stepping through its decisions on the page."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from numpy.typing import NDArray
 from ..told.drawn import TraceColumns
 from .findings import Findings
 
-# Beyond this a page would be busy for seconds with what nobody steps through.
+# More decisions would keep the page busy for seconds, and nobody steps through them.
 MOST_DECISIONS = 50_000
 LINE_DIGITS = 8
 METRE_DIGITS = 6
 
 
 def columns_of(found: Findings) -> TraceColumns:
-    """The first MOST_DECISIONS decisions, and the points they speak of."""
+    """The first MOST_DECISIONS decisions, and the points they refer to."""
     trace, scan = found.trace, found.scan
     vocabulary = trace.vocabulary
     rows = trace.log[:MOST_DECISIONS]
@@ -58,7 +58,7 @@ def _among(rows: NDArray[np.void], indices: NDArray[np.integer]) -> list[int]:
 
 
 def _where(there: NDArray[np.bool_], rows: NDArray[np.void], digits: int) -> dict[int, Any]:
-    """The rows that are there, by index; one with a number that is not finite is not."""
+    """The rows with finite numbers only, by index."""
     found = {index: rows[index].item() for index in np.flatnonzero(there).tolist()}
     return {index: tuple(round(v, digits) for v in row) for index, row in found.items() if np.isfinite(row).all()}
 

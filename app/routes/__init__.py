@@ -1,1 +1,1 @@
-"""What the server offers over HTTP and WebSocket, a file a subject."""
+"""The server's HTTP and WebSocket routes, one file for each subject."""

@@ -1,4 +1,4 @@
-"""What the page asks for besides its socket: uploads, thresholds as text, a recording as a file."""
+"""Routes for uploads, thresholds as text, and recordings as files."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ LONGEST_PARAMS = 256 * 1024
 
 
 def add_api(app: FastAPI, library: Library, sessions: Sessions) -> None:
-    """Routes of /api but the session's socket."""
+    """Routes of /api except the session's socket."""
 
     @app.post("/api/upload")
     async def upload(request: Request, name: str = "recording") -> dict[str, str]:
@@ -48,7 +48,7 @@ def add_api(app: FastAPI, library: Library, sessions: Sessions) -> None:
         values = dict(request.query_params)
         to, method = values.pop("to", "ros2"), values.pop("method", "region-growing")
         if to not in PARAMS_WRITERS:
-            raise HTTPException(400, f"thresholds cannot be written as {to!r}; they can as {', '.join(PARAMS_WRITERS)}")
+            raise HTTPException(400, f"thresholds cannot be written as {to!r}; choose from {', '.join(PARAMS_WRITERS)}")
         try:
             params = _thresholds(method).but(**{name: _number(name, text) for name, text in values.items()})
             return PlainTextResponse(params_text(params, to))
@@ -109,4 +109,4 @@ async def _text(request: Request) -> str:
     try:
         return body.decode("utf-8-sig")
     except UnicodeDecodeError:
-        raise HTTPException(400, "this is no text in UTF-8") from None
+        raise HTTPException(400, "this is not UTF-8 text; save the file as UTF-8") from None

@@ -1,4 +1,4 @@
-"""The body of a request, as long as it may be."""
+"""The body of a request, up to a limit."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ from starlette.exceptions import HTTPException
 
 
 async def body_of(request: Request, most: int, what: str) -> bytes:
-    """All bytes; more than `most` are an answer of 413 that says what was too long."""
+    """All bytes of the body; answers 413, with what was too long, if there are more than `most`."""
     body = b""
     async for chunk in request.stream():
         body += chunk
         if len(body) > most:
-            raise HTTPException(413, f"{what} no more than {most} bytes; this one is longer")
+            raise HTTPException(413, f"{what} at most {most} bytes; this one is longer")
     return body

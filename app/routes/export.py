@@ -1,4 +1,4 @@
-"""What a person takes along: the frame as a drawing or in a failure pack, the segments of the recording."""
+"""Downloads: the frame as a drawing or in a failure pack, the segments of the recording."""
 
 from __future__ import annotations
 
@@ -25,10 +25,10 @@ SEGMENT_TYPES = {"jsonl": "application/x-ndjson", "csv": "text/csv", "geojson": 
 
 
 def add_export(app: FastAPI, library: Library, sessions: Sessions) -> None:
-    """Routes of /api that make files of what a tab shows."""
+    """Routes of /api that export what a tab shows."""
 
     def named(shown: Shown, suffix: str) -> dict[str, str]:
-        """Headers of a file of one frame, counted from 1 as on the page."""
+        """Headers for a file of one frame, numbered from 1 as on the page."""
         number = first_of(shown.recording) + shown.view.frame + 1
         return attachment(f"{library.label(shown.view.recording)}_{number}", suffix)
 
@@ -46,7 +46,7 @@ def add_export(app: FastAPI, library: Library, sessions: Sessions) -> None:
         try:
             note = body.decode()
         except UnicodeDecodeError:
-            raise HTTPException(400, "this note is no text in UTF-8") from None
+            raise HTTPException(400, "this note is not UTF-8 text; send it as UTF-8") from None
         made = io.BytesIO()
         await run_in_threadpool(write_pack, made, shown.recording, shown.view.frame, shown.view.params, note)
         return Response(made.getvalue(), media_type="application/zip", headers=named(shown, "zip"))
@@ -55,7 +55,7 @@ def add_export(app: FastAPI, library: Library, sessions: Sessions) -> None:
     async def segments(session: str = "", to: str = "jsonl") -> StreamingResponse:
         shown = sessions.shown(session)
         if to not in SEGMENT_WRITERS:
-            raise HTTPException(400, f"segments cannot be written as {to!r}; they can as {', '.join(SEGMENT_WRITERS)}")
+            raise HTTPException(400, f"segments cannot be written as {to!r}; choose from {', '.join(SEGMENT_WRITERS)}")
         headers = attachment(library.label(shown.view.recording), to)
         return StreamingResponse(segment_lines(to, _rows(shown)), media_type=SEGMENT_TYPES[to], headers=headers)
 

@@ -1,4 +1,4 @@
-"""What the page asks about what it shows: what would change an answer, how far the lines agree with the truth."""
+"""Routes about what a tab shows: which thresholds change an answer, agreement with the truth, what looks wrong."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from ..session.sessions import Sessions
 from ..shelf.label_files import LabelFiles
 from ..told.answers import Truth, WhatIfs, Whys
 
-# So many rows of the list of frames can be in view at once.
+# Largest number of rows in view in the list of frames.
 MOST_ROWS = 60
 
 
 def add_inspection(app: FastAPI, sessions: Sessions, files: LabelFiles) -> None:
-    """Routes of /api that look into what a tab shows."""
+    """Routes of /api that inspect what a tab shows."""
 
     @app.get("/api/what-if")
     def what_would_change(session: str = "") -> WhatIfs:
@@ -39,7 +39,7 @@ def add_inspection(app: FastAPI, sessions: Sessions, files: LabelFiles) -> None:
         try:
             wanted = [int(frame) for frame in frames.split(",")[:MOST_ROWS] if 0 <= int(frame) < len(recording)]
         except ValueError:
-            raise HTTPException(400, f"frames are numbers between commas; these are {frames[:60]!r}") from None
+            raise HTTPException(400, f"frames is {frames[:60]!r}; give numbers separated by commas") from None
         if len(recording) < 2:
             wanted = []
         remarks = {frame: why(recording, frame, view.params) for frame in wanted}
@@ -57,7 +57,7 @@ def add_inspection(app: FastAPI, sessions: Sessions, files: LabelFiles) -> None:
         known = files.known(view.recording, shown.recording)
         reference = Reference.of(view.reference, shown.recording, known)
         if not reference.chosen:
-            raise HTTPException(404, "the true lines of this recording are not known")
+            raise HTTPException(404, "the true lines of this recording are not known; label some frames first")
         said = reference.said
         agreement, stride = judged_recording(shown.recording, view.method, view.params, said and said.labels)
         return {

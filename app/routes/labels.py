@@ -1,4 +1,4 @@
-"""What the page says of frames, true lines, tags and a note, saved at once."""
+"""Saves the page's labels of a frame: true lines, tags and a note."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ Place = tuple[Number, Number]
 
 
 class SaidLine(Message):
-    """Without its ends they are those of the points."""
+    """A true line; missing ends are taken from its points."""
 
     first: Count
     last: Count
@@ -33,7 +33,7 @@ class SaidLine(Message):
 
 
 class Said(Message):
-    """Everything that is said of a frame; revision: the one that this is on top of."""
+    """All labels of a frame; revision: the one they are based on."""
 
     recording: RecordingId
     topic: Name | None = None

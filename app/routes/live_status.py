@@ -1,4 +1,4 @@
-"""Keeps a page informed of the live source that it shows, also while no scan comes."""
+"""Sends a page the status of its live source, even while no scans arrive."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ EVERY = 0.25
 
 
 async def tell_live(tell: Callable[[LiveStatus], Awaitable[None]], session: Session, live: Live) -> None:
-    """Tell the status whenever it has changed, until cancelled or the page is gone."""
+    """Send the status whenever it changes, until cancelled or until the page is gone."""
     told = None
     with contextlib.suppress(WebSocketDisconnect, RuntimeError):
         while True:

@@ -1,4 +1,4 @@
-"""/api/scans/{name}: any program may push scans, one by one as JSON, by POST or over a WebSocket."""
+"""/api/scans/{name}: any program may push scans, one JSON object each, by POST or over a WebSocket."""
 
 from __future__ import annotations
 
@@ -27,11 +27,11 @@ COMPLAIN_EVERY = 1.0
 
 
 class TooFastError(ValueError):
-    """More scans than are taken."""
+    """Scans arrive too fast."""
 
 
 class Pace:
-    """At most MOST_A_SECOND for each name, with as many at once."""
+    """A token bucket: at most MOST_A_SECOND for each name, with bursts of the same size."""
 
     def __init__(self) -> None:
         self._left: dict[str, tuple[float, float]] = {}
@@ -42,7 +42,7 @@ class Pace:
         left = min(MOST_A_SECOND, left + MOST_A_SECOND * (now - since))
         self._left[id] = (max(left - 1, 0.0), now)
         if left < 1:
-            raise TooFastError(f"more than {MOST_A_SECOND:g} scans a second; this one was dropped")
+            raise TooFastError(f"this scan was dropped; send at most {MOST_A_SECOND:g} scans a second")
 
 
 def add_push(app: FastAPI, library: Library) -> None:
@@ -95,17 +95,17 @@ def _source(library: Library, name: str) -> Source:
 
 
 def _take(source: Source, text: str | bytes) -> None:
-    """One message; ValueError says what is wrong with it, and the source counts it."""
+    """Add the scan in one message. Raises ValueError if it is wrong; the source counts refused messages."""
     try:
         if len(text) > LARGEST:
-            raise ValueError(f"a message of {len(text)} bytes; {LARGEST} are the most")
+            raise ValueError(f"the message has {len(text)} bytes; send at most {LARGEST}")
         try:
             message = json.loads(text)
         except (ValueError, RecursionError):
-            raise ValueError("this is no JSON; a LaserScan as one JSON object is expected") from None
+            raise ValueError("this is not JSON; send a LaserScan as one JSON object") from None
         scan = decode_json(message)
         if len(scan.ranges) > MOST_BEAMS:
-            raise ValueError(f"a scan of {len(scan.ranges)} beams; {MOST_BEAMS} are the most")
+            raise ValueError(f"the scan has {len(scan.ranges)} beams; send at most {MOST_BEAMS}")
         source.take(scan)
     except ValueError as error:
         source.refuse(f"a message was refused: {error}")

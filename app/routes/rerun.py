@@ -1,4 +1,4 @@
-"""What the page asks for about rerun: to record what a tab looks at, the recording, and rerun's web viewer."""
+"""Routes for rerun: record what a tab shows, download the recording, and rerun's web viewer."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ MISSING = 501
 
 
 class RerunFiles:
-    """A folder with what was recorded, the newest few, and with the files of the viewer once they are asked for."""
+    """A folder with the newest few recordings, and with the files of the viewer once requested."""
 
     def __init__(self) -> None:
         self._temporary = tempfile.TemporaryDirectory(prefix="lineseg-rerun-", ignore_cleanup_errors=True)
@@ -47,7 +47,7 @@ class RerunFiles:
         return self._folder / f"{id}.rrd" if id in self._kept else None
 
     def viewer(self, name: str) -> Path:
-        """A file of the viewer; blocks while they are unpacked."""
+        """A file of the viewer; blocks while the files are unpacked."""
         from ..rerun.viewer import unpack
 
         with self._unpacking:
@@ -57,9 +57,9 @@ class RerunFiles:
         return self._folder / name
 
     async def record(self, run: Run) -> AsyncIterator[str]:
-        """Record, and tell in lines of JSON how far it is, at last the id of the recording, or why there is none.
+        """Record, and yield lines of JSON: the progress, then the id of the recording or the reason for a failure.
 
-        Whoever stops listening stops the work.
+        Closing the response stops the work.
         """
         from ..rerun.record import save
 
@@ -76,7 +76,7 @@ class RerunFiles:
                 yield _line(told)
                 await asyncio.wait([work], timeout=TELL_SECONDS)
             if (error := work.exception()) is not None:
-                yield _line({"message": f"this could not be recorded: {error}"})
+                yield _line({"message": f"recording failed: {error}"})
                 return
             self._keep(id)
             yield _line({"recording": id, "bytes": (self._folder / f"{id}.rrd").stat().st_size})
@@ -90,7 +90,7 @@ class RerunFiles:
 
 
 def add_rerun(app: FastAPI, library: Library, sessions: Sessions) -> RerunFiles:
-    """Routes of /api/rerun and /rerun/; what is returned is to be closed."""
+    """Routes of /api/rerun and /rerun/; the caller must close the returned object."""
     files = RerunFiles()
 
     @app.post("/api/rerun")
@@ -110,7 +110,7 @@ def add_rerun(app: FastAPI, library: Library, sessions: Sessions) -> RerunFiles:
         file = files.recorded(id)
         if file is None:
             raise HTTPException(
-                404, f"this recording is no longer kept, only the newest {MOST_KEPT} are; record it again"
+                404, f"only the newest {MOST_KEPT} recordings are kept, and this one is gone; record it again"
             )
         headers = attachment(name, "rrd") if name is not None else {}
         return FileResponse(file, media_type="application/octet-stream", headers=headers)

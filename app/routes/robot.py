@@ -1,4 +1,4 @@
-"""What goes back to the robot, when asked: segments of the live scans, and thresholds as parameters of a node."""
+"""Sends to the robot on request: segments of the live scans, and thresholds as parameters of a node."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ ROS_NAME = re.compile(r"/?[A-Za-z_~][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)*")
 
 
 class Asked(BaseModel):
-    """Unknown fields are refused."""
+    """Refuses unknown fields."""
 
     model_config = ConfigDict(extra="forbid", strict=True)
 
@@ -34,7 +34,7 @@ class PublishAsked(Asked):
 
 
 class SendAsked(Asked):
-    """To the node at this address; extensions: also the thresholds that the authors' program does not know."""
+    """The node to send to; extensions: include thresholds that the authors' program does not have."""
 
     address: Name
     node: Name
@@ -50,11 +50,11 @@ def add_back(app: FastAPI, library: Library, sessions: Sessions) -> None:
     async def publish(asked: PublishAsked) -> dict[str, Any]:
         session = sessions.get(asked.session)
         if session is None:
-            raise HTTPException(404, "this tab is not known any more; reload the page")
+            raise HTTPException(404, "the server no longer knows this tab; reload the page")
         view = session.view
         source = library.live.get(view.recording)
         if source is None:
-            raise HTTPException(400, "segments can be published for a live source only")
+            raise HTTPException(400, "segments can only be published for a live source; open a robot first")
         try:
             topic = _ros_name("topic", asked.topic)
             source.publish(session.id, Publishing(session.id, topic, view.method, view.params) if asked.on else None)
@@ -76,7 +76,7 @@ def add_back(app: FastAPI, library: Library, sessions: Sessions) -> None:
 
 
 def _ros_name(what: str, name: str) -> str:
-    """A name of ROS that begins at the root."""
+    """Checks for an absolute ROS name."""
     if not ROS_NAME.fullmatch(name):
-        raise ValueError(f"{what} is {name[:80]!r}; a name of ROS is like /line_extraction")
+        raise ValueError(f"{what} is {name[:80]!r}; give an absolute ROS name such as /line_extraction")
     return "/" + name.lstrip("/")

@@ -1,4 +1,4 @@
-"""The table of a sweep, for the map of the page."""
+"""Reads the table of a sweep for the map on the page."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ LARGEST = 64 * 1024 * 1024
 
 
 def add_sweep_table(app: FastAPI) -> None:
-    """The route /api/sweep-table, which turns a file into what the map is drawn from; nothing of it is kept."""
+    """The route /api/sweep-table, which converts a file to the data of the map; nothing is stored."""
 
     @app.post("/api/sweep-table")
     async def sweep_table(request: Request, name: str = "sweep.csv") -> SweepTable:
@@ -30,13 +30,13 @@ def add_sweep_table(app: FastAPI) -> None:
 
 
 def columns_of(table: Table) -> SweepTable:
-    """axes: the values of each swept threshold; file: of each row its place in files; columns: of each row."""
+    """axes: the values of each swept threshold; file: index into `files` of each row; columns: of each row."""
     files, file = np.unique(table.files, return_inverse=True)
     known = [name for name in MEASURES if np.isfinite(table.numbers[name]).any()]
     axes = table.axes
     if len(axes) < 2:
         swept = ", ".join(axes) or "none"
-        raise ValueError(f"a map needs two thresholds that were swept; in this table: {swept}")
+        raise ValueError(f"a map needs two swept thresholds; this table has {swept}")
     return {
         "files": files.tolist(),
         "axes": {name: values.tolist() for name, values in axes.items()},

@@ -1,4 +1,4 @@
-"""The page's socket for long work: sensitivity curves, maps, auto-tuning; each the newest wins, and can be stopped."""
+"""The page's socket for long work: sensitivity curves, maps, auto-tuning. A new request stops the previous one."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ from ..told.answers import Trial as TrialTold
 from ..told.answers import Tuned
 from ..tuning.sensitivity import Subject, curves, relief
 
-# Of each recording; more would make a trial slow, and say little more.
+# Frames per recording; more would slow down the trials and add little information.
 MOST_FRAMES = 400
 MOST_TRIALS = 2000
 JUDGE_EVERY = 10
@@ -57,7 +57,7 @@ class MapWish(Message):
 
 
 class AutoWish(Message):
-    """anew: forget the trials of former runs."""
+    """anew: forget the trials of earlier runs."""
 
     type: Literal["auto"]
     job: int
@@ -86,7 +86,7 @@ class Job(NamedTuple):
 
 
 class Slot:
-    """One kind of work: beginning anew stops what is under way. Answers go out in the thread of the work."""
+    """One kind of work. Starting it again stops the previous work. Answers are sent in the thread of the work."""
 
     def __init__(self, name: str, send: Callable[[dict[str, Any]], None]) -> None:
         self._name, self._send = name, send
@@ -147,7 +147,7 @@ def add_tuning(app: FastAPI, sessions: Sessions, folder: Path) -> None:
 
 
 def _obey(text: str, slots: dict[str, Slot], sessions: Sessions, session: str, folder: Path) -> str | None:
-    """Begin what is wished, or one sentence why not."""
+    """Start the requested work, or answer with one sentence why not."""
     try:
         wish = _WISH.validate_json(text)
         if isinstance(wish, StopWish):
@@ -155,7 +155,7 @@ def _obey(text: str, slots: dict[str, Slot], sessions: Sessions, session: str, f
         else:
             shown = sessions.shown(session)
             if shown.view.method != SURVEYED:
-                raise ValueError("only the thresholds of region growing can be tuned yet")
+                raise ValueError("auto-tuning works with region growing only; choose region growing")
             subject = Subject(shown.recording, Params().but(**wish.params))
             slots[wish.type].begin(wish.job, subject, _work_of(wish, subject, folder))
     except ValidationError as error:
@@ -181,7 +181,7 @@ def _work_of(wish: CurvesWish | MapWish | AutoWish, subject: Subject, folder: Pa
 
 
 def search(subject: Subject, workers: Pool, wish: AutoWish, folder: Path) -> Iterator[Tuned]:
-    """Trials as they come, now and then what matters and what was gained; stopping ends with a verdict too."""
+    """Yield trials as they finish, and now and then the importances and the gain; a stop ends with a verdict too."""
     objective = Objective(wish.objective)
     blocks = RecordingBlocks(subject.recording, workers, objective.kind == "label-free", MOST_FRAMES)
     path = study_path(folder, blocks, wish)
@@ -205,7 +205,7 @@ def search(subject: Subject, workers: Pool, wish: AutoWish, folder: Path) -> Ite
 
 
 def study_path(folder: Path, blocks: RecordingBlocks, wish: AutoWish) -> Path:
-    """A file of its own for each recording, objective, and set of thresholds with what the others are."""
+    """A separate file for each recording, objective, set of tuned thresholds, and values of the others."""
     fixed = {name: value for name, value in wish.params.items() if name not in wish.thresholds}
     about = json.dumps([blocks.name, list(blocks.frames), wish.objective, wish.thresholds, fixed], sort_keys=True)
     folder.mkdir(parents=True, exist_ok=True)

@@ -1,4 +1,4 @@
-"""The iframe's way to the viser server of its session: viser's page, and its one WebSocket."""
+"""Relays the iframe of a session to its viser server: viser's page and its WebSocket."""
 
 from __future__ import annotations
 
@@ -22,13 +22,13 @@ LARGEST_MESSAGE = 50 * 1024 * 1024
 
 @cache
 def _client_page() -> tuple[bytes, bytes, str]:
-    """viser's page, the same compressed, and its ETag."""
+    """viser's page, plain and compressed, and its ETag."""
     text = (Path(viser.__file__).parent / "client" / "build" / "index.html").read_bytes()
     return text, gzip.compress(text), f'"{hashlib.sha256(text).hexdigest()[:20]}"'
 
 
 def client_page(request: Request) -> Response:
-    """viser's client; it finds its WebSocket by its own address, so that a path prefix does not disturb it."""
+    """viser's client. It derives the WebSocket from its own address, so a path prefix works."""
     plain, packed, etag = _client_page()
     headers = {"ETag": etag, "Cache-Control": "no-cache", "Vary": "Accept-Encoding"}
     if request.headers.get("if-none-match") == etag:
@@ -41,7 +41,7 @@ def client_page(request: Request) -> Response:
 async def relay(outer: WebSocket, port: int) -> None:
     """Carry messages between the browser and the viser server on `port` until either side closes.
 
-    Each direction waits for its receiver to take a message before it reads the next, so nothing piles up here.
+    Each direction sends a message before it reads the next, so nothing piles up here.
     """
     offered = [Subprotocol(name) for name in outer.scope.get("subprotocols", []) if name.startswith("viser-v")]
     try:
@@ -54,7 +54,7 @@ async def relay(outer: WebSocket, port: int) -> None:
             proxy=None,
         )
     except (OSError, WebSocketException):
-        await outer.close(1013, "the scene is not there yet")
+        await outer.close(1013, "the scene is not ready yet")
         return
     async with inner:
         await outer.accept(subprotocol=inner.subprotocol)

@@ -1,1 +1,1 @@
-"""What is drawn of a frame: the View as a Picture of points and lines, and the Picture in viser."""
+"""Drawing of a frame: from the View to a Picture of points and lines, and from the Picture to viser."""

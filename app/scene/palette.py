@@ -1,4 +1,4 @@
-"""Colours of everything that is drawn, on a light and on a dark ground."""
+"""Colours of everything that is drawn, on light and dark backgrounds."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ Colours = NDArray[np.uint8]
 
 @dataclass(frozen=True)
 class Theme:
-    """Colours of everything that is not a segment."""
+    """Colours of everything except segments."""
 
     point: Colour
     invalid: Colour
@@ -50,7 +50,7 @@ DARK = Theme(
 
 
 def linear(colours: Colours) -> Colours:
-    """From sRGB to linear light; viser takes the colours of line vertices as linear."""
+    """Convert sRGB to linear light; viser treats the colours of line vertices as linear."""
     return _LINEAR[colours]
 
 

@@ -1,4 +1,4 @@
-"""View → Picture: everything that is drawn, as arrays. Pure: the same View gives the same Picture."""
+"""View → Picture: everything that is drawn, as arrays. A pure function: the same View gives the same Picture."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ FAR = 100.0
 
 @dataclass(frozen=True, eq=False)
 class Picture:
-    """What is drawn, by the name of its node; what is absent is hidden. bounds: x₁, y₁, x₂, y₂ of the recording [m]."""
+    """Shapes by node name; missing nodes are hidden. bounds: x₁, y₁, x₂, y₂ of the recording [m]."""
 
     points: dict[str, Points]
     lines: dict[str, Lines]
@@ -44,9 +44,9 @@ def picture(
     pinned: Findings | None = None,
     judged: Judged | None = None,
 ) -> Picture:
-    """The picture of a View; its frame and step must lie within the recording and the trace.
+    """The picture of a View, whose frame and step must be within the recording and the trace.
 
-    pinned: what `view.against` found in this frame; judged: what the truth says of it.
+    pinned: the result of `view.against` in this frame; judged: its comparison with the truth.
     """
     theme = DARK if view.dark else LIGHT
     state = state_at(found, view.step)
@@ -98,27 +98,27 @@ def _lines(
 
 
 def scan_points(scan: Scan, state: State, theme: Theme) -> Points:
-    """Every valid point, in the colour of its line, grey where it has none."""
+    """Every valid point in the colour of its line, or grey."""
     labels = state.labels[scan.valid]
     colours = np.concatenate((state.colours, np.array([theme.point], dtype=np.uint8)))[labels]
     return points_at(scan.xy[scan.valid], colours)
 
 
 def seed_points(found: Findings, state: State, theme: Theme) -> Points:
-    """The windows from which the present lines were grown."""
+    """The seeds of the lines shown."""
     windows = [found.trace.beams(*found.seeds[candidate]) for candidate in state.candidates if candidate in found.seeds]
     beams = np.concatenate(windows) if windows else np.empty(0, dtype=int)
     return points_at(found.scan.xy[beams], theme.strong)
 
 
 def dropped_lines(found: Findings, drops: Sequence[Decision], theme: Theme) -> Lines:
-    """Candidates that were not kept, dashed between their outermost points."""
+    """Dropped candidates, dashed between their outermost points."""
     ends = np.array([found.ends(drop) for drop in drops]).reshape(-1, 2, 2)
     return dashed(ends[:, 0], ends[:, 1], DASH, theme.faint)
 
 
 def pinned_lines(pinned: Findings, found: Findings, theme: Theme) -> Lines:
-    """The segments of A as broad bands; those that are no longer the same stand out."""
+    """The segments of A as broad bands; those that changed are highlighted."""
     fates = difference(pinned.extraction, found.extraction).fates_a
     colours = np.where((fates == KEPT)[:, None], theme.pinned, theme.changed).astype(np.uint8)
     segments = pinned.extraction.segments
@@ -127,7 +127,7 @@ def pinned_lines(pinned: Findings, found: Findings, theme: Theme) -> Lines:
 
 
 def verdicts(found: Findings, judged: Judged, theme: Theme) -> dict[str, Lines]:
-    """Matched segments are drawn through, false ones dotted, missed true lines dashed: no colour is needed."""
+    """Matched segments solid, false ones dotted, missed true lines dashed, so that no colour is needed."""
     segments = found.extraction.segments
     starts, ends = (np.array([getattr(s, name) for s in segments]).reshape(-1, 2) for name in ("start", "end"))
     matched, missed = judged.matching.line_of >= 0, judged.matching.segment_of < 0
@@ -139,14 +139,14 @@ def verdicts(found: Findings, judged: Judged, theme: Theme) -> dict[str, Lines]:
 
 
 def normals(segments: Sequence[Segment], colours: Colours) -> Lines:
-    """The unit normal of each segment, shortened, at its middle."""
+    """A shortened unit normal at the middle of each segment."""
     middles = np.array([np.add(s.start, s.end) / 2 for s in segments]).reshape(-1, 2)
     along = np.array([s.line[:2] for s in segments]).reshape(-1, 2)
     return lines_between(middles, middles + NORMAL * along, colours)
 
 
 def invalid_beams(scan: Scan, bounds: Bounds, theme: Theme) -> Lines:
-    """A tick outside the picture's middle in the direction of each beam without a return."""
+    """A tick around the middle of the picture in the direction of each beam without a return."""
     bearings = scan.bearings[~scan.valid]
     toward = np.column_stack((np.cos(bearings), np.sin(bearings)))
     radius = min(max(map(abs, bounds)), scan.range_max if math.isfinite(scan.range_max) else math.inf)
@@ -154,7 +154,7 @@ def invalid_beams(scan: Scan, bounds: Bounds, theme: Theme) -> Lines:
 
 
 def selected(scan: Scan, beam: int, theme: Theme) -> tuple[Points, Lines]:
-    """The beam that is explained, from the laser to its point; without a return, into the distance."""
+    """The explained beam, from the laser to its point, or far out if it has no return."""
     point = scan.xy[beam]
     bearing = float(scan.bearings[beam])
     end = point if scan.valid[beam] else (FAR * math.cos(bearing), FAR * math.sin(bearing))
@@ -162,7 +162,7 @@ def selected(scan: Scan, beam: int, theme: Theme) -> tuple[Points, Lines]:
 
 
 def truth(recording: Recording, frame: int, theme: Theme) -> Lines:
-    """The true walls, seen from the laser; none where they are unknown."""
+    """The true walls as seen from the laser; none if unknown."""
     if recording.walls is None or recording.poses is None:
         return lines_between(np.empty((0, 2)), np.empty((0, 2)), theme.truth)
     x, y, heading = recording.poses[frame]
@@ -172,14 +172,14 @@ def truth(recording: Recording, frame: int, theme: Theme) -> Lines:
 
 
 def laser(bounds: Bounds, theme: Theme) -> Lines:
-    """The laser as an arrowhead that looks along its x axis."""
+    """The laser as an arrowhead along its x axis."""
     size = 0.012 * max(bounds[2] - bounds[0], bounds[3] - bounds[1])
     tip, left, notch, right = size * np.array([(1.4, 0.0), (-0.9, 0.8), (-0.4, 0.0), (-0.9, -0.8)])
     return lines_between([tip, left, notch, right], [left, notch, right, tip], theme.laser)
 
 
 def grid(bounds: Bounds, theme: Theme) -> Lines:
-    """Lines 1, 2 or 5 × 10ⁿ m apart, about a dozen across the recording; the axes stand out."""
+    """Grid lines 1, 2 or 5 × 10ⁿ m apart, about a dozen across the recording, with highlighted axes."""
     spacing = grid_spacing(max(bounds[2] - bounds[0], bounds[3] - bounds[1]))
     x1, y1 = (spacing * (math.floor(low / spacing) - 1) for low in bounds[:2])
     x2, y2 = (spacing * (math.ceil(high / spacing) + 1) for high in bounds[2:])
@@ -196,7 +196,7 @@ def _parallels(places: NDArray, ends_at: Callable[[float], tuple], theme: Theme)
 
 
 def grid_spacing(wide: float) -> float:
-    """1, 2 or 5 × 10ⁿ m, so that 6 to 15 spacings make the width."""
+    """1, 2 or 5 × 10ⁿ m, such that 6 to 15 spacings cover the width."""
     rough = wide / 12
     power = 10.0 ** math.floor(math.log10(rough))
     return next(step * power for step in (1, 2, 5, 10) if step * power >= rough)

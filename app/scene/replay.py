@@ -1,4 +1,4 @@
-"""The state after some decision of the trace, and the geometry of that decision."""
+"""The state after a decision of the trace, and the geometry of that decision."""
 
 from __future__ import annotations
 
@@ -17,16 +17,16 @@ from .shapes import Lines, Points, joined, lines_between, points_at
 
 Line = tuple[float, float, float]
 NO_XY = np.empty((0, 2))
-# A beam along the line meets it nowhere in practice, farther away than this [m].
+# A nearly parallel beam meets the line farther away than this [m]; it counts as never meeting it.
 FAR = 1e6
 
 
 @dataclass(frozen=True, eq=False)
 class State:
-    """The lines there are at some moment.
+    """The lines at one moment.
 
-    labels: (beams,) which of the lines a beam belongs to, or −1; colours: (lines, 3); starts, ends: (lines, 2) [m];
-    candidates: the growth each line came from; drops: the lines that had been dropped by then.
+    labels: (beams,) the line of each beam, or −1; colours: (lines, 3); starts, ends: (lines, 2) [m]; candidates: the
+    growth of each line; drops: the lines dropped so far.
     """
 
     labels: NDArray[np.int32]
@@ -38,7 +38,7 @@ class State:
 
 
 def state_at(found: Findings, step: int | None) -> State:
-    """After decision `step`; the whole result if step is None."""
+    """The state after decision `step`; the whole result if step is None."""
     if step is None:
         return _final(found)
     labels = np.full(len(found.scan), -1, dtype=np.int32)
@@ -63,7 +63,7 @@ def _final(found: Findings) -> State:
 
 
 def _candidate_colours(found: Findings, candidates: tuple[int, ...]) -> Colours:
-    """A line has the colour of the segment it ends in from the beginning on; others take turns."""
+    """A line has the colour of its final segment from the start; other lines take turns."""
     of_segment = segment_colours(found.extraction.segments)
     by_first = {segment.first: colour for segment, colour in zip(found.extraction.segments, of_segment, strict=True)}
     last = found.trace.lines_at(len(found.trace) - 1)
@@ -73,7 +73,7 @@ def _candidate_colours(found: Findings, candidates: tuple[int, ...]) -> Colours:
 
 
 def decision_geometry(found: Findings, step: int, theme: Theme) -> tuple[dict[str, Points], dict[str, Lines]]:
-    """The window under test, the fitted line with its ε band, P and P′ with the beam, the candidate point."""
+    """The window under test, the fitted line with its ε band, P and P′ with the beam, and the candidate point."""
     decision, scan = found.trace[step], found.scan
     points: dict[str, Points] = {}
     lines: dict[str, Lines] = {}
@@ -105,7 +105,7 @@ def decision_geometry(found: Findings, step: int, theme: Theme) -> tuple[dict[st
 
 
 def band_width(found: Findings, decision: Decision) -> float:
-    """How far from the line a point may lie at this decision [m]; 0 where that is not asked."""
+    """Largest allowed distance from the line at this decision [m]; 0 if distance is not tested."""
     if decision.phase in ("seed", "growth") and decision.kind not in ("line kept", "line dropped"):
         return found.trace.params.epsilon
     units = {name: knob.unit for name, _, knob in found.trace.params.knobs()}
@@ -113,7 +113,7 @@ def band_width(found: Findings, decision: Decision) -> float:
 
 
 def prediction(scan: Scan, decision: Decision, theme: Theme) -> tuple[Points, Lines]:
-    """P′, where the beam meets the line, the beam, and the distance that was compared."""
+    """P′, where the beam meets the line; the beam; and the compared distance."""
     point, toward = scan.xy[decision.beam], scan.rays[:, decision.beam]
     reach = float(predicted_ranges(decision.line, toward))
     predicted = reach * toward if 0 < reach < FAR else np.full(2, np.nan)
@@ -126,13 +126,13 @@ def prediction(scan: Scan, decision: Decision, theme: Theme) -> tuple[Points, Li
 
 
 def band(start: NDArray, end: NDArray, line: Line, width: float, theme: Theme) -> Lines:
-    """Two parallels at ±width."""
+    """Two parallel lines at ±width."""
     shift = width * np.array(line[:2])
     return lines_between(np.stack((start + shift, start - shift)), np.stack((end + shift, end - shift)), theme.faint)
 
 
 def span(xy: NDArray, line: Line) -> tuple[NDArray, NDArray]:
-    """The part of the line that lies beside the points, a little longer at both ends."""
+    """The part of the line next to the points, slightly extended at both ends."""
     feet = foot(xy[np.isfinite(xy).all(axis=1)], line)
     along = np.array([-line[1], line[0]])
     if not len(feet):
@@ -144,12 +144,12 @@ def span(xy: NDArray, line: Line) -> tuple[NDArray, NDArray]:
 
 
 def foot(xy: NDArray, line: Line | NDArray) -> NDArray:
-    """Points (…, 2) projected on the line; points (…, n, 2), each on its own of n lines (3, n)."""
+    """Points (…, 2) projected onto the line; or points (…, n, 2), each onto one of n lines (3, n)."""
     a, b, c = line
     distance = a * xy[..., 0] + b * xy[..., 1] + c
     return xy - distance[..., None] * np.array([a, b]).T
 
 
 def is_line(line: Line | NDArray) -> NDArray[np.bool_]:
-    """Whether there is a line, or which there are of (3, n): a seed refused before its fit has none."""
+    """Whether the line exists, or which of (3, n) do: a seed refused before its fit has none."""
     return np.isfinite(line).all(axis=0) & (np.hypot(line[0], line[1]) > 0.5)

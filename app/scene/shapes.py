@@ -1,4 +1,4 @@
-"""What a picture is made of: points and line segments in the plane z = 0."""
+"""The shapes of a picture: points and line segments in the plane z = 0."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class Lines:
 
 
 def points_at(xy: ArrayLike, colours: Colours | Colour) -> Points:
-    """Points at (n, 2), all of one colour or each of its own; points that are not finite are left out."""
+    """Points at (n, 2), in one colour or one colour each; points that are not finite are left out."""
     flat = np.asarray(xy, dtype=float).reshape(-1, 2)
     finite = np.isfinite(flat).all(axis=1)
     return Points(_raised(flat[finite]), _each(colours, len(flat))[finite])
@@ -45,7 +45,7 @@ def joined(*parts: Lines) -> Lines:
 
 
 def dashed(starts: NDArray, ends: NDArray, dash: float, colour: Colour, most: int = 4000) -> Lines:
-    """The same lines with gaps as long as the dashes; dashes grow where there would be too many."""
+    """The lines dashed, with gaps as long as the dashes; very long lines get longer dashes."""
     lengths = np.linalg.norm(ends - starts, axis=1)
     dash = max(dash, float(lengths.sum()) / (2 * most))
     pieces_from, pieces_to = [], []

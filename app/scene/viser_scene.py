@@ -1,4 +1,4 @@
-"""A Picture in viser: one server a session, its nodes updated in place."""
+"""Draws a Picture in viser: one server per session, with nodes updated in place."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ PLAN_FOV = math.radians(10)
 NEAR, FAR = 0.5, 20_000.0
 PICK_PIXELS = 20.0
 
-# name: (size on the screen [pixels]; viser draws it about twice as wide, shape)
+# name: (size on the screen [pixels], which viser draws about twice as wide; shape)
 CLOUDS: dict[str, tuple[float, Literal["circle", "diamond"]]] = {
     "points": (2.2, "circle"),
     "seeds": (3.2, "diamond"),
@@ -50,7 +50,7 @@ LINES = {
     "selected ray": 1.5,
 }
 
-# Higher nodes hide lower ones; as seen by the plan camera 20 mm of height move nothing.
+# Higher nodes hide lower ones; seen from the plan camera, 20 mm of height makes no visible difference.
 LEVEL = 0.02
 HEIGHTS = {name: LEVEL * level for level, name in enumerate([
     "grid", "pinned", "invalid", "truth", "laser", "ray", "selected ray", "dropped", "band", "missed", "points",
@@ -66,7 +66,7 @@ class LocalServer(viser.ViserServer):
     """A viser server that only this machine can reach and that never opens a share tunnel."""
 
     def __init__(self) -> None:
-        # viser announces itself on stdout, which belongs to the command line.
+        # viser prints to stdout, which belongs to the command line.
         rich.get_console().quiet = True
         super().__init__(host="127.0.0.1", port=0, label="lineseg", verbose=False)
 
@@ -75,11 +75,11 @@ class LocalServer(viser.ViserServer):
 
 
 class ViserScene:
-    """Draws Pictures; clicks and viser's own sliders come back as changes of the View.
+    """Draws Pictures; clicks and viser's own sliders become changes of the View.
 
-    change: called with a patch of the View. pick: called with the point of the plane z = 0
-    that was clicked, and a radius around it [m].
-    Both are called in viser's threads. Starting takes a moment and blocks: do it in a thread.
+    change: called with a patch of the View. pick: called with the clicked point of the plane
+    z = 0 and a radius around it [m].
+    Both are called in viser's threads. Starting blocks for a moment, so start it in a thread.
     """
 
     def __init__(self, change: Change, pick: Pick) -> None:
@@ -118,7 +118,7 @@ class ViserScene:
         return self._server.get_port()
 
     def draw(self, picture: Picture, params: Thresholds, dark: bool) -> None:
-        """Give viser the picture; what is as before is not sent again. It leaves within 16 ms, or with `flush`."""
+        """Pass the picture to viser; only changes are sent, within 16 ms or with `flush`."""
         with self._server.atomic():
             self._set_theme(dark)
             self._set_bounds(picture.bounds)
@@ -129,17 +129,18 @@ class ViserScene:
             self._set_sliders(params)
 
     def flush(self) -> None:
-        """Send what was drawn now."""
+        """Send all changes now."""
         self._server.flush()
 
     def stop(self) -> None:
         self._server.stop()
 
     def _keep_shaders(self) -> None:
-        """Two clouds of invisible size that never change.
+        """Two invisibly small point clouds that never change.
 
-        viser makes a new material whenever the colours of a cloud change; when the last one goes, its shader goes too
-        and is compiled anew, which stalls a browser for 10 to 300 ms. One point has another shader than several.
+        viser makes a new material whenever the colours of a cloud change. When the last material with a shader goes,
+        the shader goes too, and compiling it again stalls a browser for 10 to 300 ms. A cloud of one point has a
+        different shader from larger ones, hence two.
         """
         for count in (1, 2):
             black = np.zeros((count, 3), dtype=np.uint8)
@@ -154,7 +155,7 @@ class ViserScene:
             self._server.gui.configure_theme(dark_mode=dark, show_logo=False, show_share_button=False)
 
     def _set_bounds(self, bounds: Bounds) -> None:
-        """Where the camera of a view opened alone begins: above the middle, high enough to see everything."""
+        """The initial camera of a view opened by itself: above the middle, high enough to see everything."""
         if bounds == self._bounds:
             return
         self._bounds = bounds
@@ -168,7 +169,7 @@ class ViserScene:
         camera.position = (middle[0], middle[1], height)
 
     def _set_sliders(self, params: Thresholds) -> None:
-        """viser's own sliders, for its view opened alone; the page hides them."""
+        """viser's own sliders, for a view opened by itself; the page hides them."""
         if type(params) is not self._params_type:
             self._params_type = type(params)
             for widget in self._sliders.values():
@@ -192,7 +193,7 @@ class ViserScene:
             )
 
         def moved(event: viser.GuiEvent) -> None:
-            # Without a client it is our own assignment coming back.
+            # Without a client, this is the echo of our own assignment.
             if event.client is not None:
                 self._change({"params": {name: event.target.value}})
 
@@ -208,13 +209,13 @@ class ViserScene:
                 pick((x - dx * z / dz, y - dy * z / dz), PICK_PIXELS * self._metres_per_pixel)
 
     def _follow_camera(self, client: viser.ClientHandle) -> None:
-        """Keep points at their size on the screen, whatever the zoom."""
+        """Keep the size of points on the screen at any zoom."""
 
         @client.camera.on_update
         def _(camera: viser.CameraHandle) -> None:
             distance = float(np.linalg.norm(camera.position - camera.look_at))
             metres = 2 * distance * math.tan(camera.fov / 2) / max(camera.image_height, 1)
-            # In steps of 12 %, so that a zoom is not a message a frame.
+            # In steps of 12 %, to avoid a message for every frame of a zoom.
             rounded = math.exp(round(math.log(max(metres, 1e-5)) / 0.12) * 0.12)
             if rounded == self._metres_per_pixel:
                 return

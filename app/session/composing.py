@@ -1,4 +1,4 @@
-"""From a View to what it shows: what is found and judged, the picture for the scene and the state for the page."""
+"""From a View to its content: findings, judgement, the picture for the scene and the state for the page."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ FRAMES_KEPT = 32
 
 @dataclass(frozen=True, eq=False)
 class Content:
-    """view: the one that was asked for, with frame, beam and step within what there is."""
+    """view: the requested View, with frame, beam and step limited to the existing ones."""
 
     view: View
     found: Findings
@@ -32,7 +32,7 @@ class Content:
 
 
 class Composer:
-    """Remembers what it found in the newest frames. It is used in one thread."""
+    """Caches the findings of the latest frames. Use it in one thread only."""
 
     def __init__(self, library: Library, files: LabelFiles) -> None:
         self._library, self._files = library, files
@@ -58,7 +58,7 @@ class Composer:
         return Content(view, found, drawing, state)
 
     def _bounds_of(self, view: View, recording: Recording) -> Bounds:
-        """Those of a live recording only grow, and seldom, so that the ground does not shake."""
+        """The bounds; those of a live recording only grow, and rarely, so that the grid stays still."""
         if not isinstance(recording, LiveRecording):
             return self._bounds(recording)
         source, age, bounds = self._live_bounds
@@ -71,7 +71,7 @@ class Composer:
 
 
 def _inside(view: View, recording: Recording) -> View:
-    """The View with its frame, and its beam, within the recording."""
+    """The View with its frame and beam limited to the recording."""
     frame = min(max(view.frame, 0), len(recording) - 1)
     beams = int(recording.offsets[frame + 1] - recording.offsets[frame])
     selected = view.selected if view.selected is not None and 0 <= view.selected < beams else None
@@ -79,7 +79,7 @@ def _inside(view: View, recording: Recording) -> View:
 
 
 def _inside_trace(view: View, found: Findings) -> View:
-    """The View with its step within the trace; a trace of no decision has no steps."""
+    """The View with its step limited to the trace; a trace without decisions has no steps."""
     if view.step is None or not len(found.trace):
         return replace(view, step=None)
     return replace(view, step=min(max(view.step, 0), len(found.trace) - 1))

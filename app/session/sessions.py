@@ -1,4 +1,4 @@
-"""All tabs of a server: opened, found again, and closed when nobody is there."""
+"""All tabs of a server: opens, finds and closes their sessions."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ REAP_EVERY = 5.0
 
 
 class TooManySessionsError(ValueError):
-    """More tabs than the server takes."""
+    """Too many tabs are open."""
 
 
 @dataclass(frozen=True)
 class SessionLimits:
-    """most: tabs at once. grace: how long a tab may be away [s]; idle: how long one may be there without input [s]."""
+    """most: tabs at once. grace: how long a tab may be disconnected [s]; idle: how long a tab may have no input [s]."""
 
     most: int = 64
     grace: float = 120.0
@@ -33,7 +33,7 @@ class SessionLimits:
 
 
 class Sessions:
-    """Used in the event loop only; what blocks runs in threads."""
+    """Use it in the event loop only; blocking work runs in threads."""
 
     def __init__(
         self,
@@ -58,7 +58,7 @@ class Sessions:
         return self._sessions.get(id)
 
     def shown(self, id: str) -> Shown:
-        """What a tab shows, for an answer over HTTP: 404 if there is no such tab, or nothing in it."""
+        """What a tab shows, for an HTTP response; 404 if there is no such tab or it shows nothing."""
         session = self._sessions.get(id)
         shown = session.shown if session is not None else None
         if shown is None:
@@ -66,24 +66,24 @@ class Sessions:
         return shown
 
     def presenter(self, id: str) -> Presenter:
-        """Whoever shows itself under this id; a ValueError if nobody does."""
+        """The presenter with this id. Raises ValueError if there is none."""
         for session in self._sessions.values():
             if secrets.compare_digest(session.presenter.id.encode(), id.encode()):
                 return session.presenter
         raise ValueError("the presenter of this link is gone; ask for a new link")
 
     def resume(self, id: str | None) -> Session | None:
-        """A former session whose page is away; one that has a page is not shared with another."""
+        """An earlier session whose page has disconnected; a session with a page is never shared."""
         session = self._sessions.get(id or "")
         return session if session is not None and session.detached_at is not None else None
 
     async def open(self, view: View) -> Session:
-        """A new session; if there are too many, one without a page makes room, else it is a TooManySessionsError."""
+        """A new session. If there are too many, closes one without a page, or raises TooManySessionsError."""
         while len(self._sessions) + self._opening >= self._limits.most:
             away = [session for session in self._sessions.values() if session.detached_at is not None]
             if not away:
                 raise TooManySessionsError(
-                    f"{self._limits.most} tabs are open, the most this server takes; close one and reload"
+                    f"{self._limits.most} tabs are open, which is the limit; close one and reload"
                 )
             await self.close(min(away, key=lambda session: session.detached_at or 0.0))
         self._opening += 1
@@ -104,7 +104,7 @@ class Sessions:
         await asyncio.gather(*(self.close(session) for session in list(self._sessions.values())))
 
     async def reap(self) -> None:
-        """Close, again and again, what nobody looks at any more."""
+        """Close unused sessions periodically."""
         while True:
             await asyncio.sleep(min(REAP_EVERY, self._limits.grace, self._limits.idle))
             now = time.monotonic()

@@ -1,4 +1,4 @@
-"""The kernels, compiled or fetched from their cache before the first tab asks for them."""
+"""Compiles the kernels, or loads them from the cache, before the first tab needs them."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ log = logging.getLogger(__name__)
 
 
 class WarmUp:
-    """Set once they ran: `done`, region growing; `surveyed`, its survey. An installation's first start takes seconds.
+    """`done` is set when region growing is ready, `surveyed` when its survey is. The very first start takes seconds.
 
-    The other methods come last; whoever chooses one before waits for that one only.
+    The other methods come last; choosing one earlier waits for that one only.
     """
 
     label = "Compiling the method, once for this installation"
@@ -35,12 +35,12 @@ class WarmUp:
             extract(wall)
             trace(wall)
         except Exception:
-            # The first tab will meet the same error, and show it.
+            # The first tab will get the same error and show it.
             log.exception("warming up failed")
         finally:
             self.done.set()
         try:
-            # A recording has single or double precision, and the kernel of the survey knows both.
+            # Recordings have single or double precision; compile the kernel of the survey for both.
             for kind in (np.float32, np.float64):
                 same = Scan.regular(np.full(30, 2.0, dtype=kind), -0.1, 0.007)
                 survey(Recording.from_scans([same, same]))

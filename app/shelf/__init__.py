@@ -1,1 +1,1 @@
-"""What is kept on disk and may be opened: recordings, uploads, recent files, labels, lessons."""
+"""Files on disk: recordings, uploads, recent files, labels, lessons."""

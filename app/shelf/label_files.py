@@ -1,4 +1,4 @@
-"""The labels of every recording on offer: where they are kept, what they say, and who is told when they change."""
+"""Label files of all recordings: finds, reads and saves them, and notifies listeners of changes."""
 
 from __future__ import annotations
 
@@ -18,15 +18,15 @@ from lineseg.truth.labels import Labels
 from ..live.ring import LiveRecording
 from .library import Library
 
-LIVE = "the frames of a live recording come and go; save it as a file to label it"
+LIVE = "a live recording cannot be labelled, because its frames are replaced; save it as a file first"
 
 
 @dataclass(frozen=True, eq=False)
 class Known:
-    """What is said of a recording.
+    """The labels of a recording.
 
-    apart: whether it is in the user's data folder, not beside the recording. stamp: another one whenever the file is;
-    trouble: why it cannot be read, or "".
+    apart: whether the file is in the user's data folder, not next to the recording. stamp: changes with the file;
+    trouble: why the file cannot be read, or "".
     """
 
     path: Path
@@ -40,15 +40,15 @@ class Known:
 
     @property
     def labelled(self) -> list[int]:
-        """The frames of which somebody has said which lines are true."""
+        """The frames whose true lines are labelled."""
         return [frame for frame, said in self.labels.items() if said.lines is not None]
 
 
 class LabelFiles:
-    """May be used by any thread.
+    """Safe to use from any thread.
 
-    A file of the user has its labels beside it, where that can be written. Those of samples, uploads and drawn worlds
-    are in the user's data folder, under what the recording is; an upload is the same whenever its bytes are.
+    The labels of a user's file are next to it if that folder is writable. Those of samples, uploads and drawn worlds
+    are in the user's data folder, named after the recording; uploads with equal bytes share their labels.
     """
 
     def __init__(self, library: Library, user_folder: Path) -> None:
@@ -59,12 +59,12 @@ class LabelFiles:
         self._listeners: list[Callable[[str], None]] = []
 
     def on_change(self, listener: Callable[[str], None]) -> Callable[[], None]:
-        """Call `listener` with the id of a recording whose labels were saved; the result ends that."""
+        """Call `listener` with the id of a recording when its labels are saved; returns a function that ends it."""
         self._listeners.append(listener)
         return lambda: self._listeners.remove(listener)
 
     def place(self, id: str, recording: Recording) -> Path:
-        """Where the labels of a recording are; a ValueError if it can have none."""
+        """The path of the labels of a recording. Raises ValueError if it cannot have any."""
         if isinstance(recording, LiveRecording):
             raise ValueError(LIVE)
         kind, _, name = id.partition(":")
@@ -78,7 +78,7 @@ class LabelFiles:
         return users_label_file(path.name + stream, identity, self._folder)
 
     def known(self, id: str, recording: Recording) -> Known | None:
-        """What is said of a recording; None if nothing can be."""
+        """The labels of a recording; None if it cannot have any."""
         try:
             path = self.place(id, recording)
         except ValueError:
@@ -91,7 +91,7 @@ class LabelFiles:
         return known
 
     def save(self, id: str, recording: Recording, frame: int, labels: FrameLabels) -> FrameLabels:
-        """As `lineseg.save_labels`, and tell those who listen."""
+        """Same as `lineseg.save_labels`, then notifies the listeners."""
         saved = save_labels(self.place(id, recording), recording, frame, labels)
         for listener in list(self._listeners):
             listener(id)
@@ -116,7 +116,7 @@ def _stamp(path: Path) -> str:
 
 
 def _stream(recording: Recording) -> str:
-    """What tells the second and further streams of a file from its first."""
+    """Distinguishes further streams of a file from the first."""
     if not recording.topics or recording.topic == recording.topics[0].name:
         return ""
     return "." + re.sub(r"\W+", "_", recording.topic).strip("_")

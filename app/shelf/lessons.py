@@ -1,4 +1,4 @@
-"""Lessons: one JSON file each in sample_scans/lessons/, read whenever a page asks, so that a teacher can add one."""
+"""Lessons: one JSON file each in sample_scans/lessons/, read again for every page, so that a teacher can add one."""
 
 from __future__ import annotations
 
@@ -21,20 +21,20 @@ Pair = tuple[Beam, Beam]
 def _one_of(names: tuple[str, ...]) -> AfterValidator:
     def known(name: str) -> str:
         if name not in names:
-            raise ValueError(f"there are {', '.join(names)}")
+            raise ValueError(f"choose from {', '.join(names)}")
         return name
 
     return AfterValidator(known)
 
 
 class Part(BaseModel):
-    """Unknown fields are refused, so that a misspelt one does not silently do nothing."""
+    """Refuses unknown fields, so that a misspelt one does not silently do nothing."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
 
 class Find(Part):
-    """A decision, by what it is and not by its number: the nth (from 0, or from the end) that agrees in all."""
+    """Finds a decision by its properties: the nth (from 0, or negative from the end) that matches all of them."""
 
     kind: Annotated[str, _one_of(VOCABULARY.names)]
     check: Annotated[str, _one_of(VOCABULARY.check_names)] | None = None
@@ -44,10 +44,10 @@ class Find(Part):
 
 
 class Step(Part):
-    """One text, and what the page shows beside it: the decision found, or without one the whole result.
+    """One text and what the page shows with it: the decision found, or the whole result.
 
-    params: on top of the lesson's own. method: whose whole result is shown, with its usual thresholds, instead of that
-    of region growing; nothing of it can be searched for.
+    params: override those of the lesson. method: shows the whole result of this method, with its default thresholds,
+    instead of region growing; it cannot be combined with find or params.
     """
 
     text: Words
@@ -59,17 +59,17 @@ class Step(Part):
     @model_validator(mode="after")
     def _of_one_method(self) -> Step:
         if self.method and (self.find or self.params):
-            raise ValueError("a step with a method shows its whole result: without find and params")
+            raise ValueError("a step with a method shows its whole result; remove find and params")
         return self
 
 
 class Goal(Part):
-    """What must be so, in all its parts, for the task to be done.
+    """Conditions that must all hold for the task to be done.
 
-    lines: how many, [least, most]. together: pairs of beams in one line; apart: in two; inside, outside: beams in some
-    line, in none. changed: the only thresholds that may differ from the lesson's, and at least one of them must.
-    at: the kind of decision that is shown. selected: the beam is one of these. count: how many such decisions there
-    are, [least, most].
+    lines: number of lines, [least, most]. together: pairs of beams in one line; apart: pairs in different lines;
+    inside, outside: beams in some line, in no line. changed: the only thresholds that may differ from the lesson's;
+    at least one must. at: kind of the shown decision. selected: beams, one of which must be selected. count: number of
+    such decisions, [least, most].
     """
 
     lines: tuple[int, int] | None = None
@@ -84,7 +84,7 @@ class Goal(Part):
 
 
 class Task(Part):
-    """text: what to do; hint: on demand; done: said when it is done."""
+    """text: what to do; hint: shown on request; done: shown when it is done."""
 
     text: Words
     hint: Words
@@ -93,12 +93,12 @@ class Task(Part):
     params: dict[Name, Number] = {}
 
 
-# A lesson teaches the method of the paper.
+# Lessons teach the method of the paper.
 USUAL = {"max_occluder": 0.0, "merge_rms": 0.0}
 
 
 class Lesson(Part):
-    """params: thresholds that differ from USUAL and the defaults; knobs: those the lesson offers to change."""
+    """params: thresholds that differ from USUAL and the defaults; knobs: thresholds that the reader may change."""
 
     title: Annotated[str, Field(min_length=1, max_length=60)]
     about: Annotated[str, Field(min_length=1, max_length=200)]
@@ -115,7 +115,7 @@ class NamedLesson(Lesson):
 
 
 class Lessons(BaseModel):
-    """broken: one sentence for each file that is no lesson."""
+    """broken: one sentence for each file that is not a valid lesson."""
 
     lessons: list[NamedLesson]
     broken: list[str]
@@ -126,7 +126,7 @@ def lesson_files() -> list[Path]:
 
 
 def read_lessons(files: list[Path]) -> Lessons:
-    """The lessons in these files, in the order of their names."""
+    """The lessons in these files, ordered by file name."""
     lessons, broken = [], []
     for file in files:
         try:

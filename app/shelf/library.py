@@ -1,4 +1,4 @@
-"""The recordings that may be opened, by id, and those that are open, shared by all tabs."""
+"""The recordings that can be opened, by id, and the open ones, shared by all tabs."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ MOST_OPEN = 12
 MOST_BYTES = 2_000_000_000
 POLL = 0.05
 
-# The id of a drawn world is the world itself, so that a link holds it.
+# The id of a drawn world contains the world itself, so a link is enough to open it.
 DRAWN = "drawn:"
 FIRST_DRAWING = "w-2,2,3,2;w3,2,3,-1.5;w3,-1.5,0.5,-1.5;c1.2,0.8,0.25;l0,0,0;b-135,135,0.5,30,0.01;s0"
 DRAWN_LABEL = "Your own world"
@@ -34,7 +34,7 @@ Progress = Callable[[int, int], None]
 
 @dataclass(frozen=True)
 class _Key:
-    """One stream of one file as it was at some moment; a changed file is another recording."""
+    """One stream of one file at one moment; a changed file is another recording."""
 
     path: Path
     topic: str | None
@@ -43,7 +43,7 @@ class _Key:
 
 
 class _Load:
-    """A file being read; it is given up when no tab waits for it any more."""
+    """A file being read; cancelled when no tab waits for it."""
 
     def __init__(self, key: _Key) -> None:
         self.done = threading.Event()
@@ -75,7 +75,7 @@ class _Load:
 
 
 class Library:
-    """Only what it lists can be opened: samples, lessons, files of the command line, recent files and uploads."""
+    """Only listed recordings can be opened: samples, lessons, files of the command line, recent files and uploads."""
 
     def __init__(self, files: Sequence[Path], recent: Recent, uploads: Uploads, live: Live | None = None) -> None:
         self.uploads = uploads
@@ -91,7 +91,7 @@ class Library:
         self._listeners: list[Callable[[], None]] = []
 
     def on_change(self, listener: Callable[[], None]) -> Callable[[], None]:
-        """Call `listener`, from any thread, when the list changes; the result ends that."""
+        """Call `listener`, from any thread, when the list changes. Returns a function that unsubscribes."""
         self._listeners.append(listener)
         return lambda: self._listeners.remove(listener)
 
@@ -100,7 +100,7 @@ class Library:
             listener()
 
     def entries(self) -> list[RecordingEntry]:
-        """Everything on offer, in the order of the menu."""
+        """All recordings, in the order of the menu."""
         lessons = [id for id in self._samples if id.startswith("lesson:")]
         samples = [id for id in self._samples if id.startswith("sample:")]
         opened = set(self._files.values())
@@ -118,11 +118,11 @@ class Library:
         return rows
 
     def first(self) -> str:
-        """What a new tab shows: a robot or the first file of the command line, else the first sample."""
+        """The recording of a new tab: a robot or the first file of the command line, else the first sample."""
         return next(iter([*self.live.robots, *self._files, *self._samples]), "")
 
     def instead_of(self, broken: Collection[str]) -> str:
-        """What is shown where these ids cannot be; "" if nothing is left."""
+        """The recording to show if these ids cannot be shown; "" if none is left."""
         return next((id for id in [*self._files, *self._samples] if id not in broken), "")
 
     def label(self, id: str) -> str:
@@ -131,7 +131,7 @@ class Library:
         return next((entry.label for entry in self.entries() if entry.id == id), id)
 
     def path(self, id: str) -> Path:
-        """The file behind an id; KeyError-free: an unknown id is a ValueError."""
+        """The file with an id. Raises ValueError for an unknown id."""
         kind, _, name = id.partition(":")
         try:
             if kind == "upload":
@@ -141,8 +141,10 @@ class Library:
             if kind == "upload":
                 raise ValueError("this upload is no longer on the server; drop the file on the page again") from None
             if kind in ("file", "recent"):
-                raise ValueError("the file of this link is not among those that this server knows") from None
-            raise ValueError(f"there is no recording {id[:60]!r}") from None
+                raise ValueError(
+                    "this server does not know the file of this link; open it from the command line"
+                ) from None
+            raise ValueError(f"there is no recording {id[:60]!r}; choose one from the menu") from None
 
     def recording(
         self,
@@ -151,9 +153,9 @@ class Library:
         progress: Progress | None = None,
         wanted: Callable[[], bool] = lambda: True,
     ) -> Recording:
-        """The recording behind an id, read from its file if it is not open yet; Cancelled once it is not `wanted`.
+        """The recording with an id, read from its file if not open yet. Raises Cancelled once it is not `wanted`.
 
-        Of a live source: what it has sent so far.
+        For a live source: the scans so far.
         """
         if id.startswith("live:"):
             return self.live.recording(id, lambda: progress and progress(0, 0), wanted)
@@ -227,7 +229,7 @@ def _wait(load: _Load, progress: Progress | None, wanted: Callable[[], bool]) ->
 
 
 def _samples() -> dict[str, Path]:
-    """Ids of the samples and lessons; hallway and laboratory first, the same world in other formats after them."""
+    """Ids of the samples and lessons: hallway and laboratory first, then the same worlds in other formats."""
     try:
         folder = data_folder("sample_scans")
     except FileNotFoundError:
@@ -261,5 +263,5 @@ def _absolute(path: Path) -> Path:
 
 
 def _digest(path: Path) -> str:
-    """A name that tells nothing of the user's folders and is the same after a restart, so that links keep working."""
+    """An id that hides the user's folders and survives a restart, so that links keep working."""
     return hashlib.sha256(str(path).encode()).hexdigest()[:12]

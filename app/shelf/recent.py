@@ -13,7 +13,7 @@ MOST = 12
 
 
 class Recent:
-    """The list, newest first. Where the folder cannot be written, it is a list of this run only."""
+    """The list, newest first. If the folder is not writable, it lasts for this run only."""
 
     def __init__(self, folder: Path | None = None) -> None:
         self._file = user_folder(folder) / "recent.json"
@@ -44,7 +44,7 @@ def _read(file: Path) -> list[Path]:
 
 
 def _write(file: Path, text: str) -> None:
-    """Replace the file at once, so that a crash or a second program never leaves half a list."""
+    """Replace the file atomically, so that a crash or a second program never leaves half a list."""
     handle, name = tempfile.mkstemp(dir=file.parent, prefix=file.name)
     try:
         with os.fdopen(handle, "w", encoding="utf-8") as stream:

@@ -1,4 +1,4 @@
-"""Files that were dropped on the page, in a temporary folder that goes with the server."""
+"""Files dropped on the page, in a temporary folder that is removed with the server."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ LONGEST_NAME = 120
 
 
 class TooLargeError(ValueError):
-    """An upload beyond the limit."""
+    """The upload is too large."""
 
 
 class TooManyError(ValueError):
-    """More uploads at once than the server takes."""
+    """Too many uploads at once."""
 
 
 @dataclass(frozen=True)
@@ -31,7 +31,7 @@ class Upload:
 
 
 class Uploads:
-    """At most `number` files of `limit` bytes each, `total` bytes together; the oldest make room for new ones."""
+    """At most `number` files of `limit` bytes each and `total` bytes together; new files replace the oldest."""
 
     def __init__(self, limit: int, number: int, total: int, at_once: int = 4) -> None:
         self.limit = limit
@@ -52,7 +52,7 @@ class Uploads:
             return list(self._kept.values())
 
     async def receive(self, name: str, announced: int | None, chunks: AsyncIterator[bytes]) -> Upload:
-        """Stream one file to disk; of a refused file nothing stays."""
+        """Stream one file to disk; a refused file leaves nothing behind."""
         if announced is not None and announced > self.limit:
             raise TooLargeError(self._too_large(name))
         with self._lock:
@@ -117,7 +117,7 @@ class Uploads:
 
     def _too_large(self, name: str) -> str:
         return (
-            f"{safe_name(name)} is larger than {self.limit / 1e6:g} MB, the most an upload may have; "
+            f"{safe_name(name)} is larger than {self.limit / 1e6:g} MB, the limit for uploads; "
             "open it from the command line instead"
         )
 

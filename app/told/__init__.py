@@ -1,1 +1,1 @@
-"""What crosses the network, as types: what comes in, what goes out, and what the page's own types are written from."""
+"""Types of the messages between server and page; the page's own types are generated from them."""

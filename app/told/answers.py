@@ -1,4 +1,4 @@
-"""What is answered over HTTP, and over the socket for long work."""
+"""Answers over HTTP, and over the socket for long work."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ Job = Literal["curves", "map", "auto"]
 
 
 class WhatIfs(TypedDict):
-    """What would change the answer for the selected beam, and of which answer."""
+    """The threshold changes that would change the answer for the selected beam, and that answer."""
 
     frame: int
     beam: int | None
@@ -26,7 +26,7 @@ class WhatIfs(TypedDict):
 
 
 class Whys(TypedDict):
-    """What looks wrong in the frames that were asked about, by their numbers."""
+    """What looks wrong in the requested frames, by frame number."""
 
     recording: str
     method: str
@@ -35,9 +35,9 @@ class Whys(TypedDict):
 
 
 class Truth(TypedDict):
-    """How the whole recording agrees with its truth; stride: of so many frames one was looked at.
+    """The agreement of the whole recording with its truth; stride: every stride-th frame was judged.
 
-    labelled: stamp of the labels that are the truth, or "".
+    labelled: stamp of the labels used as truth, or "".
     """
 
     recording: str
@@ -50,7 +50,7 @@ class Truth(TypedDict):
 
 
 class Brief(TypedDict):
-    """What people say of a frame, in short. lines: how many, null where nobody has said which are true."""
+    """Summary of the labels of a frame. lines: number of true lines, null if they are not labelled."""
 
     revision: int
     lines: int | None
@@ -59,23 +59,23 @@ class Brief(TypedDict):
 
 
 class LabelsOverview(TypedDict):
-    """What people say of a recording, by frame. stamp: another one whenever its file is."""
+    """The labels of a recording, by frame. stamp: changes with the file."""
 
     stamp: str
     frames: dict[int, Brief]
 
 
 class Sweep(TypedDict):
-    """points: of each beam [m], null without a return."""
+    """points: of each beam [m], null if it has no return."""
 
     points: list[Point | None]
     fullCircle: bool
 
 
 class ThresholdSweep(TypedDict):
-    """One threshold over its range, of each value how many lines there are and which beams are in them.
+    """One threshold over its range: the number of lines at each value, and the beams in them.
 
-    runs: of each value the stretches of beams of one line: first, last, "#rrggbb".
+    runs: at each value, the stretches of beams of one line: first, last, "#rrggbb".
     """
 
     name: str
@@ -86,9 +86,9 @@ class ThresholdSweep(TypedDict):
 
 
 class SweepTable(TypedDict):
-    """The table of a sweep. axes: the values of each swept threshold; columns: of each row.
+    """The table of a sweep. axes: values of each swept threshold; columns: measures of each row.
 
-    file: of each row its place in files.
+    file: index into `files` of each row.
     """
 
     files: list[str]
@@ -99,7 +99,7 @@ class SweepTable(TypedDict):
 
 
 class Sampled(TypedDict):
-    """What thresholds do to some frames of a recording, spread evenly; of: how many it has."""
+    """The effect of thresholds on evenly spread frames of a recording; of: total number of frames."""
 
     frames: int
     of: int
@@ -107,13 +107,13 @@ class Sampled(TypedDict):
 
 
 class SampledCurves(Sampled):
-    """Of each threshold its values, and of each measure what it is at them."""
+    """For each threshold its values, and the value of each measure there."""
 
     curves: Mapping[str, Annotated[Mapping[str, Sequence[float | None]], As("Curve")]]
 
 
 class SampledMap(Sampled):
-    """heights: a row for each of ys; of each of xs what the measure is, null where it is not defined."""
+    """heights: a row for each of ys, with the measure at each of xs, null if undefined."""
 
     x: str
     y: str
@@ -124,7 +124,7 @@ class SampledMap(Sampled):
 
 
 class Trial(TypedDict):
-    """score: null where there is none."""
+    """score: null if there is none."""
 
     number: int
     params: Params
@@ -132,7 +132,7 @@ class Trial(TypedDict):
 
 
 class Verdict(TypedDict):
-    """The thresholds that are proposed, and whether they gain anything on frames that were held back."""
+    """The proposed thresholds, and whether they gain anything on the held-back frames."""
 
     params: Params
     text: str
@@ -140,7 +140,7 @@ class Verdict(TypedDict):
 
 
 class Tuned(TypedDict, total=False):
-    """A step of auto-tuning: at first what is looked for, then trials as they come, now and then what matters."""
+    """A step of auto-tuning: first the objective, then trials as they finish, and sometimes the importances."""
 
     text: str
     caution: str
@@ -152,7 +152,7 @@ class Tuned(TypedDict, total=False):
 
 
 class Worked(TypedDict):
-    """What every answer of long work has. done: it has ended; stopped: because somebody said so; message: why not."""
+    """Common fields of answers of long work. done: it has ended; stopped: on request; message: why it failed."""
 
     type: Job
     job: int

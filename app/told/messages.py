@@ -1,4 +1,4 @@
-"""The messages that the server sends on /api/session."""
+"""The messages from the server on /api/session."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from .drawn import DrawnState, TraceColumns
 Where = Literal["recording", "params", "frame", "view", "upload", "server"]
 Connection = Literal["connecting", "open", "lost"]
 
-# Sent many times a second: that it is what its type says, a test holds.
+# Not validated here, because it is sent many times a second; a test checks it.
 UNCHECKED = GetPydanticSchema(lambda source, handler: core_schema.any_schema())
 
 
 class RecordingEntry(BaseModel):
-    """A recording on offer; `missing` if its file is no longer there."""
+    """A recording in the menu; `missing` if its file no longer exists."""
 
     id: str
     label: str
@@ -28,7 +28,7 @@ class RecordingEntry(BaseModel):
 
 
 class KnobEntry(BaseModel):
-    """A threshold: its name and its bounds. low, high, step: of its slider; least, most: what it may be, and why."""
+    """A threshold: its name and its bounds. low, high, step: of its slider; least, most: allowed range, and why."""
 
     name: str
     kind: Literal["float", "int", "bool"]
@@ -72,7 +72,7 @@ class KnobEntry(BaseModel):
 
 
 class MethodEntry(BaseModel):
-    """begins: how a line of the method begins, in a word; ros: whether a ROS program knows its thresholds."""
+    """begins: how a line of the method starts, in a word; ros: whether a ROS program has its thresholds."""
 
     name: str
     label: str
@@ -91,7 +91,7 @@ class MethodEntry(BaseModel):
 
 
 class ScoreEntry(BaseModel):
-    """A score of the strip. least: a difference that is worth a look; weight: in the suspicion, as it is at first."""
+    """A score of the strip. least: smallest difference that matters; weight: default weight in the suspicion."""
 
     name: str
     label: str
@@ -103,7 +103,7 @@ class ScoreEntry(BaseModel):
 
 
 class Welcome(BaseModel):
-    """The answer to hello. viser: where the scene is; presenter: the id under which others may follow this tab."""
+    """The answer to hello. viser: address of the scene; presenter: id with which others may follow this tab."""
 
     type: Literal["welcome"] = "welcome"
     session: str
@@ -118,7 +118,7 @@ class Welcome(BaseModel):
 
 
 class Recordings(BaseModel):
-    """All that is on offer, when the list has changed."""
+    """All recordings in the menu, sent when the list changes."""
 
     type: Literal["recordings"] = "recordings"
     recordings: list[RecordingEntry]
@@ -136,11 +136,11 @@ class Loading(BaseModel):
 
 
 class LiveStatus(BaseModel):
-    """How a live source fares; told while a tab shows it, at most a few times a second.
+    """Status of a live source, sent while a tab shows it, at most a few times a second.
 
-    rate: scans a second; delay: of the last scan, from its stamp to its arrival [s]. total: scans since the beginning,
-    of which the oldest were dropped, so that at most `most` are kept; refused: messages that were no scans.
-    publisher: which tab's segments go back to the robot, if any.
+    rate: scans per second; delay: of the last scan, from its stamp to its arrival [s]. total: scans since the source
+    began; the newest `most` are kept; refused: messages that were not scans. publisher: the tab whose segments go
+    back to the robot, if any.
     """
 
     type: Literal["live"] = "live"
@@ -161,7 +161,7 @@ class LiveStatus(BaseModel):
 
 
 class Failure(BaseModel):
-    """What could not be had, and why; rev: of the change that asked for it, if one did."""
+    """A failed request, and why; rev: of the change that caused it, if any."""
 
     type: Literal["error"] = "error"
     where: Where
@@ -170,14 +170,14 @@ class Failure(BaseModel):
 
 
 class Traced(BaseModel):
-    """Every decision of the frame that the next `drawn` shows."""
+    """All decisions of the frame in the next `drawn` message."""
 
     type: Literal["trace"] = "trace"
     trace: Annotated[TraceColumns, UNCHECKED]
 
 
 class Drawn(BaseModel):
-    """`origin` says whose input it answers: "page", or "scene" for viser's sliders and clicks in the scene."""
+    """origin: the source of the input: "page", or "scene" for viser's sliders and clicks in the scene."""
 
     type: Literal["drawn"] = "drawn"
     rev: int
@@ -188,10 +188,10 @@ class Drawn(BaseModel):
 class Surveyed(BaseModel):
     """The scores of every stride-th frame under these thresholds, or a message why there are none.
 
-    Crosses the network as one binary frame: the length of the rest of the head (uint32), the head in JSON, filled up
-    with blanks to a multiple of 4 bytes, and `values`: float32, score after score in the order of Welcome.scores, each
-    of ⌈frames / stride⌉ frames. All little-endian. The last of the scores, the differences from A, is there, and totals
-    of every fate, if there is an A and every frame is known. first: number of the first frame, as in the state.
+    Sent as one binary frame: the length of the head (uint32); the head in JSON, padded with spaces to a multiple of 4
+    bytes; and `values`: float32, score after score in the order of Welcome.scores, each with ⌈frames / stride⌉ frames.
+    All little-endian. The last score, the differences from A, and the totals of every fate are present only if there is
+    an A and every frame is known. first: number of the first frame, as in the state.
     """
 
     type: Literal["survey"] = "survey"

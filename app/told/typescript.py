@@ -1,4 +1,4 @@
-"""Types of Python as TypeScript: TypedDicts, models and dataclasses become interfaces, docstrings their comments."""
+"""Python types as TypeScript: TypedDicts, models and dataclasses become interfaces, docstrings become comments."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ WIDTH = 116
 
 
 class As(NamedTuple):
-    """In an annotation: how the page calls what Python cannot say."""
+    """In an annotation: the TypeScript type, where Python cannot express it."""
 
     name: str
 
 
 def interface(declared: type, name: str | None = None, sent: bool = False) -> str:
-    """A class as an interface. sent: by the page, which may leave out what has a default."""
+    """A class as an interface. sent: by the page, which may omit fields that have defaults."""
     lines = [f"export interface {name or declared.__name__} {{"]
     for field, annotation, optional in _fields_of(declared, sent):
         lines.append(f"  {field}{'?' if optional else ''}: {written(annotation)};")
@@ -31,12 +31,12 @@ def interface(declared: type, name: str | None = None, sent: bool = False) -> st
 
 
 def alias(name: str, annotation: Any) -> str:
-    """A name for any type."""
+    """A type alias."""
     return f"export type {name} = {written(annotation)};"
 
 
 def written(annotation: Any) -> str:
-    """A type where it is used; classes by their names."""
+    """A type in TypeScript; classes by name."""
     if annotation in PLAIN:
         return PLAIN[annotation]
     origin, args = get_origin(annotation), get_args(annotation)
@@ -59,7 +59,7 @@ def written(annotation: Any) -> str:
 
 
 def _fields_of(declared: type, sent: bool) -> Iterable[tuple[str, Any, bool]]:
-    """Name, type, and whether it may be missing."""
+    """Name, type, and whether the field may be missing."""
     hints = get_type_hints(declared, include_extras=True)
     if is_typeddict(declared):
         return [(name, *_present(hint, name in declared.__optional_keys__)) for name, hint in hints.items()]  # type: ignore[attr-defined]
@@ -72,13 +72,13 @@ def _fields_of(declared: type, sent: bool) -> Iterable[tuple[str, Any, bool]]:
 
 
 def _present(hint: Any, optional: bool) -> tuple[Any, bool]:
-    """The type of a key where it is there, and whether it may be missing."""
-    # Where annotations are read late, the class takes a NotRequired for required.
+    """The type of a key, and whether it may be missing."""
+    # With postponed annotations, the class treats NotRequired as required.
     return (get_args(hint)[0], True) if get_origin(hint) is NotRequired else (hint, optional)
 
 
 def _comment(declared: type) -> str:
-    """The docstring, where somebody wrote one."""
+    """The docstring, if there is one of its own."""
     doc = inspect.cleandoc(declared.__dict__.get("__doc__") or "")
     if not doc or doc.startswith(f"{declared.__name__}("):
         return ""

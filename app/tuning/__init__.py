@@ -1,1 +1,1 @@
-"""What other thresholds would do to a frame or to a recording."""
+"""The effect of other thresholds on a frame or a recording."""

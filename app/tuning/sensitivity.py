@@ -1,4 +1,4 @@
-"""What the thresholds do to the recording on the screen: curves of each, and a map of two; coarse first, then finer."""
+"""The effect of thresholds on the recording on the screen: a curve for each, a map for two; coarse, then finer."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from lineseg.sweep.workers import Pool
 from ..told.answers import SampledCurves, SampledMap
 
 CURVES = ("coverage", "segments", "true_rate", "false_rate", "completeness", "f_score")
-# (frames, values a threshold) and (frames, values a side) of each stage: the first answers while a hand still moves.
+# (frames, values per threshold) and (frames, values per side) of each stage; the first is fast enough to follow a drag.
 CURVE_STAGES = ((40, 17), (200, 17), (1000, 17))
 MAP_STAGES = ((40, 7), (40, 13), (200, 25))
 
 
 @dataclass(eq=False)
 class Subject:
-    """A recording under thresholds; stop: (1,) bool, set to end the work with `Cancelled`."""
+    """A recording and thresholds; stop: (1,) bool, set it to end the work with `Cancelled`."""
 
     recording: Recording
     params: Params
@@ -31,7 +31,7 @@ class Subject:
 
 
 def curves(subject: Subject, workers: Pool, names: Sequence[str]) -> Iterator[SampledCurves]:
-    """Stage after stage, over each threshold's slider CURVES of some frames of the recording, spread evenly."""
+    """Stage by stage, CURVES over the slider of each threshold, from evenly spread frames of the recording."""
     for batch, frames, count in _stages(subject.recording, CURVE_STAGES):
         values = {name: slider_values(name, count) for name in names}
         tasks = [
@@ -47,7 +47,7 @@ def curves(subject: Subject, workers: Pool, names: Sequence[str]) -> Iterator[Sa
 
 
 def relief(subject: Subject, workers: Pool, x: str, y: str, measure: str) -> Iterator[SampledMap]:
-    """Stage after stage a measure over two thresholds: `heights`, a row for each value of y."""
+    """Stage by stage, a measure over two thresholds: `heights`, a row for each value of y."""
     for batch, frames, count in _stages(subject.recording, MAP_STAGES):
         xs, ys = slider_values(x, count), slider_values(y, count)
         tasks = [(batch, [subject.params.but(**{x: u, y: v}) for u in xs], subject.stop) for v in ys]
@@ -68,7 +68,7 @@ def relief(subject: Subject, workers: Pool, x: str, y: str, measure: str) -> Ite
 
 
 def _stages(recording: Recording, stages: Sequence[tuple[int, int]]) -> Iterator[tuple[Batch, int, int]]:
-    """(frames, how many they are, values); a short recording has fewer stages."""
+    """(frames, number of frames, values); a short recording has fewer stages."""
     told = None
     for most, count in stages:
         frames = min(most, len(recording))
@@ -79,7 +79,7 @@ def _stages(recording: Recording, stages: Sequence[tuple[int, int]]) -> Iterator
 
 @lru_cache(maxsize=6)
 def _spread_batch(recording: Recording, frames: int) -> Batch:
-    """Not scored: these measures need the extraction only."""
+    """Without scores: these measures need the extraction only."""
     chosen = np.unique(np.linspace(0, len(recording) - 1, frames).round().astype(int))
     return Batch(recording.only(chosen), scored=False)
 

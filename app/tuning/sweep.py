@@ -1,4 +1,4 @@
-"""One threshold swept over its range: which beams are in which line, at each of its values."""
+"""A sweep of one threshold over its range: the beams of each line at each value."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ MOST_VALUES = 96
 
 
 def values_of(kind: type, knob: Knob, most: int = MOST_VALUES) -> list[float]:
-    """Values over the range of the slider, as evenly as its scale is; whole numbers where they must be."""
+    """Values over the range of the slider, evenly spaced on its scale; whole numbers if required."""
     return [float(value) for value in spread(knob.low, knob.high, most, kind, knob)]
 
 
 def sweep(scan: Scan, method: str, params: Thresholds, name: str) -> ThresholdSweep:
-    """values; runs: for each of them the stretches of beams [first, last, "#rrggbb"]; lines: how many there are."""
+    """values; runs: the stretches of beams [first, last, "#rrggbb"] at each value; lines: number of lines."""
     kind, knob = {field: (kind, knob) for field, kind, knob in params.knobs()}[name]
     values = values_of(kind, knob)
     extractions = [EXTRACTORS[method].extract(scan, params.but(**{name: kind(value)})) for value in values]
@@ -34,7 +34,7 @@ def sweep(scan: Scan, method: str, params: Thresholds, name: str) -> ThresholdSw
 
 
 def _runs(labels: NDArray[np.int32], colours: NDArray[np.uint8]) -> list[tuple[int, int, str]]:
-    """Stretches of beams of one line, with its colour in the scene."""
+    """The stretches of beams of each line, with its colour in the scene."""
     if not len(labels):
         return []
     edges = np.flatnonzero(np.diff(labels)) + 1

@@ -150,7 +150,7 @@ def test_a_link_to_a_missing_file_says_so_and_applies_once_the_file_is_opened(ne
     tab = new_tab(link)
     assert tab.state["recording"] == "sample:hallway"
     alert = tab.page.locator(".notice.error")
-    assert "not among those that this server knows" in alert.inner_text()
+    assert "does not know the file of this link" in alert.inner_text()
     assert "Open hallway.npz here" in alert.inner_text()
     assert tab.page.evaluate("location.hash") == link
     with tab.page.expect_file_chooser() as chooser:

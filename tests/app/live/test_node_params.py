@@ -62,7 +62,7 @@ def test_a_robot_of_ros_1_has_them_on_its_parameter_server(server: Address, peer
         ({"address": "ws://127.0.0.1:1"}, 502, "nothing listens at 127.0.0.1:1"),
         ({"address": "ws://" + 300 * "r"}, 422, "address: string should have at most 300 characters"),
         ({"turbo": True}, 422, "turbo: extra inputs are not permitted"),
-        ({"node": "../etc"}, 400, "a name of ROS is like /line_extraction"),
+        ({"node": "../etc"}, 400, "give an absolute ROS name such as /line_extraction"),
         ({"params": {"epsilon": -1}}, 400, "epsilon is -1"),
         ({"params": {"gamma": 1}}, 400, "there is no threshold 'gamma'"),
     ],

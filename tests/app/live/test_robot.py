@@ -207,7 +207,7 @@ def test_a_publication_that_fails_says_why(server: Address, page: Page):
     page.hello()
     for asked, sentence in [
         ({"session": "nobody", "on": True}, "reload the page"),
-        ({"session": page.welcome["session"], "on": True}, "for a live source only"),
+        ({"session": page.welcome["session"], "on": True}, "only be published for a live source"),
     ]:
         answer = server.post("/api/robot/segments", json=asked)
         assert answer.status_code in (400, 404)

@@ -149,7 +149,7 @@ def test_the_command_line_writes_the_frames_it_is_asked_for(tmp_path: Path, caps
     framed = [row["frame"] for row in rows_of(file, "/laser/segments") if row.get("frame") is not None]
     assert framed == [3, 4, 5]
     assert list(tmp_path.iterdir()) == [file]
-    for frames, complaint in [("nine", "expected is FIRST:STOP"), ("9000:", "which holds none")]:
+    for frames, complaint in [("nine", "give FIRST:STOP"), ("9000:", "which is empty")]:
         assert main(["record", str(SAMPLE), "-o", str(file), "--frames", frames]) == 2
         assert complaint in capsys.readouterr().err
     assert main(["record", str(SAMPLE), "-o", str(tmp_path / "run.bag")]) == 2

@@ -185,7 +185,7 @@ def test_labels_of_the_same_bytes_are_found_again(own, page, file):
         ({"lines": [{"first": -1, "last": 30}]}, 422, "lines.0.first is -1"),
         ({"tags": ["x" * 61]}, 422, "tags.0"),
         ({"words": 1}, 422, "words is 1"),
-        ({"recording": "file:nothing"}, 404, "not among those that this server knows"),
+        ({"recording": "file:nothing"}, 404, "does not know the file of this link"),
         ({"recording": "live:1"}, 400, "live recording"),
     ],
 )

@@ -43,7 +43,7 @@ def test_a_socket_takes_scan_after_scan_and_names_what_is_not_one(server: Addres
     with connect(f"{server.ws}/api/scans/simulator", proxy=None) as socket:
         socket.send(json.dumps(scan_message(wall(3.0))))
         socket.send("hello")
-        assert "this is no JSON" in json.loads(socket.recv(timeout=20))["error"]
+        assert "this is not JSON" in json.loads(socket.recv(timeout=20))["error"]
         socket.send(json.dumps(scan_message(wall(2.0))).encode())
         with page_of(server) as page:
             state = page.hello(recording="live:simulator")
@@ -69,10 +69,10 @@ def test_a_live_recording_is_recorded_for_rerun_in_its_current_state(server: Add
     ("name", "content", "status", "sentence"),
     [
         ("a", b"[1, 2]", 400, "a LaserScan is an object"),
-        ("a", b"{", 400, "this is no JSON"),
+        ("a", b"{", 400, "this is not JSON"),
         ("a", b'{"angle_min": 0, "angle_increment": 0.1, "ranges": []}', 400, "the scan has no ranges"),
-        ("a", b'{"ranges": ' + b"[" * 100_000, 400, "this is no JSON"),
-        ("a", b" " * (LARGEST + 1), 413, "no more than"),
+        ("a", b'{"ranges": ' + b"[" * 100_000, 400, "this is not JSON"),
+        ("a", b" " * (LARGEST + 1), 413, "at most"),
         ("a" * 65, b"{}", 400, "is no name"),
         ("..", b"{}", 404, ""),
         ("a%2Fb", b"{}", 404, ""),
@@ -87,7 +87,7 @@ def test_an_invalid_scan_is_refused(server: Address, name: str, content: bytes, 
 
 def test_too_many_beams_or_names_are_refused(server: Address):
     many = {"angle_min": 0, "angle_increment": 0.1, "ranges": [1] * 100_001}
-    assert "100001 beams; 100000 are the most" in server.post("/api/scans/a", json=many).json()["message"]
+    assert "100001 beams; send at most 100000" in server.post("/api/scans/a", json=many).json()["message"]
     answers = [server.post(f"/api/scans/name{k}", json=scan_message([1.0])) for k in range(MOST_PUSHED)]
     assert [answer.status_code for answer in answers] == [200] * (MOST_PUSHED - 1) + [429]
     with connect(f"{server.ws}/api/scans/another", proxy=None) as socket:
@@ -98,7 +98,7 @@ def test_too_many_beams_or_names_are_refused(server: Address):
 
 def test_scans_come_at_a_bounded_rate():
     pace = Pace()
-    with pytest.raises(TooFastError, match="this one was dropped"):
+    with pytest.raises(TooFastError, match="this scan was dropped"):
         for _ in range(10 * int(MOST_A_SECOND)):
             pace.step("a")
     pace.step("b")
