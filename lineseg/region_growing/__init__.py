@@ -29,10 +29,10 @@ from .seed import NOWHERE, find_seed
 
 
 class Run(NamedTuple):
-    """What one run leaves behind; first and last are positions, and beam (m,) int32 turns positions into beams.
+    """The output of one run. first and last are positions; beam: (m,) int32 maps positions to beams.
 
-    On a full circle beams go on counting past the seam; points: number of valid beams, without those of
-    things that are looked past.
+    On a full circle beam numbers keep rising past the seam. points: number of valid beams, without those on
+    ignored objects.
     """
 
     lines: NDArray
@@ -44,7 +44,7 @@ class Run(NamedTuple):
 
 @entry_kernel
 def extract_lines(ranges, rays, range_min, range_max, circle, limits, xy, numbers, lines, dropped, log):
-    """The four procedures in a row: (number of lines, of dropped candidates, of points, of valid beams).
+    """Run the four procedures: (number of lines, of dropped candidates, of points, of valid beams).
 
     ranges, rays, circle: of a `Scan`; limits: see `limits_of`; the rest is `Memory`.
     """
@@ -60,7 +60,7 @@ def extract_lines(ranges, rays, range_min, range_max, circle, limits, xy, number
 
 @kernel
 def grow_lines(points, limits, lines, dropped, log):
-    """Seed after seed, each grown to its end, from the first point to the last."""
+    """Find each seed and grow it to its end, from the first point to the last."""
     count = candidate = 0
     start = points.start
     stop = start + points.period
@@ -75,7 +75,7 @@ def grow_lines(points, limits, lines, dropped, log):
         first, last, scatter = grow(points, seed, scatter, limits, candidate, log)
         enough_points = last - first + 1 >= limits.min_points
         line = NOWHERE
-        # Most candidates have too few points, and only the log asks for their line.
+        # Most candidates have too few points, and only the log needs their line.
         if enough_points or log is not None:
             line = line_through(scatter)
         check, value, limit = shortfall(points, first, last, line, limits)
@@ -91,7 +91,7 @@ def grow_lines(points, limits, lines, dropped, log):
 
 
 class Memory:
-    """What the kernels write to, for scans of up to `beams` beams.
+    """The memory of the kernels, for scans of up to `beams` beams.
 
     xy, numbers: the points, see `points_of`; lines, dropped: (capacity,) of LINE and DROPPED.
     """
@@ -106,7 +106,7 @@ class Memory:
 
 
 def run(scan: Scan, params: Params, logged: bool = False) -> Run:
-    """Extract the lines of one scan, and write every decision down if `logged`."""
+    """Extract the lines of one scan; log every decision if `logged`."""
     memory = Memory(len(scan), scan.full_circle)
     ranges, nearest, farthest = scan.ranges.astype(np.float64), float(scan.range_min), float(scan.range_max)
     scene = (ranges, scan.rays, nearest, farthest, scan.full_circle, limits_of(params))
@@ -121,7 +121,7 @@ def run(scan: Scan, params: Params, logged: bool = False) -> Run:
 
 
 def thin_things(scan: Scan, params: Params | None = None) -> NDArray[np.bool_]:
-    """(n,) which valid beams end at things that lines pass behind, see `look_past`."""
+    """(n,) which valid beams end at objects that lines pass behind, see `look_past`."""
     kept = np.zeros(len(scan), np.bool_)
     kept[run(scan, params or Params()).beam % len(scan)] = True
     return scan.valid & ~kept

@@ -1,4 +1,4 @@
-"""Which lines are kept: those of P_min points and more that are L_min long or longer."""
+"""The test for keeping a line: at least P_min points and a length of at least L_min."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ def shortfall(points, first, last, line, limits):
     if n < limits.min_points or n < 2:
         return MIN_POINTS, float(n), float(limits.min_points)
     length = length_of(points.x, points.y, first, last, line)
-    # Not `<`: of points too close to have a direction, the length is NaN.
+    # Not `<`: the length is NaN for points too close together to have a direction.
     if not length >= limits.min_length:
         return MIN_LENGTH, length, limits.min_length
     return NONE, length, limits.min_length
@@ -22,7 +22,7 @@ def shortfall(points, first, last, line, limits):
 
 @kernel
 def length_of(x, y, first, last, line):
-    """L_l: the distance between the two endpoints, projected on the line [m]."""
+    """L_l: the distance between the two endpoints, projected onto the line [m]."""
     x1, y1 = project(line, x[first], y[first])
     x2, y2 = project(line, x[last], y[last])
     return distance(x1, y1, x2, y2)

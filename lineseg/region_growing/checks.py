@@ -1,4 +1,4 @@
-"""What is decided in region growing, and by which checks; numbers for the rows of a `Log`."""
+"""The decisions of region growing and their checks, as numbers for the rows of a `Log`."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from ..tracing.vocabulary import Check
 SEED_REJECTED, SEED_FOUND, POINT_ADDED, GROWTH_STOPPED, LINE_KEPT, LINE_DROPPED = range(6)
 LINES_MERGED, LINES_KEPT_APART, OVERLAP_CUT, ENDPOINTS = range(6, 10)
 
-# Every threshold that refuses is a check; what it says then stands at its declaration.
+# Every threshold that can refuse is a check; its sentence is in its declaration.
 CHECKS = (
     Check(""),
     Check("end", "{edge}, {span}"),
@@ -18,7 +18,7 @@ CHECKS = (
 
 
 def number_of(check: str) -> int:
-    """Which of CHECKS it is."""
+    """The index in CHECKS."""
     return [each.name for each in CHECKS].index(check)
 
 

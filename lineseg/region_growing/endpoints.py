@@ -13,7 +13,7 @@ from .lines import line_at
 
 @kernel
 def place_endpoints(points, lines, count, log):
-    """Project the outermost points of each line on it; also its length, and the rms of the distances."""
+    """Project the outermost points of each line onto it, and compute its length and the rms of the distances."""
     for i in range(count):
         row = lines[i]
         first, last, line = row.first, row.last, line_at(lines, i)

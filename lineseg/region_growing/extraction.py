@@ -1,4 +1,4 @@
-"""From the rows that kernels write to segments."""
+"""Converts the rows written by kernels to segments."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ def extraction_of(
     dropped: NDArray[np.void],
     positions: NDArray[np.integer],
 ) -> Extraction:
-    """What the kernels left behind, as segments in scan order.
+    """The output of the kernels as segments in scan order.
 
-    lines, dropped: of LINE and DROPPED, with first and last as positions; positions: (m,) int turns them into beams,
-    and may go on counting past the seam of a full circle.
+    lines, dropped: arrays of LINE and DROPPED, with first and last as positions; positions: (m,) int maps these to
+    beams, whose numbers may keep rising past the seam of a full circle.
     """
     n = len(scan)
     beams = positions % max(n, 1)
@@ -38,7 +38,7 @@ def extraction_of(
 
 def _dropped(scan: Scan, rows: NDArray[np.void], beams: NDArray[np.integer]) -> tuple[Dropped, ...]:
     first, last = beams[rows["first"]], beams[rows["last"]]
-    # A program that takes dropouts for points may end a line at one.
+    # A program that treats dropouts as points may end a line at a dropout.
     with np.errstate(invalid="ignore"):
         dx, dy = scan.ranges[last] * scan.rays[:, last] - scan.ranges[first] * scan.rays[:, first]
         lengths = np.hypot(dx, dy)

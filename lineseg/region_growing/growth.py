@@ -11,11 +11,10 @@ from .points import breach
 
 @inlined_kernel
 def grow(points, seed, scatter, limits, candidate, log):
-    """The line (first, last, scatter) that grows from the seed at position `seed`: forward to its end, then backward.
+    """The line (first, last, scatter) grown from the seed at position `seed`, forward to its end, then backward.
 
-    A point is compared with the line fitted without it and joins if it is nearer than ε; then the line is fitted anew.
-    The bounds are tested before the point is looked at (the listing looks first). Backward growth may enter the line
-    before it.
+    A point joins if it is nearer than ε to the line fitted without it; then the line is refitted. The bounds are
+    tested before the distance (the listing computes the distance first). Backward growth may enter the previous line.
     """
     first, last = seed, seed + limits.seed_points - 1
     last, scatter = advance(points, first, last, 1, scatter, limits, candidate, log)
@@ -25,9 +24,9 @@ def grow(points, seed, scatter, limits, candidate, log):
 
 @inlined_kernel
 def advance(points, first, last, direction, scatter, limits, candidate, log):
-    """The last position reached in `direction`, and the scatter of the line up to there."""
+    """The last position reached in `direction`, and the scatter of the line up to it."""
     here = last if direction > 0 else first
-    # The span from the far end of the line to the farthest position that it may reach.
+    # The span from the far end of the line to the farthest position it may reach.
     most = points.period - (last - first + 1)
     edge = min(here + most, len(points.x) - 1) if direction > 0 else max(here - most, 0)
     free = at(points.breaks, here)

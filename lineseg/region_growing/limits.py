@@ -1,4 +1,4 @@
-"""`Params` as the kernels take them."""
+"""`Params` in the form that the kernels take."""
 
 from __future__ import annotations
 
@@ -11,17 +11,17 @@ from numpy.typing import NDArray
 from ..kernel import kernel
 from ..params import Params
 
-# Each threshold of Params under its own name.
+# Each threshold of Params, under the same name.
 Limits = namedtuple("Limits", Params.names())
 
 
 def limits_of(params: Params) -> NDArray[np.float64]:
-    """(len(Limits._fields),): what `unpacked` makes `Limits` of; numba takes an array faster than a tuple."""
+    """(len(Limits._fields),): the input of `unpacked`; numba takes an array faster than a tuple."""
     return np.array([getattr(params, name) for name in Limits._fields], dtype=np.float64)
 
 
 def _from(kinds: tuple[type, ...], k: int = 0) -> Any:
-    """The kernel that gives a tuple of values[k], values[k + 1], … as numbers of these kinds."""
+    """A kernel that returns the tuple of values[k], values[k + 1], … as numbers of these kinds."""
     if not kinds:
         return kernel(lambda values: ())
     kind, others = kinds[0], _from(kinds[1:], k + 1)
@@ -33,11 +33,11 @@ _numbers = _from(tuple(kind for _, kind, _ in Params.knobs()))
 
 @kernel
 def unpacked(limits):
-    """`Limits` from an array of their fields."""
+    """`Limits` from an array of its fields."""
     return Limits(*_numbers(limits))
 
 
 @kernel
 def loosened(limits, times):
-    """Limits whose ε and δ are so many times as large."""
+    """The limits with ε and δ multiplied by a factor."""
     return Limits(times * limits.epsilon, times * limits.delta, *limits[2:])

@@ -1,4 +1,4 @@
-"""What the kernels leave behind: lines and dropped candidates."""
+"""The output of the kernels: lines and dropped candidates."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ..kernel import kernel
 
-# All fields have 8 bytes: the arrays reach the kernels as plain numbers, which numba takes in half the time.
+# All fields have 8 bytes, so the arrays reach the kernels as plain numbers, which numba takes in half the time.
 LINE = np.dtype(
     [
         *((name, np.int64) for name in ("first", "last", "candidate")),
@@ -25,7 +25,7 @@ DROPPED = np.dtype(
 
 
 class Dropping(NamedTuple):
-    """rows: (capacity,) of DROPPED; used: (1,) int32, how many there are."""
+    """rows: (capacity,) of DROPPED; used: (1,) int32, number of rows."""
 
     rows: NDArray
     used: NDArray[np.int32]

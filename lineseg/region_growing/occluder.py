@@ -1,4 +1,4 @@
-"""Thin things in front of a wall, such as the leg of a chair, that a line passes behind (an extension)."""
+"""Removes thin objects in front of a wall, such as a chair leg, so that a line passes behind them (an extension)."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ from ..total_least_squares import at
 
 @kernel
 def look_past(x, y, rho, beam, passed, steps, n, limits):
-    """Take away the points of thin things in front of a wall, in place: the number of points that are left.
+    """Remove the points of thin objects in front of a wall, in place; returns the number of points left.
 
-    A thing is a run of points that all lie more than δ, and 2 ε, in front of where their beams meet the chord between
-    the points beside the run (as in Eqs. 4–6), if these are at most `max_occluder` apart, and so are the outermost
-    points of the run; mixed pixels at its edges do not count for the latter.
-    x, y, rho, beam: (n,) of the points in scan order; rho is left as it is. passed: (n,) int32, set to 1 where a thing
-    stood before a point, else to 0; steps: (n,) int32, memory.
+    An object is a run of points that all lie more than δ, and more than 2 ε, in front of where their beams meet the
+    chord between the two points next to the run (as in Eqs. 4–6). These two points must be at most `max_occluder`
+    apart, and so must the outermost points of the run, not counting mixed pixels at its edges.
+    x, y, rho, beam: (n,) of the points in scan order; rho is not changed. passed: (n,) int32, set to 1 if an object
+    was removed before the point, else to 0; steps: (n,) int32, memory.
     """
     passed[:n] = 0
-    # A δ below the noise must not make things of it.
+    # A δ below the noise must not turn noise into objects.
     ahead = max(limits.delta, 2.0 * limits.epsilon)
     steps = steps[: find_steps(rho[:n], steps, ahead)]
     left = behind = rise = 0
@@ -27,7 +27,7 @@ def look_past(x, y, rho, beam, passed, steps, n, limits):
         k = steps[fall] - 1
         if k < behind or rho[k + 1] > rho[k]:
             continue
-        # Along a wall seen at a grazing angle one fall follows another; they all wait for the same rise.
+        # On a wall seen at a grazing angle many falls in a row wait for the same rise.
         while rise < len(steps) and (rise <= fall or rho[steps[rise]] < rho[steps[rise] - 1]):
             rise += 1
         j = behind_thing(x, y, rho, steps[rise:], k, ahead, limits.max_occluder)
@@ -39,11 +39,11 @@ def look_past(x, y, rho, beam, passed, steps, n, limits):
 
 @kernel
 def find_steps(rho, steps, ahead):
-    """Write down which points lie more than `ahead` nearer or farther than the one before, and tell their number."""
+    """Store the points that lie more than `ahead` nearer or farther than the previous one; returns their number."""
     before, here = rho[:-1], rho[1:]
     count = np.uintp(0)
     for k in range(len(here)):
-        # Written in any case, and kept if it is a step: a branch would be guessed wrong at most of them.
+        # Always written, and kept only if it is a step: a branch would be mispredicted at most steps.
         steps[count] = k + 1
         count += np.uintp((here[k] < before[k] - ahead) | (here[k] > before[k] + ahead))
     return count
@@ -51,7 +51,7 @@ def find_steps(rho, steps, ahead):
 
 @kernel
 def close_up(x, y, beam, start, stop, to):
-    """Move the points start..stop − 1 down to `to` on: the position behind them."""
+    """Move the points start..stop − 1 to `to`; returns the position after them."""
     if to < start:
         source, target = np.uintp(start), np.uintp(to)
         for k in range(np.uintp(stop - start)):
@@ -62,7 +62,7 @@ def close_up(x, y, beam, start, stop, to):
 
 @kernel
 def behind_thing(x, y, rho, steps, k, ahead, widest):
-    """The first point behind a thing that begins with point k + 1, or −1; steps: from the first rise behind k on."""
+    """The first point after an object that begins with point k + 1, or −1; steps: from the first rise after k on."""
     for j in steps:
         if rho[j] > rho[j - 1]:
             if j - 2 > k + 2 and square(x, y, k + 2, j - 2) > widest * widest:
@@ -74,15 +74,15 @@ def behind_thing(x, y, rho, steps, k, ahead, widest):
 
 @kernel
 def square(x, y, i, j):
-    """Squared distance of two points, i, j ≥ 0."""
+    """Squared distance between two points, i, j ≥ 0."""
     return (at(x, j) - at(x, i)) ** 2 + (at(y, j) - at(y, i)) ** 2
 
 
 @kernel
 def is_thing(x, y, rho, k, j, ahead, widest):
-    """Whether every point between k and j lies more than `ahead` before the chord between these two, along its beam.
+    """Whether every point between k and j lies more than `ahead` in front of the chord from k to j, along its beam.
 
-    And whether they are no wider than a thing.
+    They must also be no wider than an object may be.
     """
     dx, dy = x[j] - x[k], y[j] - y[k]
     offset = dx * y[k] - dy * x[k]

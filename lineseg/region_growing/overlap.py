@@ -25,9 +25,9 @@ MERGE_RMS = number_of("merge_rms")
 
 @kernel
 def resolve_overlaps(points, lines, count, dropped, limits, log):
-    """Number of lines left when no two neighbours share a point: the collinear become one, then the rest is cut.
+    """Merge collinear overlapping neighbours, then cut the rest; returns how many lines are left, sharing no point.
 
-    The listing stops at the first pair without an overlap; every pair is meant. On a full circle the last line is a
+    The listing stops at the first pair without an overlap, but means every pair. On a full circle the last line is a
     neighbour of the first.
     """
     count = merge_collinear(points, lines, count, limits, log)
@@ -37,10 +37,10 @@ def resolve_overlaps(points, lines, count, dropped, limits, log):
 
 @kernel
 def merge_collinear(points, lines, count, limits, log):
-    """Neighbours that overlap and differ by less than `merge_angle` become one line over all points of both.
+    """Merge neighbours that overlap and differ by less than `merge_angle` into one line over all points of both.
 
-    An extension: with `merge_rms` only if the one line fits its points about as well as the two did; and then also
-    neighbours that a few stray points part.
+    An extension: with `merge_rms`, only if the merged line fits about as well as the two did; then also neighbours
+    that are separated by a few stray points.
     """
     i = 0
     while i + 1 < count:
@@ -72,10 +72,10 @@ def merged(points, lines, i, j, turn, limits, log):
         squares += squares_of(points.x, points.y, first_2, last_2, other)
         rms = math.sqrt(squares / (last - first + last_2 - first_2 + 2))
         value = math.sqrt(least_squares_of(moments_of(points.x, points.y, start, stop)) / (stop - start + 1))
-        # Of walls without noise the two have no rms that could grow.
+        # On walls without noise both rms are 0 and cannot grow by a factor.
         check, limit = MERGE_RMS, limits.merge_rms * max(rms, 0.1 * limits.epsilon)
         agree = value <= limit
-    # On a full circle the same line may have grown on both sides of the seam.
+    # On a full circle the same line may have been grown on both sides of the seam.
     if not agree and not (first == first_2 and last == last_2):
         if log is not None:
             note_pair(log, LINES_KEPT_APART, check, pair, (first, last), -1, line, other, value, limit)
@@ -89,14 +89,14 @@ def merged(points, lines, i, j, turn, limits, log):
 
 @kernel
 def parted_by_strays(points, last, first, limits):
-    """Whether at most `max_dropout` points lie between two lines, and no step that no line may take (an extension)."""
+    """Whether at most `max_dropout` points and no break lie between two lines (an extension)."""
     few = first - last - 1 <= limits.max_dropout
     return limits.merge_rms > 0.0 and few and points.breaks[last] == points.breaks[first]
 
 
 @kernel
 def cut_overlaps(points, lines, count, dropped, log):
-    """Part overlapping neighbours; a line that keeps nothing goes, and its neighbours meet each other."""
+    """Cut overlapping neighbours; a line without points is removed, and its neighbours are compared with each other."""
     i = 0
     while i + 1 < count:
         swallowed = cut(points, lines, i, i + 1, 0, dropped, log)
@@ -115,10 +115,10 @@ def cut_overlaps(points, lines, count, dropped, log):
 
 @kernel
 def cut(points, lines, i, j, turn, dropped, log):
-    """Part line i from line j, `turn` positions further on, at the first shared point that is not nearer to line i.
+    """Cut line i from line j, `turn` positions further on, at the first shared point that is not nearer to line i.
 
-    Returns the line to which no point is left, or −1. Where line j reaches farther back than line i begins, the points
-    before line i are not shared.
+    Returns the line that has no points left, or −1. If line j starts before line i, the points before line i are not
+    shared.
     """
     first, last = lines[i].first, lines[i].last
     first_2, last_2 = lines[j].first + turn, lines[j].last + turn
@@ -149,7 +149,7 @@ def cut(points, lines, i, j, turn, dropped, log):
 
 @kernel
 def swallow(lines, i, j, to_other, to_own, dropped, log):
-    """Line i leaves all its points to line j, which is the nearer one."""
+    """Log that line i leaves all its points to line j, which is nearer."""
     first, last, line = lines[i].first, lines[i].last, line_at(lines, i)
     if log is not None:
         note(log, LINE_DROPPED, NEARER, lines[i].candidate, 0, (first, last), -1, line, to_own, to_other)
@@ -159,7 +159,7 @@ def swallow(lines, i, j, to_other, to_own, dropped, log):
 
 @kernel
 def refit(points, lines, i, first, last):
-    """Give line i the positions first..last; with fewer than 2 points its line stays what it was."""
+    """Assign the positions first..last to line i; with fewer than 2 points the fit does not change."""
     lines[i].first, lines[i].last = first, last
     if last > first:
         lines[i].a, lines[i].b, lines[i].c = line_of(moments_of(points.x, points.y, first, last))
@@ -167,7 +167,7 @@ def refit(points, lines, i, first, last):
 
 @kernel
 def keep_sufficient(points, lines, count, dropped, limits, log):
-    """Drop what no longer meets P_min and L_min."""
+    """Drop lines that no longer meet P_min and L_min."""
     i = 0
     while i < count:
         first, last = lines[i].first, lines[i].last

@@ -1,4 +1,4 @@
-"""What the procedures run over: the valid points of a scan, in order, and where no line may pass."""
+"""The input of the procedures: the valid points of a scan, in order, and the breaks that no line may cross."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ MAX_DROPOUT, MAX_GAP = number_of("max_dropout"), number_of("max_gap")
 
 
 class Points(NamedTuple):
-    """The valid points in scan order; kernels count in positions, and `beam` leads back to the beams.
+    """The valid points in scan order. Kernels count in positions; `beam` maps these to beams.
 
-    A full circle has no first beam. It is opened at its widest gap, wherever the device begins, and laid out four times
-    in a row with beam numbers that go on counting: a line may then cross the seam in both directions.
+    A full circle has no first beam. It is opened at its widest gap and stored four times in a row with rising beam
+    numbers, so that a line may cross the seam in both directions.
 
     x, y: (m,) [m]; beam: (m,) int32, rising; start: the position of the first point; period: number of points.
-    breaks: (m,) int32, rising by 1 at each step that no seed and no line may take; of two positions between which the
-    way is free it is equal. returns: number of valid beams, with those of things that are looked past.
+    breaks: (m,) int32, rising by 1 at each step that no seed or line may cross; two positions without a break between
+    them have equal values. returns: number of valid beams, including those on ignored objects.
     """
 
     x: NDArray[np.float64]
@@ -39,9 +39,9 @@ class Points(NamedTuple):
 
 @kernel
 def points_of(ranges, rays, range_min, range_max, circle, limits, xy, numbers):
-    """Points from ranges (n,) [m] and unit vectors along the beams (2, n); for what is valid see `Scan`.
+    """Points from ranges (n,) [m] and unit vectors along the beams (2, n); `Scan` defines which are valid.
 
-    Of things that are looked past the points are left out, see `look_past`.
+    Leaves out the points of ignored objects, see `look_past`.
     xy (6, capacity) float64 and numbers (6, capacity) int32 are memory for them, with at least n + 1 places; on a full
     circle with 4·n + 1.
     """
@@ -69,7 +69,7 @@ def points_of(ranges, rays, range_min, range_max, circle, limits, xy, numbers):
 
 @kernel
 def is_valid(r, range_min, range_max):
-    """Whether a beam has returned, as `Scan` says."""
+    """Whether a beam has a return, as defined by `Scan`."""
     return (r > 0.0) & (r >= range_min) & (r < range_max)
 
 
@@ -84,7 +84,7 @@ def is_complete(ranges, range_min, range_max):
 
 @kernel
 def take_all(ranges, rays, x, y, rho, beam):
-    """The points of all beams, several at a time: their number."""
+    """Compute the points of all beams, several at a time; returns their number."""
     for k in range(len(ranges)):
         r = ranges[k]
         x[k], y[k], rho[k], beam[k] = r * rays[0, k], r * rays[1, k], r, k
@@ -93,11 +93,11 @@ def take_all(ranges, rays, x, y, rho, beam):
 
 @kernel
 def take_valid(ranges, rays, range_min, range_max, x, y, rho, beam):
-    """The points of the valid beams, one after the other: their number."""
+    """Compute the points of the valid beams, one by one; returns their number."""
     n = 0
     for k in range(len(ranges)):
         r = ranges[k]
-        # Written in any case, and kept if valid: a branch here would be guessed wrong at every dropout.
+        # Always written, and kept only if valid: a branch here would be mispredicted at every dropout.
         x[n], y[n], rho[n], beam[n] = r * rays[0, k], r * rays[1, k], r, k
         n += is_valid(r, range_min, range_max)
     return n
@@ -105,7 +105,7 @@ def take_valid(ranges, rays, range_min, range_max, x, y, rho, beam):
 
 @kernel
 def look_past_all_round(x, y, rho, beam, n, beams, to, to_beam, passed, steps, limits):
-    """`look_past` on a full circle: from the farthest point, which is at no thing, until it comes round again."""
+    """`look_past` on a full circle, starting at the farthest point, which cannot be on an object."""
     farthest, most = 0, 0.0
     for k in range(n):
         if rho[k] > most:
@@ -125,7 +125,7 @@ def look_past_all_round(x, y, rho, beam, n, beams, to, to_beam, passed, steps, l
 
 @kernel
 def lay_round(x, y, beam, passed, n, beams, to, to_beam, breaks, looked, limits):
-    """Open a full circle of n points at its widest gap, and put it down four times."""
+    """Open a full circle of n points at its widest gap, and store it four times."""
     opening, widest = 0, -1.0
     for k in range(1, n):
         gap = square(x, y, k - 1, k)
@@ -137,7 +137,7 @@ def lay_round(x, y, beam, passed, n, beams, to, to_beam, breaks, looked, limits)
         turn(values, n, opening, 0, target)
         repeat(target, n, 0)
     turn(beam, n, opening, beams, to_beam)
-    # However often the beams were turned before, the first is one of the first turn.
+    # Whatever the rotation so far, the first beam belongs to the first turn.
     past = to_beam[0] // beams * beams
     for k in range(n):
         to_beam[k] -= past
@@ -150,21 +150,21 @@ def lay_round(x, y, beam, passed, n, beams, to, to_beam, breaks, looked, limits)
 
 @kernel
 def turn(values, n, start, shift, to):
-    """Put n values of a full circle down from `start` on; past the seam they are greater by `shift`."""
+    """Store n values of a full circle from `start` on; past the seam they are greater by `shift`."""
     shifted(values[start:n], 0, to[: n - start])
     shifted(values[:start], shift, to[n - start : n])
 
 
 @kernel
 def repeat(values, n, shift):
-    """Put n values down three times more, each time greater by `shift`."""
+    """Store n values three more times, each time greater by `shift`."""
     for lap in range(1, 4):
         shifted(values[:n], lap * shift, values[lap * n : (lap + 1) * n])
 
 
 @kernel
 def shifted(values, shift, to):
-    """Of slices it is known that no index counts from the end: several values are then taken at a time."""
+    """Uses slices, whose indices are known not to count from the end, so the compiler can vectorise the copy."""
     for k in range(len(values)):
         to[k] = values[k] + shift
 
@@ -173,8 +173,7 @@ def shifted(values, shift, to):
 def find_breaks(x, y, beam, breaks, n, looked, limits):
     """Number the breaks: more than max_dropout beams without a return, or a gap wider than max_gap (extensions).
 
-    looked: whether `look_past` came before: where it left a 1, the beams between stand for a thing and count as no
-    dropout.
+    looked: whether `look_past` ran before: at its 1s, the missing beams belong to an object and are not a dropout.
     """
     widest = limits.max_gap * limits.max_gap
     breaks[0] = total = 0
@@ -190,11 +189,11 @@ def find_breaks(x, y, beam, breaks, n, looked, limits):
 
 @kernel
 def breach(points, k, neighbour, limits):
-    """(check, value, limit) of the extension that forbids the step from point k to its neighbour, or check NONE."""
+    """(check, value, limit) of the extension that forbids the step from point k to its neighbour, else check NONE."""
     if points.breaks[neighbour] == points.breaks[k]:
         return NONE, 0.0, 0.0
     dropout, gap = abs(points.beam[neighbour] - points.beam[k]) - 1, math.sqrt(square(points.x, points.y, k, neighbour))
-    # Behind a thing that is looked past, only a gap can part.
+    # Behind an ignored object, only a gap makes a break.
     if dropout > limits.max_dropout and not (limits.max_occluder > 0.0 and gap > limits.max_gap):
         return MAX_DROPOUT, float(dropout), float(limits.max_dropout)
     return MAX_GAP, gap, limits.max_gap

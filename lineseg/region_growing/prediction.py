@@ -21,9 +21,9 @@ def predicted_distance(x, y, line):
 
 
 def predicted_ranges(line: tuple[ArrayLike, ArrayLike, ArrayLike], rays: NDArray[np.float64]) -> NDArray[np.float64]:
-    """(n,) ρ′ [m] of the beams along rays (2, n); negative where a beam points away from the line, ±inf along it.
+    """(n,) ρ′ [m] of the beams along rays (2, n); negative if a beam points away from the line, ±inf if parallel.
 
-    line: (a, b, c), of all beams or (n,) of each.
+    line: (a, b, c), one for all beams or (n,) one each.
     """
     a, b, c = map(np.asarray, line)
     with np.errstate(divide="ignore", invalid="ignore"):

@@ -16,11 +16,11 @@ NOWHERE = (0.0, 0.0, 0.0)
 
 @inlined_kernel
 def find_seed(points, start, stop, limits, candidate, log):
-    """First position in start..stop − 1 at which a seed begins, or −1; and the scatter of the seed.
+    """First position in start..stop − 1 where a seed begins, or −1; and the scatter of the seed.
 
-    A seed is a window of exactly S_num consecutive points (the listing's j = i + S_num would be one more) in which each
-    point, in turn, passes two checks: the distance to its predicted point P′ is at most δ, the distance to the line
-    at most ε. `flag` of the listing starts anew for every window; printed, it is never set back.
+    A seed is a window of exactly S_num consecutive points (the listing's j = i + S_num is one too many) in which each
+    point passes two checks: the distance to its predicted point P′ is at most δ, and the distance to the line is at
+    most ε. `flag` is reset for every window; the printed listing never resets it.
     """
     scatter = NO_SCATTER
     first = start
@@ -41,7 +41,7 @@ def find_seed(points, start, stop, limits, candidate, log):
 
 @inlined_kernel
 def next_window(points, first, last, limits):
-    """Where to look next after a window that failed: a window that reaches over an edge need not be tried."""
+    """Where to look next after a failed window, skipping windows that cross an edge."""
     for k in range(min(last, len(points.x) - 2), first + 1, -1):
         if is_edge(points, k, limits):
             return k
@@ -50,7 +50,7 @@ def next_window(points, first, last, limits):
 
 @inlined_kernel
 def is_edge(points, k, limits):
-    """Whether the points A, B, C at positions k − 1, k, k + 1 fit into no seed, whatever its line.
+    """Whether no seed can contain the points A, B, C at positions k − 1, k, k + 1, whatever its line.
 
     Let r be ρ/ρ′ of a point, so that the line passes through A/r_A, B/r_B and C/r_C; with [PQ] the cross product of two
     points then r_C·[AB] + r_A·[BC] = r_B·[AC]. In a seed each ρ′ is within δ of its ρ, and no r differs from 1 by more
@@ -80,7 +80,7 @@ def is_seed(points, first, last, scatter, limits):
 
 @inlined_kernel
 def test_of(scatter, limits):
-    """What `fails` needs of a window: u along its line, u × any point of the line, and both limits, squared."""
+    """The input of `fails` for a window: u along its line, u × any point of the line, and both limits, squared."""
     ux, uy = halved(scatter.cosine, scatter.sine, scatter.x, scatter.y)
     return ux, uy, ux * scatter.y - uy * scatter.x, limits.delta**2, limits.epsilon**2 * (ux * ux + uy * uy)
 
@@ -101,7 +101,7 @@ def fails(x, y, test):
 
 @kernel
 def note_refusal(points, first, last, scatter, limits, candidate, log):
-    """Find the first point of the window that fails, and by which check."""
+    """Find the first point of the window that fails, and the check that it fails."""
     span = first, last
     for k in range(first + 1, last + 1):
         check, value, limit = breach(points, k - 1, k, limits)

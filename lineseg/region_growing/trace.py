@@ -1,4 +1,4 @@
-"""Every decision of one run of region growing, and what they say about a beam."""
+"""The decisions of one run of region growing, and what they say about a beam."""
 
 from __future__ import annotations
 
@@ -43,16 +43,16 @@ VOCABULARY = Vocabulary(
             "lines merged", "overlap", "joined", "merge",
             "lines merged: {value:deg} apart, less than {limit:deg}; now {span}",
         ),
-        Kind("lines kept apart", "overlap", "none", "", "neighbouring lines stay two: {refusal}"),
+        Kind("lines kept apart", "overlap", "none", "", "neighbouring lines not merged: {refusal}"),
         Kind(
             "overlap cut", "overlap", "parted", "cut",
             "overlap cut at beam {beam}, {value:m} from the first line, {limit:m} from the second; "
             "the first line keeps {span}",
-            within="overlap cut behind beam {last}: every shared point is nearer to the first line; it keeps {span}",
+            within="overlap cut after beam {last}: every shared point is nearer to the first line, which keeps {span}",
         ),
         Kind(
             "endpoints", "endpoints", "placed", "",
-            "endpoints placed: the outermost points of {span}, projected on the line, {value:m} apart",
+            "endpoints placed: the outermost points of {span}, projected onto the line, {value:m} apart",
         ),
     ),
     CHECKS,
@@ -61,7 +61,7 @@ PHASES = VOCABULARY.phases
 
 
 class GrowthTrace(Trace):
-    """The trace of region growing; its positions are those of the valid points."""
+    """The trace of region growing; its positions count the valid points."""
 
     params: Params
 
@@ -71,7 +71,7 @@ class GrowthTrace(Trace):
 
     @cached_property
     def looked_past(self) -> NDArray[np.bool_]:
-        """(n,) which beams end at thin things that lines pass behind, or are lost beside one."""
+        """(n,) which beams end at thin objects that lines pass behind, or are lost next to one."""
         n = len(self.scan)
         taken = np.zeros(n, np.bool_)
         taken[self._beams] = True
@@ -85,21 +85,21 @@ class GrowthTrace(Trace):
 
     @cached_property
     def phases(self) -> NDArray[np.int64]:
-        """Of each decision, which of PHASES it belongs to; a line dropped after the last growth: to the overlap."""
+        """The index in PHASES of each decision; a line dropped after the last growth counts as overlap."""
         of_kind = np.array([PHASES.index(kind.phase) for kind in VOCABULARY.kinds])
         phases = of_kind[self.log["kind"]]
         phases[self._growth_ended_at :] = np.maximum(phases[self._growth_ended_at :], PHASES.index("overlap"))
         return phases
 
     def _stretches(self, level: str) -> NDArray[np.int64]:
-        """A line is the search for the next seed with the growth from it; a phase of the growing is of one line."""
+        """A "line" covers the search for the next seed and the growth from it; a growing "phase" covers one line."""
         phases = self.phases
         key = phases if level == "phase" else np.where(phases <= 1, self.log["candidate"], -phases)
         return np.column_stack((key, self.log["candidate"] * (phases <= 1)))
 
     @cached_property
     def _growth_ended_at(self) -> int:
-        """Index of the first decision after the last growth; a line dropped later was dropped for an overlap."""
+        """Index of the first decision after the last growth; lines dropped later were dropped for an overlap."""
         growth = np.flatnonzero(self.log["kind"] <= GROWTH_STOPPED)
         if not len(growth):
             return 0
@@ -116,9 +116,9 @@ class GrowthTrace(Trace):
         if len(joined):
             row = Row(*joined[-1].item())
             value = row.value
-            how = f"growth {self.told(row).way} took it at {metres(value)} from the line, ε = {metres(limit)}"
+            how = f"growth {self.told(row).way} added it, {metres(value)} from the line, ε = {metres(limit)}"
         elif value < limit:
-            how = f"it was in the seed, and lies {metres(value)} from the line, ε = {metres(limit)}"
+            how = f"it was in the seed, {metres(value)} from the line, ε = {metres(limit)}"
         else:
             how = f"it was in the seed; the line has since moved {metres(value)} away from it, ε = {metres(limit)}"
         margin = limit - value
@@ -126,7 +126,7 @@ class GrowthTrace(Trace):
         return Explanation(beam, text, segment, "epsilon", value, limit, margin)
 
     def _grown_into(self, segment: int) -> list[int]:
-        """The growths whose lines became the segment: its own and those that were merged into it."""
+        """The growths whose lines became the segment: its own and those merged into it."""
         ends = self.extraction.segments[segment].first, self.extraction.segments[segment].last
         own = [line.candidate for line in self.lines_at(len(self) - 1) if (line.first, line.last) == ends]
         for row in self.log[self.log["kind"] == LINES_MERGED][::-1]:
@@ -135,7 +135,7 @@ class GrowthTrace(Trace):
         return own
 
     def _afterwards(self, beam: int, own: list[int]) -> str:
-        """What became of the line that took the beam: it was merged, or had to share it and was cut."""
+        """What happened later to the line of the beam: a merge, or a cut from a line that shared the beam."""
         mine = np.isin(self.log["candidate"], own)
         merged = self.log[mine & (self.log["kind"] == LINES_MERGED)]
         shared = self.log[self._decisions_over(beam) & ~mine & (self.log["kind"] == LINE_KEPT)]
@@ -145,17 +145,18 @@ class GrowthTrace(Trace):
         text = ""
         if len(merged):
             row = Row(*merged[-1].item())
-            text += f"; then two lines became this one, {degrees(row.value)} apart, less than {degrees(row.limit)}"
+            text += f"; then two lines were merged into this one, {degrees(row.value)} apart, less than "
+            f"{degrees(row.limit)}"
         if len(others) and len(cut):
             at = self._beam(Row(*cut[-1].item()).beam)
-            text += f"; another line took it too, and the cut at beam {at} left it to this one"
+            text += f"; another line contained it too, and the cut at beam {at} left it to this one"
         return text
 
     def _why_out(self, beam: int) -> Explanation:
-        """The last word on a beam: its line was dropped or cut; else growth refused it; else no seed held it."""
+        """The final decision on a beam: its line was dropped or cut, or growth refused it, or no seed contained it."""
         if self.looked_past[beam]:
             widest = self.params.max_occluder
-            thing = f"it ends at a thing at most W_max = {metres(widest)} wide"
+            thing = f"it ends at an object at most W_max = {metres(widest)} wide"
             text = f"beam {beam} is in no segment: {thing}, which lines pass behind"
             return Explanation(beam, text, -1, "max_occluder", limit=widest)
         inside = self.log[self._decisions_over(beam)]
@@ -163,19 +164,20 @@ class GrowthTrace(Trace):
         if len(dropped):
             row = longest(dropped)
             told = self.told(row)
-            text = f"beam {beam} is in no segment: its line of {told.span} was dropped, {told.refusal}"
+            text = f"beam {beam} is in no segment: its line of {told.span} was dropped: {told.refusal}"
             return Explanation(beam, text, -1, told.check.name, row.value, row.limit, row.value - row.limit)
         about = self.log[self._decided_on(beam)]
         refused = about[(about["kind"] == GROWTH_STOPPED)]
         if len(refused):
-            return self._refused(beam, nearest(refused), "no line took it; the nearest stopped there: ")
+            return self._refused(beam, nearest(refused), "growth of the nearest line stopped here: ")
         tried = inside[inside["kind"] == SEED_REJECTED]
         if len(tried):
             row = nearest(tried)
-            lead = f"no seed was found here; nearest to one came {self.told(row).span}: "
+            lead = f"no seed was found here; the closest was {self.told(row).span}: "
             return self._refused(beam, row, lead)
         least = max(self.params.min_points, self.params.seed_points)
-        text = f"beam {beam} is in no segment: no seed was sought, fewer than {least} points are left from here on"
+        text = f"beam {beam} is in no segment: no seed was sought, because fewer than {least} points are left from "
+        "here on"
         name = "min_points" if self.params.min_points >= self.params.seed_points else "seed_points"
         return Explanation(beam, text, -1, name, limit=float(least))
 
@@ -191,7 +193,7 @@ def longest(rows: NDArray[np.void]) -> Row:
 
 
 def nearest(rows: NDArray[np.void]) -> Row:
-    """The row that missed its limit by the least factor."""
+    """The row that missed its limit by the smallest factor."""
     with np.errstate(over="ignore"):
         return Row(*rows[np.argmin(rows["value"] / np.maximum(rows["limit"], 1e-12))].item())
 

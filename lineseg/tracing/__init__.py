@@ -1,1 +1,1 @@
-"""What a method decided, and how its kernels write that down."""
+"""The decisions of a method, and how its kernels log them."""

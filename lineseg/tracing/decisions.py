@@ -1,4 +1,4 @@
-"""Every decision of one run of a method, in order: what the page replays."""
+"""All decisions of one run of a method, in order, as the page replays them."""
 
 from __future__ import annotations
 
@@ -18,15 +18,15 @@ from .vocabulary import Effect, Sentence, Vocabulary, metres
 
 @dataclass(frozen=True)
 class Decision:
-    """One decision, with the line, the measured value and the limit of that moment.
+    """One decision, with the line, the measured value and the limit at that moment.
 
-    kind, phase: of the method's vocabulary. candidate: which line it is about, counted from 0 (of region growing: which
-    growth); partner: the other line of a merge or a cut, else −1. direction: +1 forward, −1 backward, 0 neither.
-    first, last: beams of the window under test, or of the line as it is after the decision; beam: the one decided on,
-    or −1. line: (a, b, c), the line the beam was compared with; other: the partner's, for merges and cuts.
-    check: which threshold; "" where nothing was compared, "end" at the end of the scan. value, limit: what was
-    compared; both are the length where endpoints are placed.
-    ends: both endpoints (x1, y1, x2, y2), only where they are placed.
+    kind, phase: from the method's vocabulary. candidate: number of the line from 0 (in region growing, of the growth);
+    partner: the other line of a merge or cut, else −1. direction: +1 forward, −1 backward, 0 neither. first, last:
+    beams of the tested window, or of the line after the decision; beam: the tested beam, or −1. line: (a, b, c), the
+    line it was compared with; other: the partner's line, for merges and cuts.
+    check: the threshold; "" if nothing was compared, "end" at the end of the scan. value, limit: the compared numbers;
+    both are the length when endpoints are placed.
+    ends: both endpoints (x1, y1, x2, y2), only when they are placed.
     """
 
     index: int
@@ -50,7 +50,7 @@ class Decision:
 
 @dataclass(frozen=True)
 class TracedLine:
-    """A line as it stands after some decision; `growing` while it is not yet accepted."""
+    """A line after some decision; `growing` until it is accepted."""
 
     candidate: int
     first: int
@@ -61,7 +61,7 @@ class TracedLine:
 
 @dataclass(frozen=True)
 class Explanation:
-    """Why a beam belongs to its segment, or to none; margin: by how much it is inside the limit (< 0: outside)."""
+    """Why a beam belongs to its segment, or to none; margin: how far it is inside the limit (negative: outside)."""
 
     beam: int
     text: str
@@ -75,9 +75,9 @@ class Explanation:
 class Trace:
     """The decisions of one run; a sequence of `Decision`.
 
-    log: (decisions,) structured array, one row each (see log.py), with first, last and beam as positions; positions
-    (m,) int turns them into beams, and may go on counting past the seam of a full circle. total: number of points, as
-    many as positions without.
+    log: (decisions,) structured array, one row each (see log.py), with first, last and beam as positions. positions:
+    (m,) int maps these to beams, whose numbers may keep rising past the seam of a full circle. total: number of points
+    (default: number of positions).
     """
 
     def __init__(
@@ -131,7 +131,7 @@ class Trace:
         )
 
     def texts(self, indices: NDArray[np.integer]) -> list[str]:
-        """The sentences of some decisions, for a fraction of what the whole decisions cost."""
+        """The sentences of some decisions, much faster than the whole decisions."""
         rows = self.log[indices]
         beams = self.as_beams(np.array([rows["first"], rows["last"], rows["beam"]])).T.tolist()
         return [str(self._sentence(Row(*row), *where)) for row, where in zip(rows.tolist(), beams, strict=True)]
@@ -144,14 +144,14 @@ class Trace:
         return beams[self.scan.valid[beams]]
 
     def as_beams(self, positions: NDArray[np.integer]) -> NDArray[np.int64]:
-        """Beams at the positions of `log`; what is negative, none, becomes −1."""
+        """Beams at the positions of `log`; negative positions become −1, for none."""
         if not len(self._beams):
             return np.full(positions.shape, -1, dtype=np.int64)
         return np.where(positions < 0, -1, self._beams.take(positions, mode="clip"))
 
     @cached_property
     def phases(self) -> NDArray[np.int64]:
-        """Of each decision, which of the vocabulary's phases it belongs to."""
+        """The index of each decision's phase in the vocabulary."""
         of_kind = [self.vocabulary.phases.index(kind.phase) for kind in self.vocabulary.kinds]
         return np.array(of_kind, dtype=np.int64)[self.log["kind"]]
 
@@ -163,26 +163,26 @@ class Trace:
         return np.flatnonzero(self.log["kind"] == names.index(kind))
 
     def jump(self, name: str) -> NDArray[np.intp]:
-        """Indices of the decisions that a jump leads to, see `Kind`; none where the method has no such decision."""
+        """Indices of the decisions that a jump leads to, see `Kind`; none if the method has no such decisions."""
         wanted = [number for number, kind in enumerate(self.vocabulary.kinds) if kind.jump == name]
         return np.flatnonzero(np.isin(self.log["kind"], wanted))
 
     def starts(self, level: str) -> NDArray[np.intp]:
-        """Indices at which a "decision", a "phase" or a "line" (what is about another candidate) begins."""
+        """Indices where a "decision", a "phase" or a "line" (decisions about one candidate) starts."""
         if level not in ("decision", "phase", "line"):
-            raise ValueError(f"there is no level {level!r}; there are decision, phase, line")
+            raise ValueError(f"there is no level {level!r}; choose from decision, phase, line")
         if level == "decision" or not len(self):
             return np.arange(len(self))
         keys = self._stretches(level)
         return np.flatnonzero(np.any(np.diff(keys, axis=0, prepend=keys[:1] - 1), axis=1))
 
     def _stretches(self, level: str) -> NDArray[np.int64]:
-        """(decisions, any): equal in neighbouring decisions of one stretch."""
+        """(decisions, any): equal for neighbouring decisions of one stretch."""
         candidates = self.log["candidate"] if level == "line" else np.zeros(len(self), np.int64)
         return np.column_stack((self.phases, candidates))
 
     def lines_at(self, step: int) -> tuple[TracedLine, ...]:
-        """The lines there are after decision `step`; −1: before the first, none."""
+        """The lines after decision `step`; none for −1, before the first decision."""
         rows = self.log[: step + 1]
         lines: dict[int, TracedLine] = {}
         for row in rows[self._lasting[: step + 1]].tolist():
@@ -218,17 +218,17 @@ class Trace:
         return int(self._beams[min(max(position, 0), len(self._beams) - 1)])
 
     def _sentence(self, row: Row, first: int, last: int, beam: int) -> Sentence:
-        """first, last, beam: the beams at the row's positions; −1 for a beam: none."""
+        """first, last, beam: the beams at the row's positions; beam −1 for none."""
         kind, check = self.vocabulary.kinds[row.kind], self.vocabulary.checks[row.check]
         return Sentence(row, kind, check, first, last, beam, self.total)
 
     def told(self, row: Row) -> Sentence:
-        """What the decision of a row is told with."""
+        """The fields for the sentence of a row's decision."""
         beam = self._beam(row.beam) if row.beam >= 0 else -1
         return self._sentence(row, self._beam(row.first), self._beam(row.last), beam)
 
     def explain(self, beam: int) -> Explanation:
-        """Why beam `beam` belongs to its segment, or to none: in one sentence, with threshold, value and margin."""
+        """Why beam `beam` belongs to its segment, or to none: one sentence with threshold, value and margin."""
         if not 0 <= beam < len(self.scan):
             raise ValueError(f"beam {beam}: the scan has the beams 0 to {len(self.scan) - 1}")
         segment = int(self.extraction.labels[beam])
@@ -253,21 +253,21 @@ class Trace:
         return Explanation(beam, text, segment, value=value)
 
     def _why_out(self, beam: int) -> Explanation:
-        """The last word on a beam: what was decided about it, or about the last line that held it."""
+        """The final decision on a beam: the last one about it, or about the last line that contained it."""
         about = np.flatnonzero(self._decided_on(beam) | self._decisions_over(beam))
         if not len(about):
-            return Explanation(beam, f"beam {beam} is in no segment: no line ever held it", -1)
+            return Explanation(beam, f"beam {beam} is in no segment: no line ever contained it", -1)
         decision = self[int(about[-1])]
         text = f"beam {beam} is in no segment: {decision.text}"
         margin = decision.value - decision.limit if decision.kind == "line dropped" else np.nan
         return Explanation(beam, text, -1, decision.check, decision.value, decision.limit, margin)
 
     def _decided_on(self, beam: int) -> NDArray[np.bool_]:
-        """(decisions,) which of them are on the beam itself."""
+        """(decisions,) whether a decision is about the beam itself."""
         return self.as_beams(self.log["beam"]) == beam
 
     def _decisions_over(self, beam: int) -> NDArray[np.bool_]:
-        """(decisions,) whose window or line contains the beam."""
+        """(decisions,) whether the window or line of a decision contains the beam."""
         within = np.zeros(len(self.log), dtype=bool)
         for position in np.flatnonzero(self._beams == beam):
             within |= (self.log["first"] <= position) & (position <= self.log["last"])

@@ -1,6 +1,6 @@
-"""How the kernels write their decisions down: one row each, or nothing at all if there is no log.
+"""The log of the kernels: one row for each decision, or nothing if there is no log.
 
-A kernel compiled for `log = None` has no trace of this left in it; compiled for a `Log` it is the same code, writing.
+A kernel compiled for `log = None` contains no logging at all; compiled for a `Log`, the same code writes rows.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from ..kernel import kernel
 
 _LINE = np.dtype([(name, np.float64) for name in ("a", "b", "c")])
 _ENDS = np.dtype([(name, np.float64) for name in ("x1", "y1", "x2", "y2")])
-# The fields are those of `Row`.
+# The fields of `Row`.
 ROW = np.dtype(
     [
         *((name, np.int8) for name in ("kind", "check", "direction")),
@@ -34,10 +34,10 @@ T = TypeVar("T")
 
 
 class Row(NamedTuple):
-    """A decision as it is written down, for what the fields say see `Decision`: `Row(*rows[i].item())`.
+    """A logged decision, `Row(*rows[i].item())`; `Decision` explains the fields.
 
-    kind, check: numbers of the method's vocabulary. first, last, beam: positions. line, other: (0, 0, 0) where there is
-    none; ends: four zeros unless they are placed.
+    kind, check: numbers in the method's vocabulary. first, last, beam: positions. line, other: (0, 0, 0) if there is
+    none; ends: four zeros unless endpoints are placed.
     """
 
     kind: int
@@ -56,12 +56,12 @@ class Row(NamedTuple):
 
     @property
     def points(self) -> int:
-        """How many positions it spans."""
+        """Number of positions it spans."""
         return max(0, self.last - self.first + 1)
 
 
 class Log(NamedTuple):
-    """rows: (capacity,) of ROW; used: (1,) int64, how many there are, even where they did not fit."""
+    """rows: (capacity,) of ROW; used: (1,) int64, number of rows, including those that did not fit."""
 
     rows: NDArray
     used: NDArray[np.int64]
@@ -69,19 +69,19 @@ class Log(NamedTuple):
 
 @kernel
 def note(log, kind, check, candidate, direction, span, beam, line, value, limit):
-    """Write a decision about one candidate; span: (first, last) of the window under test, or of the line after it."""
+    """Log a decision about one candidate; span: (first, last) of the tested window, or of the line afterwards."""
     write(log, kind, check, (candidate, -1), direction, span, beam, line, (0.0, 0.0, 0.0), value, limit)
 
 
 @kernel
 def note_pair(log, kind, check, pair, span, beam, line, other, value, limit):
-    """Write a decision about two candidates; line, other: the line of each."""
+    """Log a decision about two candidates; line, other: the line of each."""
     write(log, kind, check, pair, 0, span, beam, line, other, value, limit)
 
 
 @kernel
 def note_ends(log, kind, candidate, span, line, ends, length):
-    """Write down that a line has its endpoints (x1, y1, x2, y2), `length` apart."""
+    """Log that a line has endpoints (x1, y1, x2, y2), `length` apart."""
     i = log.used[0]
     write(log, kind, 0, (candidate, -1), 0, span, -1, line, (0.0, 0.0, 0.0), length, length)
     if i < len(log.rows):
@@ -108,7 +108,7 @@ def write(log, kind, check, pair, direction, span, beam, line, other, value, lim
 
 
 def written(call: Callable[[Log], T], rows: int) -> tuple[T, NDArray[np.void]]:
-    """What `call` returns, and the rows it wrote; it is called again where `rows` were too few."""
+    """The result of `call`, and the rows it logged; calls it again with more memory if `rows` was too small."""
     log = Log(np.empty(rows, ROW), np.zeros(1, np.int64))
     result = call(log)
     if log.used[0] > rows:
@@ -118,7 +118,7 @@ def written(call: Callable[[Log], T], rows: int) -> tuple[T, NDArray[np.void]]:
 
 
 class Notes:
-    """A log that Python writes to, for methods whose decisions are few."""
+    """A log written from Python, for methods with few decisions."""
 
     def __init__(self) -> None:
         self._rows: list[Row] = []
@@ -137,7 +137,7 @@ class Notes:
         value: float = 0.0,
         limit: float = 0.0,
     ) -> None:
-        """Write a decision down; see `Decision`."""
+        """Log a decision; see `Decision`."""
         row = Row(kind, check, 0, candidate, partner, *span, beam, line, other, NO_ENDS, value, limit)
         self._rows.append(row)
 

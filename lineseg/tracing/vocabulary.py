@@ -1,4 +1,4 @@
-"""What a method can decide, and the sentence that each decision is told in."""
+"""The kinds of decisions of a method, and the sentence for each."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ Effect = Literal["none", "shown", "stands", "gone", "joined", "parted", "placed"
 class Kind(NamedTuple):
     """A kind of decision of a method.
 
-    effect: what it does to the lines there are. "shown": its candidate is one at this moment only; "stands": from now
-    on; "gone": no longer; "joined": it stands and its partner is gone; "parted": it ends before `beam`, where its
-    partner begins; "placed": it has its endpoints. jump: by which button of the page it is found: seed (how a line of
-    this method begins), line, drop, merge, cut, refusal. text: its sentence, with the fields of `Sentence`; within: the
-    sentence where the value is below the limit, if that is another.
+    effect: how it changes the set of lines. "shown": its candidate is a line at this moment only; "stands": from now
+    on; "gone": no longer; "joined": it stays and its partner is removed; "parted": it ends before `beam`, where its
+    partner starts; "placed": it gets its endpoints. jump: the button of the page that finds it: seed (how a line of
+    this method starts), line, drop, merge, cut, refusal. text: its sentence, with fields of `Sentence`; within: a
+    different sentence for a value below the limit, if needed.
     """
 
     name: str
@@ -31,9 +31,9 @@ class Kind(NamedTuple):
 
 
 class Check(NamedTuple):
-    """What a decision compares, mostly with a threshold of that name.
+    """A comparison in a decision, usually with a threshold of the same name.
 
-    refuses: what it says of a point, a line or a merge that it refuses, with the fields of `Sentence`.
+    refuses: its sentence about a refused point, line or merge, with fields of `Sentence`.
     """
 
     name: str
@@ -42,7 +42,7 @@ class Check(NamedTuple):
 
 @dataclass(frozen=True)
 class Vocabulary:
-    """What a method decides, by which checks; a row of its log has numbers of these."""
+    """The kinds and checks of a method; rows of its log contain their numbers."""
 
     kinds: tuple[Kind, ...]
     checks: tuple[Check, ...]
@@ -61,7 +61,7 @@ class Vocabulary:
 
     @cached_property
     def jumps(self) -> tuple[str, ...]:
-        """The jumps that lead to a decision of this method."""
+        """The jumps for which this method has decisions."""
         return tuple(dict.fromkeys(kind.jump for kind in self.kinds if kind.jump))
 
     def jump_of(self, kind: str) -> str:
@@ -70,10 +70,9 @@ class Vocabulary:
 
 @dataclass(slots=True)
 class Sentence:
-    """What a decision is told with: the texts of `Kind` and `Check` name these fields and properties.
+    """The fields and properties for the texts of `Kind` and `Check`.
 
-    first, last, beam: beams. total: the points of the scan. A value prints as {value:m} in metres, as {value:deg} in
-    degrees.
+    first, last, beam: beams. total: number of points of the scan. Write {value:m} for metres, {value:deg} for degrees.
     """
 
     row: Row
@@ -93,7 +92,7 @@ class Sentence:
 
     @property
     def refusal(self) -> str:
-        """What the check says that refused, with the value, the limit and by how much it was missed."""
+        """The sentence of the check that refused, with the value, the limit and the difference."""
         return self.check.refuses.format_map(self)
 
     @property
@@ -110,7 +109,7 @@ class Sentence:
 
     @property
     def edge(self) -> str:
-        """Why there is no further point for a line."""
+        """Why a line has no next point."""
         if self.points >= self.total:
             return "every point belongs to the line"
         return "the last valid beam is reached" if self.row.direction > 0 else "the first valid beam is reached"
@@ -133,7 +132,7 @@ class Sentence:
 
 
 class Quantity(float):
-    """A number that prints as metres with the format "m", and from radians as degrees with "deg"."""
+    """A number that the format "m" prints as metres, and "deg" prints as degrees, converted from radians."""
 
     def __format__(self, form: str) -> str:
         if form == "m":

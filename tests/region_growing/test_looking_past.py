@@ -31,7 +31,7 @@ def test_the_leg_is_in_no_line_and_its_beams_say_so():
     assert np.flatnonzero(traced.extraction.labels == -1).tolist() == LEG_BEAMS
     said = traced.explain(90)
     assert (said.segment, said.check, said.limit) == (-1, "max_occluder", 0.3)
-    assert "a thing at most W_max = 0.300 m wide, which lines pass behind" in said.text
+    assert "an object at most W_max = 0.300 m wide, which lines pass behind" in said.text
     assert "max_occluder" not in {trace(wall_ahead(bump=LEG), PAPER).explain(beam).check for beam in LEG_BEAMS}
 
 

@@ -73,7 +73,7 @@ def test_a_beam_that_two_lines_took_says_which_kept_it_and_by_what_distance():
     assert why.segment == 0
     # By the second line's growth it was 0.029 m away, but that is not the line that kept it.
     assert why.value == pytest.approx(0.0, abs=0.001)
-    assert why.text.endswith("another line took it too, and the cut at beam 87 left it to this one")
+    assert why.text.endswith("another line contained it too, and the cut at beam 87 left it to this one")
     assert "cut" not in traced.explain(60).text
 
 
@@ -81,7 +81,9 @@ def test_a_beam_of_a_merged_line_says_so():
     scan = open_recording(data_folder("sample_scans") / "lessons" / "5_shallow_corner.npz")[0]
     traced = trace(scan, Params(merge_rms=0.0))
     for beam in (20, 90):
-        assert traced.explain(beam).text.endswith("then two lines became this one, 3.5° apart, less than 5.7°")
+        assert traced.explain(beam).text.endswith(
+            "then two lines were merged into this one, 3.5° apart, less than 5.7°"
+        )
 
 
 def test_a_lost_beam_says_so():
