@@ -1,4 +1,4 @@
-"""What would change the answer for one beam: of each threshold the nearest value, found by running the method."""
+"""The nearest value of each threshold that would change the answer for one beam, found by running the method."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ from .knobs import Knob, Thresholds
 from .scan import Scan
 from .segment import Extraction
 
-# Of the range of a knob: the widest step of the search. What changes and changes back within one stays unseen.
+# Widest step of the search, as a share of the range of a knob. A change that reverts within one step is missed.
 WIDEST = 1 / 24
 
 
 @dataclass(frozen=True)
 class WhatIf:
-    """The nearest value of a threshold at which a beam has another answer; None if no value in its range gives one.
+    """The nearest value of a threshold that changes the answer for a beam; None if no value in its range does.
 
-    segment: that of the beam at this value; first, last: the beams of that segment; −1 for none.
+    segment: the beam's segment at this value; first, last: the beams of that segment; −1 for none.
     """
 
     name: str
@@ -39,10 +39,10 @@ def what_if(
 ) -> tuple[WhatIf, ...]:
     """For each threshold, changed alone, the nearest value at which `beam` is in a line or in none, or in another line.
 
-    Two segments are the same line if the intersection over union of their beams is more than one half. Values are those
-    that the knob can be set to; near and far are as on its slider, so in the logarithm where that is logarithmic. The
-    search goes outward from the present value in ever wider steps, and halves the step that changed the answer.
-    Raises ValueError for a beam that the scan does not have.
+    Two segments are the same line if the intersection over union of their beams is more than one half. Only values that
+    the slider can take are tried, and distances are measured on its scale, linear or logarithmic. The search moves
+    outward from the present value in growing steps, then bisects the step that changed the answer.
+    Raises ValueError for a beam outside the scan.
     """
     need_scan(scan)
     if not 0 <= beam < len(scan):
@@ -64,7 +64,7 @@ def what_if(
 
 
 def nearest(value: float, kind: type, knob: Knob, differs: Callable[[int | float], bool]) -> int | float | None:
-    """The value of the knob nearest to `value` that differs, or None."""
+    """The nearest different value of the knob, or None."""
     place = math.log if knob.log else float
     settable = knob.step * np.arange(round(knob.low / knob.step), round(knob.high / knob.step) + 1)
     settable = settable[(settable >= knob.least) & ((settable > 0) | (not knob.log))]
@@ -81,7 +81,7 @@ def nearest(value: float, kind: type, knob: Knob, differs: Callable[[int | float
 
 
 def first_change(apart: NDArray[np.float64], widest: float, differs: Callable[[int], bool]) -> int | None:
-    """The first index that differs, if there is one change within each step; apart: (n,) rising distances."""
+    """The first index with another answer, assuming at most one change per step; apart: (n,) rising distances."""
     same, here, step = -1, 0, apart[0] if len(apart) else 0.0
     while same + 1 < len(apart):
         if differs(here):
@@ -113,7 +113,7 @@ def _unchanged(beam: int, name: str, knob: Knob) -> WhatIf:
 
 
 def _line_of(beam: int, extraction: Extraction) -> NDArray[np.bool_]:
-    """(n,) the beams of the beam's segment; none if it is in none."""
+    """(n,) the beams of the beam's segment; none if it is in no segment."""
     segment = extraction.labels[beam]
     return (extraction.labels == segment) & (segment >= 0)
 

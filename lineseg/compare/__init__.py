@@ -1,4 +1,4 @@
-"""Every method on the same frames: tuned alike on one half, reported on the other, timed in turns."""
+"""Compares all methods on the same frames: tuned on one half, judged on the other, timed in alternation."""
 
 from .comparison import Comparison, Row
 from .halves import Halves, halves

@@ -26,10 +26,10 @@ OBJECTIVE = Objective("truth")
 
 @dataclass(frozen=True, eq=False)
 class Row:
-    """A method on the judged half of a recording; evaluations: how many settings were tried on the other, 0 untuned.
+    """The result of a method on the judged half of a recording; evaluations: settings tried on the other half, or 0.
 
-    agreement: None where no truth is known. times: (frames,) [µs], None where nothing was timed yet; reference: those
-    of region growing with its defaults, from the same turns.
+    agreement: None if no truth is known. times: (frames,) [µs], None until timed; reference: times of region growing
+    with its defaults, measured in alternation.
     """
 
     recording: str
@@ -47,29 +47,29 @@ class Row:
 
     @property
     def score(self) -> float:
-        """The objective of the search, of the judged half; NaN where there is no true line."""
+        """The objective of the search on the judged half; NaN if there are no true lines."""
         if self.agreement is None:
             return math.nan
         return score_of(self.agreement)
 
     @property
     def ratio(self) -> float:
-        """Time to that of region growing, both summed over the frames; NaN where nothing was timed."""
+        """Time relative to region growing, both summed over the frames; NaN until timed."""
         if self.times is None or self.reference is None:
             return math.nan
         return float(self.times.sum() / self.reference.sum())
 
 
 def score_of(agreement: Agreement) -> float:
-    """Harmonic mean of TR and 1 − FR, times completeness: what tuning maximises."""
+    """Harmonic mean of TR and 1 − FR, times completeness: the objective of tuning."""
     return OBJECTIVE.of_rates(agreement.true_rate, agreement.false_rate, agreement.completeness)
 
 
 class Comparison:
-    """Methods on a recording; `rows` holds what is done so far, also where `run` was broken off.
+    """Compares methods on a recording; `rows` holds the results so far, even if `run` was interrupted.
 
-    methods: names, of all in the table without. budget: settings that are tried for each, the defaults being the
-    first; 0 tunes none. frames: at most so many, half of them to tune on. Without truth methods are only timed.
+    methods: names (default: all). budget: settings to try for each method, starting with the defaults; 0 tunes none.
+    frames: largest number of frames, half of them for tuning. Without truth, methods are only timed.
     """
 
     def __init__(
@@ -81,7 +81,7 @@ class Comparison:
     ) -> None:
         self.methods = [_method(name) for name in methods or EXTRACTORS]
         if budget < 0:
-            raise ValueError(f"the budget is {budget} evaluations; 0 or more can be made")
+            raise ValueError(f"the budget is {budget} evaluations; give 0 or more")
         try:
             self.halves: Halves = halves(len(recording), frames)
         except ValueError as error:
@@ -93,7 +93,7 @@ class Comparison:
 
     @property
     def steps(self) -> int:
-        """How often `run` yields."""
+        """Number of times that `run` yields."""
         tuned = sum(1 + self.budget for method in self.methods if self.budget and tunable(method))
         rounds = 2 if tuned else 1
         return len(self.methods) + tuned + rounds * len(self.halves.judged)
@@ -130,7 +130,7 @@ class Comparison:
         return best
 
     def _timed(self, start: int) -> Iterator[None]:
-        """Time the rows from `start` on, beside region growing with its defaults."""
+        """Time the rows from `start` on, in alternation with region growing with its defaults."""
         rows = self.rows[start:]
         reference: Setting = (EXTRACTORS[REFERENCE], EXTRACTORS[REFERENCE].params_type())
         settings: list[Setting] = [(EXTRACTORS[row.method], row.params) for row in rows]

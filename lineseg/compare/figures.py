@@ -13,7 +13,7 @@ from .comparison import Row
 
 
 def write_figures(rows: Sequence[Row], recording: Recording, frames: Sequence[int], folder: Path) -> list[Path]:
-    """Write NAME_times.svg and NAME_lines.svg, the latter of the middle one of the frames; of the untuned rows."""
+    """Write NAME_times.svg, and NAME_lines.svg for the middle frame, both for the untuned rows."""
     rows = [row for row in rows if row.recording == recording.name and not row.tuned]
     stem, kind = Path(recording.name).stem, figure_type()
     files = [folder / f"{stem}_times.svg", folder / f"{stem}_lines.svg"]

@@ -1,4 +1,4 @@
-"""The frames that a method is tuned on, and those that it is judged by."""
+"""Splits frames into those for tuning and those for judging a method."""
 
 from __future__ import annotations
 
@@ -22,14 +22,14 @@ class Halves(NamedTuple):
 
 
 def halves(frames: int, most: int | None = None) -> Halves:
-    """Every other of BLOCKS stretches of a recording, for neighbouring frames are alike; in all `most` frames or fewer.
+    """Alternating stretches out of BLOCKS, since neighbouring frames are alike, with at most `most` frames in total.
 
-    Fewer than four frames are a ValueError: a half would be empty, or one frame.
+    Raises ValueError for fewer than four frames.
     """
     if most is not None and most < 4:
-        raise ValueError(f"{most} frames are too few to compare by: take 4 or more, some to tune on, some to judge by")
+        raise ValueError(f"{most} frames are too few for a comparison; take 4 or more, for tuning and for judging")
     if frames < 4:
-        raise ValueError(f"has {frames} frames; a comparison needs 4 or more, some to tune on, some to judge by")
+        raise ValueError(f"has {frames} frames; a comparison needs 4 or more, for tuning and for judging")
     spans = stretches(frames, BLOCKS if most is None else min(BLOCKS, most // 2), None)
     share = max(most // len(spans), 1) if most is not None else frames
     parts = [_spread(start, stop, share) for start, stop in spans]
@@ -37,13 +37,13 @@ def halves(frames: int, most: int | None = None) -> Halves:
 
 
 def _spread(start: int, stop: int, most: int) -> list[int]:
-    """At most so many of start..stop − 1, far from each other."""
+    """At most `count` of start..stop − 1, spread evenly."""
     count = min(most, stop - start)
     return np.unique((start + (np.arange(count) + 0.5) * (stop - start) / count).astype(int)).tolist()
 
 
 class Judge:
-    """True lines of some frames, found once; they are those of the usual P_min and L_min, whatever a method has."""
+    """True lines of some frames, found once, with the default P_min and L_min for every method."""
 
     def __init__(self, recording: Recording, frames: Sequence[int]) -> None:
         self._scans = [recording[frame] for frame in frames]
@@ -51,7 +51,7 @@ class Judge:
         self._ends = [true_ends(scan, truth) for scan, truth in zip(self._scans, self._truths, strict=True)]
 
     def agreement(self, method: Extractor, params: Thresholds, ends: bool = True) -> Agreement:
-        """Of all frames together; ends: also the errors of the endpoints, which take time."""
+        """The agreement over all frames; ends: whether to compute endpoint errors, which takes time."""
         each = zip(self._scans, self._truths, self._ends, strict=True)
         return Agreement.of_all(
             agreement(method.extract(scan, params), truth, true if ends else None) for scan, truth, true in each

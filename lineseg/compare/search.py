@@ -1,4 +1,4 @@
-"""Tuning of any method: an Optuna study in memory over its thresholds."""
+"""Tunes any method: an Optuna study in memory over its thresholds."""
 
 from __future__ import annotations
 
@@ -10,20 +10,20 @@ from ..extractors import Extractor
 from ..knobs import Knob, Thresholds
 from ..tuning.study import SEED, optuna_module
 
-# A number from which chance is drawn is no threshold: the best of fifty would be luck.
+# A random seed is not a threshold: the best of fifty would be luck.
 NO_THRESHOLDS = ("seed",)
 
 
 def tunable(method: Extractor) -> dict[str, tuple[type, Knob]]:
-    """The thresholds of a method that are searched: all that are numbers. Its switches say which method it is."""
+    """The thresholds to search: all numbers. Switches are left out, because they select a variant of the method."""
     knobs = {name: (kind, knob) for name, kind, knob in method.params_type.knobs() if kind is not bool}
     return {name: entry for name, entry in knobs.items() if name not in NO_THRESHOLDS}
 
 
 def search(method: Extractor, score: Callable[[Thresholds], float], budget: int) -> Iterator[tuple[Thresholds, float]]:
-    """(thresholds, score) of so many evaluations: the defaults, then what the sampler proposes in the sliders' ranges.
+    """(thresholds, score) of each evaluation: first the defaults, then proposals of the sampler within slider ranges.
 
-    The sampler starts from SEED, for every method the same. A score of NaN is a failed trial.
+    The sampler starts from SEED for every method. A score of NaN is a failed trial.
     """
     optuna = optuna_module()
     study = optuna.create_study(direction="maximize", sampler=optuna.samplers.TPESampler(seed=SEED))

@@ -14,14 +14,14 @@ from ..writers.finite import finite_or_none
 from .comparison import OBJECTIVE, Row, score_of
 
 NOTE = (
-    "Judged on stretches of frames that no method was tuned on; true lines have the usual P_min and L_min. "
-    "Ranked by the harmonic mean of TR and 1 − FR, times completeness. Times are of one core of one machine, "
-    "all methods in turns on every frame; × is the ratio to region growing with its defaults in the same turns."
+    "Judged on stretches of frames that no method was tuned on; true lines have the default P_min and L_min. "
+    "Ranked by the harmonic mean of TR and 1 − FR, times completeness. Times are for one core of one machine, "
+    "with all methods alternating on every frame; × is the ratio to region growing with its defaults."
 )
 
 
 def numbers(row: Row) -> dict[str, Any]:
-    """Everything there is to say of a row, None where a number does not exist."""
+    """All numbers of a row, None if undefined."""
     return {
         "recording": row.recording,
         "method": row.method,
@@ -34,7 +34,7 @@ def numbers(row: Row) -> dict[str, Any]:
 
 
 def ranked(rows: Sequence[Row]) -> list[Row]:
-    """Best first; where no truth is known, fastest first."""
+    """Best first; if no truth is known, fastest first."""
     return sorted(rows, key=lambda row: (-_or(row.score, -1.0), _or(row.ratio, math.inf)))
 
 
@@ -54,7 +54,7 @@ def to_csv(rows: Sequence[Row]) -> str:
 
 
 def to_markdown(rows: Sequence[Row]) -> str:
-    """Two tables for each recording, as Table 4 and Table 3 of the paper; then all recordings together."""
+    """Two tables for each recording, like Tables 4 and 3 of the paper; then all recordings together."""
     parts = [NOTE]
     for group in groups(rows):
         parts += [f"## {group[0].recording}, {_kind(group[0])}", *_tables(group)]
@@ -71,7 +71,7 @@ def groups(rows: Sequence[Row]) -> list[list[Row]]:
 
 
 def total(rows: Sequence[Row], tuned: bool) -> list[str]:
-    """All recordings with truth together, where there are two or more and every method has each of them."""
+    """All recordings with truth together, if there are two or more and every method has results for all."""
     rows = [row for row in rows if row.tuned == tuned and row.agreement is not None]
     by_method: dict[str, list[Row]] = {}
     for row in rows:
@@ -106,7 +106,7 @@ def _tables(group: list[Row]) -> Iterator[str]:
 
 
 def _kind(row: Row) -> str:
-    return f"tuned by {row.evaluations} evaluations" if row.tuned else "defaults"
+    return f"tuned with {row.evaluations} evaluations" if row.tuned else "defaults"
 
 
 def _quality(place: int, label: str, found: Agreement) -> list[str]:

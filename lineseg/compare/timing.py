@@ -1,4 +1,4 @@
-"""How long methods take for a frame, measured in turns."""
+"""Times methods on the same frames, in alternation."""
 
 from __future__ import annotations
 
@@ -18,15 +18,15 @@ Setting = tuple[Extractor, Thresholds]
 
 
 def times_of(recording: Recording, frames: Sequence[int], settings: Sequence[Setting]) -> Iterator[NDArray[np.float64]]:
-    """(settings,) [µs] of each frame in turn: the least of ROUNDS, since what else the machine does only ever adds.
+    """(settings,) [µs] for each frame in turn: the minimum over ROUNDS, since other work of the machine only adds time.
 
-    A frame is extracted by all methods before the next one is, so that drift of the machine meets all alike, each round
-    in another order, so that none always follows one that has filled the caches. Every call gets a scan of its own, of
-    which nothing is computed yet.
+    All methods run on a frame before the next frame, so drift of the machine affects all equally. The order changes
+    each round, so no method always follows one that has filled the caches. Every call gets a fresh scan without cached
+    values.
     """
     order = np.random.default_rng(ROUNDS)
     for method, params in settings:
-        # Compiled, and its memory touched, before the clock runs.
+        # Compile and touch the memory before timing.
         method.extract(recording[frames[0]], params)
     for frame in frames:
         times = np.full(len(settings), np.inf)

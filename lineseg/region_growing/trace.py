@@ -145,8 +145,7 @@ class GrowthTrace(Trace):
         text = ""
         if len(merged):
             row = Row(*merged[-1].item())
-            text += f"; then two lines were merged into this one, {degrees(row.value)} apart, less than "
-            f"{degrees(row.limit)}"
+            text += f"; then two lines merged into this one, {degrees(row.value)} apart, less than {degrees(row.limit)}"
         if len(others) and len(cut):
             at = self._beam(Row(*cut[-1].item()).beam)
             text += f"; another line contained it too, and the cut at beam {at} left it to this one"
@@ -176,8 +175,7 @@ class GrowthTrace(Trace):
             lead = f"no seed was found here; the closest was {self.told(row).span}: "
             return self._refused(beam, row, lead)
         least = max(self.params.min_points, self.params.seed_points)
-        text = f"beam {beam} is in no segment: no seed was sought, because fewer than {least} points are left from "
-        "here on"
+        text = f"beam {beam} is in no segment: no seed was sought, fewer than {least} points are left from here on"
         name = "min_points" if self.params.min_points >= self.params.seed_points else "seed_points"
         return Explanation(beam, text, -1, name, limit=float(least))
 

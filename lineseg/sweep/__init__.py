@@ -24,7 +24,7 @@ __all__ = [
 
 @dataclass(frozen=True, eq=False)
 class Sweep:
-    """Every setting of a grid for every file; totals: (files, settings), see `Totals`."""
+    """The totals of every setting of a grid for every file; totals: (files, settings), see `Totals`."""
 
     grid: Grid
     sources: tuple[Source, ...]
@@ -32,7 +32,7 @@ class Sweep:
 
     @property
     def all_files(self) -> Totals:
-        """(settings,) the frames of all files together."""
+        """(settings,) totals over the frames of all files."""
         return Totals(self.totals.sums.sum(axis=0))
 
 
@@ -46,20 +46,20 @@ def sweep(
 ) -> Sweep:
     """Measure every setting on every frame of every file.
 
-    The files are opened where the work is done, so a cluster must find them under the same paths. Sums are added up in
-    the order of the frames, whoever is done first: the result does not depend on the workers.
-    journal: what it knows is not computed again. progress: (frames × settings done, all of them).
+    Workers open the files, so a cluster must find them at the same paths. Sums are added in the order of the frames,
+    so the result does not depend on the workers.
+    journal: finished work that is not computed again. progress: called with (frames × settings done, total).
     """
     places = [(str(Path(file).absolute()), topic) for file in files]
     if len(grid) * len(places) > MOST_SETTINGS:
         raise ValueError(
-            f"{len(grid):,} settings for {len(places)} files are more than the {MOST_SETTINGS:,} sums that are kept in "
-            "memory; take fewer values, or sweep some of the files at a time"
+            f"{len(grid):,} settings for {len(places)} files exceed the {MOST_SETTINGS:,} sums that fit in memory; "
+            "give fewer values or fewer files"
         )
     sources = tuple(source for _, source in sorted(workers.results(describe, places), key=lambda found: found[0]))
     for source in sources:
         if not source.frames:
-            raise ValueError(f"{source.file} holds no scans")
+            raise ValueError(f"{source.file} has no scans; leave it out")
     totals = np.zeros((len(sources), len(grid), len(COLUMNS)))
     work = sum(source.frames for source in sources) * len(grid)
     done = 0
@@ -73,7 +73,7 @@ def sweep(
 
 @dataclass(frozen=True)
 class _Place:
-    """Where the sums of a task belong: of which file and settings, and the how-manieth of its chunks."""
+    """Where the sums of a task belong: the file, the settings, and the number of the chunk."""
 
     file: int
     start: int
@@ -122,7 +122,7 @@ def _done_tasks(
 
 
 class _InOrder:
-    """Adds the sums of each file and block of settings chunk by chunk: floating-point sums depend on their order."""
+    """Adds the sums of each file and block of settings in chunk order, because floating-point sums depend on order."""
 
     def __init__(self, totals: NDArray[np.float64]) -> None:
         self._totals = totals

@@ -1,4 +1,4 @@
-"""Which thresholds are swept, over which values: a grid of settings."""
+"""A grid of settings: the swept thresholds and their values."""
 
 from __future__ import annotations
 
@@ -16,16 +16,16 @@ MOST_SETTINGS = 2_000_000
 
 @dataclass(frozen=True)
 class Grid:
-    """Every combination of the axes' values, on top of `base`; the last axis changes fastest.
+    """Every combination of the axes' values, with the other thresholds from `base`; the last axis changes fastest.
 
-    axes: the values of each swept threshold by its name. Too many settings are a ValueError that says how many.
+    axes: values by name of threshold. Raises ValueError if there are too many settings.
     """
 
     base: Params
     axes: Mapping[str, tuple[float, ...]]
 
     def __post_init__(self) -> None:
-        # Every value is checked once, alone: all of a grid's settings would take long.
+        # Check each value once, by itself: checking every setting of the grid would take long.
         for name, values in self.axes.items():
             for value in values:
                 self.base.but(**{name: value})
@@ -45,9 +45,9 @@ class Grid:
 
 
 def axis_values(text: str, name: str) -> tuple[float, ...]:
-    """The values that a text names for a threshold: "0.01:0.1:20" (from, to, how many), "0.01,0.02,0.05" or "0.03".
+    """Parses the values of a threshold: "0.01:0.1:20" (from, to, count), "0.01,0.02,0.05" or "0.03".
 
-    They are spread as the threshold's slider is, by equal ratios or by equal steps, and are whole where it is whole.
+    They are spaced like the threshold's slider, by equal ratios or equal steps; whole numbers if the threshold is one.
     """
     kind, knob = knob_of(name)
     try:
@@ -59,8 +59,8 @@ def axis_values(text: str, name: str) -> tuple[float, ...]:
         ends, number = (math.nan, math.nan), 0
     if not all(map(math.isfinite, ends)) or number < 2:
         raise ValueError(
-            f"--{name.replace('_', '-')} is {text!r}; a sweep is FROM:TO:COUNT, such as {knob.low:g}:{knob.high:g}:20, "
-            "or values with commas between them"
+            f"--{name.replace('_', '-')} is {text!r}; give FROM:TO:COUNT, such as {knob.low:g}:{knob.high:g}:20, "
+            "or values separated by commas"
         )
     if number > MOST_SETTINGS:
         raise ValueError(_too_many(f"{number:,}"))
@@ -69,13 +69,13 @@ def axis_values(text: str, name: str) -> tuple[float, ...]:
 
 def _too_many(sizes: str) -> str:
     return (
-        f"a sweep of {sizes} settings is larger than the {MOST_SETTINGS:,} whose sums are kept in memory; take fewer "
-        "values, or sweep fewer thresholds at once"
+        f"a sweep of {sizes} settings exceeds the {MOST_SETTINGS:,} whose sums fit in memory; give fewer values, "
+        "or sweep fewer thresholds at once"
     )
 
 
 def spread(low: float, high: float, count: int, kind: type, knob: Knob) -> tuple[float, ...]:
-    """`count` values from low to high, fewer where they are whole numbers."""
+    """`count` values from low to high; fewer if they are whole numbers."""
     even = np.geomspace if knob.log and min(low, high) > 0 else np.linspace
     return tuple(dict.fromkeys(_exact(value, kind) for value in even(low, high, count).tolist()))
 
@@ -87,7 +87,7 @@ def slider_values(name: str, count: int) -> tuple[float, ...]:
 
 
 def knob_of(name: str) -> tuple[type, Knob]:
-    """(int or float, Knob) of a threshold; an unknown name is a ValueError that lists the known ones."""
+    """(int or float, Knob) of a threshold. Raises ValueError, listing the known names, for an unknown one."""
     known = {field: (kind, knob) for field, kind, knob in Params.knobs()}
     if name not in known:
         raise ValueError(f"there is no threshold {name[:40]!r}; choose from {', '.join(known)}")

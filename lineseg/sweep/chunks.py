@@ -1,4 +1,4 @@
-"""What one worker does: open a recording, take some of its frames, and sum them up under some settings."""
+"""The work of one worker: open a recording, take some of its frames, and sum them up for some settings."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ from ..readers import open_recording
 from ..scan import Recording
 from .measure import Batch
 
-# About a second of work a task: long enough that sending it costs nothing, short enough to lose.
+# About a second of work per task: long enough to hide the cost of sending it, short enough to lose.
 CHUNK_BEAMS = 1_000_000
 BLOCK_SETTINGS = 64
-# Auto-tuning comes back to every chunk in every trial.
+# Auto-tuning reads every chunk again in every trial.
 BATCHES_KEPT = 64
 
 _reading = threading.Lock()
@@ -27,7 +27,7 @@ _reading = threading.Lock()
 
 @dataclass(frozen=True)
 class Source:
-    """A stream of a file as it was at some moment; beams, frames: how much is in it."""
+    """A stream of a file at one moment; beams, frames: its size."""
 
     file: str
     topic: str | None
@@ -55,7 +55,7 @@ class Chunk:
 
 @dataclass(frozen=True)
 class Task:
-    """A chunk under some settings; scored: see `Batch`."""
+    """A chunk and some settings; scored: see `Batch`."""
 
     chunk: Chunk
     settings: tuple[Params, ...]
@@ -63,7 +63,7 @@ class Task:
 
 
 def describe(place: tuple[str, str | None]) -> Source:
-    """What stands in a file, read where this runs."""
+    """The description of a file, read on this machine."""
     file, topic = place
     status = Path(file).stat()
     recording = _opened(file, topic, status.st_mtime_ns, status.st_size)
@@ -73,11 +73,11 @@ def describe(place: tuple[str, str | None]) -> Source:
 
 
 def measure_task(task: Task) -> NDArray[np.float64]:
-    """The sums of a task, (settings, len(COLUMNS)); a file that has changed meanwhile is a ValueError."""
+    """The sums of a task, (settings, len(COLUMNS)). Raises ValueError if the file has changed."""
     source = task.chunk.source
     status = Path(source.file).stat()
     if (status.st_mtime_ns, status.st_size) != (source.changed, source.size):
-        raise ValueError(f"{source.file} has changed since the sweep began, or is another file here; begin again")
+        raise ValueError(f"{source.file} has changed since the sweep began, or differs on this machine; start again")
     with _reading:
         batch = _batch(task.chunk, task.scored)
     return batch.measure(task.settings).sums

@@ -1,4 +1,4 @@
-"""What a sweep has finished, on disk, so that an interrupted one goes on where it was."""
+"""The finished work of a sweep, on disk, so that an interrupted sweep can resume."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from ..params import Params
 from .chunks import Chunk, Task
 from .totals import COLUMNS
 
-# Sums of another meaning must not be taken for these.
+# Guards against sums with another meaning.
 MEANING = " ".join(COLUMNS)
 
 
 class Journal:
-    """The sums of each chunk under each setting; another grid over the same chunks finds those it shares.
+    """The sums of each chunk for each setting; another grid over the same chunks reuses those it shares.
 
-    A file that is no journal, or one of other sums, is a ValueError.
+    Raises ValueError for a file that is not a journal, or has other sums.
     """
 
     def __init__(self, path: Path) -> None:
@@ -35,14 +35,16 @@ class Journal:
             )
             found = [columns for (columns,) in self._rows.execute("SELECT columns FROM meaning")]
         except sqlite3.DatabaseError as error:
-            raise ValueError(f"{path}: this is not the journal of a sweep ({error}); remove it to begin anew") from None
+            raise ValueError(
+                f"{path}: this is not the journal of a sweep ({error}); remove it to start again"
+            ) from None
         if found and found != [MEANING]:
-            raise ValueError(f"{path}: the journal of a sweep by another version of lineseg; remove it to begin anew")
+            raise ValueError(f"{path}: this journal is from another version of lineseg; remove it to start again")
         self._rows.execute("INSERT OR IGNORE INTO meaning VALUES (?)", (MEANING,))
         self._rows.commit()
 
     def known(self, task: Task) -> dict[Params, NDArray[np.float64]]:
-        """The sums that are there already of a task's settings."""
+        """The sums of a task's settings that exist already."""
         found = self._rows.execute(
             "SELECT settings, sums FROM done WHERE chunk = ? AND settings BETWEEN ? AND ?",
             (_chunk_key(task.chunk, task.scored), *_ends([_key(params) for params in task.settings])),
@@ -57,7 +59,7 @@ class Journal:
             self._rows.executemany("INSERT OR REPLACE INTO done VALUES (?, ?, ?)", rows)
 
     def close(self, remove: bool = False) -> None:
-        """remove: the sweep is complete, and written elsewhere. A journal of nothing is removed anyway."""
+        """remove: whether to delete the file, because the sweep is complete. An empty journal is always deleted."""
         empty = self._rows.execute("SELECT 1 FROM done LIMIT 1").fetchone() is None
         self._rows.close()
         if remove or empty:

@@ -1,4 +1,4 @@
-"""The totals of some frames under many settings: extracted again and again, prepared once."""
+"""The totals of some frames for many settings: prepared once, extracted for each setting."""
 
 from __future__ import annotations
 
@@ -23,8 +23,8 @@ from .totals import COLUMNS, COUNTS, MEAN_COLUMNS, Totals
 class Truth:
     """The true lines of some frames.
 
-    labels: (total,) int32 for each beam its line, −1 for none, numbered frame by frame from 0; sizes: number of beams
-    of each line, frame after frame; offsets: (frames + 1,) where in `sizes` the lines of each frame begin.
+    labels: (total,) int32 line of each beam, −1 for none, numbered from 0 in each frame; sizes: number of beams of each
+    line, frame after frame; offsets: (frames + 1,) where the lines of each frame start in `sizes`.
     """
 
     labels: NDArray[np.int32]
@@ -33,9 +33,9 @@ class Truth:
 
     @classmethod
     def of(cls, recording: Recording) -> Truth | None:
-        """What `true_lines` says under the paper's P_min and L_min, whatever is being tried; None if nothing is known.
+        """The `true_lines` for the paper's P_min and L_min, whatever is being tried; None if the truth is unknown.
 
-        With the thresholds that are tried, a larger L_min would make the hard lines vanish and so be rewarded.
+        With the tried thresholds, a larger L_min would remove the difficult true lines and be rewarded for it.
         """
         if recording.wall is None:
             return None
@@ -50,10 +50,10 @@ class Truth:
 
 
 class Batch:
-    """Frames of one recording, ready to be measured under setting after setting; several threads may do so at once.
+    """Frames of one recording, prepared for measuring many settings; may be used by several threads at once.
 
-    scored: whether the label-free scores that cost more than the extraction are wanted too (totals.MEANS).
-    lead: whether the first frame is only there to be compared with, and not counted.
+    scored: whether to compute the label-free scores that cost more than the extraction (totals.MEANS).
+    lead: whether the first frame is only used for comparison and not counted.
     """
 
     def __init__(self, recording: Recording, scored: bool, lead: bool = False) -> None:
@@ -72,7 +72,7 @@ class Batch:
         self._valid = int(np.count_nonzero((ranges > 0) & (ranges >= near) & (ranges < far)))
 
     def measure(self, settings: Sequence[Params], cancelled: NDArray[np.bool_] | None = None) -> Totals:
-        """The totals of each setting; cancelled: (1,) bool, set in another thread, raises `Cancelled`."""
+        """The totals of each setting; cancelled: (1,) bool, set it in another thread to stop with `Cancelled`."""
         flag = np.zeros(1, np.bool_) if cancelled is None else cancelled
         memory, tally = Workspace(self._beams), np.zeros(self._beams + 1, np.int64)
         counts = np.zeros(self._frames, np.int64)

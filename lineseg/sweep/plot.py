@@ -1,4 +1,4 @@
-"""A sweep as a picture: curves over one threshold, or a map of a measure over two."""
+"""Plots a sweep: curves over one threshold, or a map of a measure over two."""
 
 from __future__ import annotations
 
@@ -16,24 +16,24 @@ PLOT_FORMATS = (".png", ".svg")
 
 
 def check_plot_path(path: Path) -> None:
-    """ValueError or FileNotFoundError for what cannot be drawn, before hours of work are spent."""
+    """Raises ValueError or FileNotFoundError if the plot cannot be written, before hours of work are spent."""
     if path.suffix.lower() not in PLOT_FORMATS:
-        raise ValueError(f"{path}: a plot is written as {' or '.join(PLOT_FORMATS)}")
+        raise ValueError(f"{path}: use a name that ends in {' or '.join(PLOT_FORMATS)}")
     if not path.absolute().parent.is_dir():
         raise FileNotFoundError(f"{path}: the folder {path.parent} does not exist")
     figure_type()
 
 
 def write_plot(result: Sweep, path: Path, measure: str | None = None) -> None:
-    """Draw the first one or two swept thresholds, all files together; of the others the value that is best there.
+    """Plot the first one or two swept thresholds, for all files together, with the best values of the others.
 
-    measure: of the map; F × completeness where truth is known and coverage elsewhere, without.
+    measure: of the map (default: F × completeness if truth is known, else coverage).
     """
     totals = result.all_files
     measure = measure or ("f_score" if totals.has_truth else "coverage")
     axes = [name for name, values in result.grid.axes.items() if len(values) > 1]
     if not axes:
-        raise ValueError("a plot needs a threshold with more than one value")
+        raise ValueError("a plot needs a threshold with more than one value; sweep at least one")
     figure = figure_type()(figsize=(7, 4.5), layout="constrained")
     plot = figure.subplots()
     if len(axes) == 1:
@@ -53,7 +53,7 @@ def _curves(plot: Any, result: Sweep, name: str) -> None:
     plot.set_ylim(0, 1)
     beside = plot.twinx()
     beside.plot(values, totals.measure("segments"), color="0.6", linestyle="--")
-    beside.set_ylabel("segments a frame (dashed)")
+    beside.set_ylabel("segments per frame (dashed)")
     beside.set_ylim(bottom=0)
     _axis(plot, "x", name, result)
     plot.legend(fontsize=8)
@@ -73,7 +73,7 @@ def _map(figure: Any, plot: Any, result: Sweep, names: tuple[str, str], measure:
 
 
 def best_over_the_rest(result: Sweep, names: tuple[str, str], measure: str) -> NDArray[np.float64]:
-    """(values of the first, values of the second) of two swept thresholds: the best over all others."""
+    """(values of the first, values of the second): the measure with the best values of the other thresholds."""
     swept = list(result.grid.axes)
     cube = result.all_files.measure(measure).reshape([len(values) for values in result.grid.axes.values()])
     cube = np.moveaxis(cube, [swept.index(name) for name in names], [0, 1])

@@ -1,4 +1,4 @@
-"""A sweep as a table: a row for each file and setting; written, and read again."""
+"""Writes and reads a sweep as a table with a row for each file and setting."""
 
 from __future__ import annotations
 
@@ -19,26 +19,26 @@ from ..writers.finite import finite_or_none
 from . import MEASURES, Sweep
 
 ROWS_AT_ONCE = 50_000
-# A table that is read whole, to be looked at.
+# Largest table that is read for display.
 MOST_ROWS = 100_000
 
 
 @dataclass(frozen=True, eq=False)
 class Table:
-    """A table that was read: (rows,) the file of each row, and by name its numbers, NaN where there is none."""
+    """A table that was read: (rows,) the file of each row, and its numbers by name, NaN if missing."""
 
     files: NDArray[np.str_]
     numbers: dict[str, NDArray[np.float64]]
 
     @property
     def axes(self) -> dict[str, NDArray[np.float64]]:
-        """The thresholds that were swept, with their values in rising order."""
+        """The swept thresholds, with their values in rising order."""
         values = {name: np.unique(self.numbers[name]) for name, _, _ in Params.knobs()}
         return {name: each for name, each in values.items() if len(each) > 1}
 
 
 def rows_of(result: Sweep) -> Iterator[dict[str, Any]]:
-    """file, the thresholds, frames, and MEASURES; None where a measure has no value, such as TR without truth."""
+    """file, the thresholds, frames, and MEASURES; None if a measure is undefined, such as TR without truth."""
     measures = {name: result.totals.measure(name) for name in MEASURES}
     frames = result.totals.column("frames")
     for number, source in enumerate(result.sources):
@@ -48,7 +48,7 @@ def rows_of(result: Sweep) -> Iterator[dict[str, Any]]:
 
 
 def write_table(result: Sweep, path: Path) -> None:
-    """Write a sweep as .csv or .parquet; the file is there only once it is complete."""
+    """Write a sweep as .csv or .parquet; the file appears only when it is complete."""
     partial = path.with_name(path.name + ".writing")
     try:
         TABLE_WRITERS[path.suffix.lower()](result, partial)
@@ -58,9 +58,9 @@ def write_table(result: Sweep, path: Path) -> None:
 
 
 def check_table_path(path: Path) -> None:
-    """ValueError or FileNotFoundError for what cannot be written, before hours of work are spent."""
+    """Raises ValueError or FileNotFoundError if the table cannot be written, before hours of work are spent."""
     if path.suffix.lower() not in TABLE_WRITERS:
-        raise ValueError(f"{path}: a sweep is written as {' or '.join(TABLE_WRITERS)}")
+        raise ValueError(f"{path}: use a name that ends in {' or '.join(TABLE_WRITERS)}")
     if not path.absolute().parent.is_dir():
         raise FileNotFoundError(f"{path}: the folder {path.parent} does not exist")
     if path.suffix.lower() == ".parquet":
@@ -68,10 +68,10 @@ def check_table_path(path: Path) -> None:
 
 
 def read_table(content: bytes, name: str) -> Table:
-    """Read what `write_table` wrote; a ValueError that begins with `name` if it is anything else."""
+    """Read the output of `write_table`. Raises ValueError, starting with `name`, for any other content."""
     suffix = Path(name).suffix.lower()
     if suffix not in TABLE_READERS:
-        raise ValueError(f"{name}: the table of a sweep ends in {' or '.join(TABLE_READERS)}")
+        raise ValueError(f"{name}: the table of a sweep ends in {' or '.join(TABLE_READERS)}; rename the file")
     try:
         columns = TABLE_READERS[suffix](content)
         wanted = ["file", *(field for field, _, _ in Params.knobs()), "frames", *MEASURES]
@@ -79,7 +79,7 @@ def read_table(content: bytes, name: str) -> Table:
             raise ValueError(f"it has no column {missing[0]!r}; `lineseg sweep` writes {', '.join(wanted)}")
         rows = len(columns["file"])
         if not 0 < rows <= MOST_ROWS:
-            raise ValueError(f"it has {rows:,} rows; 1 to {MOST_ROWS:,} can be looked at, sweep fewer values or files")
+            raise ValueError(f"it has {rows:,} rows; the page shows 1 to {MOST_ROWS:,}, so sweep fewer values or files")
         numbers = {column: _column(column, columns[column]) for column in wanted[1:]}
     except ValueError as error:
         raise ValueError(f"{name} is not the table of a sweep: {error}") from None
@@ -92,7 +92,7 @@ def _column(name: str, cells: list[Any]) -> NDArray[np.float64]:
         try:
             numbers[row] = np.nan if cell is None or cell == "" else float(cell)
         except ValueError:
-            raise ValueError(f"{name} of row {row + 1} is {str(cell)[:40]!r}, expected is a number") from None
+            raise ValueError(f"{name} of row {row + 1} is {str(cell)[:40]!r}; it must be a number") from None
     if name not in MEASURES and not np.isfinite(numbers).all():
         raise ValueError(f"{name} of row {int(np.argmin(np.isfinite(numbers))) + 1} is missing")
     return numbers
@@ -104,10 +104,10 @@ def _read_csv(content: bytes) -> dict[str, list[str]]:
         head = next(rows, [])
         body = [row for row in islice(rows, MOST_ROWS + 1) if row]
     except (UnicodeDecodeError, csv.Error) as error:
-        raise ValueError(f"it is no CSV: {error}") from None
+        raise ValueError(f"it is not CSV: {error}") from None
     for number, row in enumerate(body):
         if len(row) != len(head):
-            raise ValueError(f"row {number + 1} has {len(row)} cells, its head {len(head)}")
+            raise ValueError(f"row {number + 1} has {len(row)} cells, but the header has {len(head)}")
     return dict(zip(head, map(list, zip(*body, strict=True)), strict=True)) if body else {name: [] for name in head}
 
 
@@ -116,10 +116,10 @@ def _read_parquet(content: bytes) -> dict[str, list[Any]]:
     try:
         file = parquet.ParquetFile(arrow.BufferReader(content))
         if file.metadata.num_rows > MOST_ROWS:
-            raise ValueError(f"it has {file.metadata.num_rows:,} rows; {MOST_ROWS:,} can be looked at")
+            raise ValueError(f"it has {file.metadata.num_rows:,} rows; the page shows at most {MOST_ROWS:,}")
         return file.read().to_pydict()
     except (arrow.ArrowException, OSError) as error:
-        raise ValueError(f"it is no Parquet: {error}") from None
+        raise ValueError(f"it is not Parquet: {error}") from None
 
 
 def _write_csv(result: Sweep, path: Path) -> None:

@@ -1,4 +1,4 @@
-"""What is summed over frames, and the measures that follow from the sums: sums of chunks add up, measures do not."""
+"""Sums over frames, and the measures computed from them: sums of chunks can be added, measures cannot."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ..doubt import SCORES
 
-# Of these scores the mean over frames is kept; the other scores are in COUNTS.
+# Scores whose mean over frames is kept; the other scores are in COUNTS.
 MEANS = ("rms", "splits", "gap", "misses", "change")
 COUNTS = ("frames", "valid", "covered", "segments", "true_lines", "matches", "shared")
 COLUMNS = COUNTS + MEANS
@@ -20,7 +20,7 @@ MEAN_COLUMNS = [list(SCORES).index(name) for name in MEANS]
 
 @dataclass(frozen=True)
 class Measure:
-    """How a measure is called and read; truth: whether it needs true lines."""
+    """The name and meaning of a measure; truth: whether it needs true lines."""
 
     name: str
     label: str
@@ -34,7 +34,7 @@ MEASURES = {
     measure.name: measure
     for measure in [
         Measure("coverage", "coverage", "", "higher", False, "Share of the valid beams that belong to a segment."),
-        Measure("segments", "segments", "", "neither", False, "Segments a frame."),
+        Measure("segments", "segments", "", "neither", False, "Number of segments per frame."),
         Measure("true_rate", "TR", "", "higher", True, "True rate: matches / true lines (Eq. 9)."),
         Measure("false_rate", "FR", "", "lower", True, "False rate: segments without a match / segments (Eq. 10)."),
         Measure("completeness", "completeness", "", "higher", True, "Mean intersection over union of the matches."),
@@ -53,9 +53,9 @@ MEASURES = {
 
 @dataclass(frozen=True, eq=False)
 class Totals:
-    """Sums over frames: (…, len(COLUMNS)) float64; the measures have the shape in front, NaN where there is nothing.
+    """Sums over frames: (…, len(COLUMNS)) float64; the measures have the leading shape, NaN if undefined.
 
-    `+` adds the frames of both.
+    `+` combines the frames of both.
     """
 
     sums: NDArray[np.float64]
@@ -82,7 +82,7 @@ class Totals:
             case "true_rate":
                 return _ratio(matches, lines)
             case "false_rate":
-                # Without truth nothing is false.
+                # Without truth, nothing counts as false.
                 return np.where(lines > 0, _ratio(segments - matches, segments), np.nan)
             case "completeness":
                 return _ratio(self.column("shared"), matches)

@@ -1,4 +1,4 @@
-"""Where tasks run: on the threads of this machine, or on a Dask cluster. The tasks are the same."""
+"""Runs tasks on the threads of this machine or on a Dask cluster."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from ..survey import cores
 
 T = TypeVar("T")
 R = TypeVar("R")
-# So many tasks a worker wait in its queue; more would only fill memory.
+# Tasks per worker in its queue; more would only fill memory.
 WAITING = 3
 CONNECT_SECONDS = 10
 
 
 class Pool(Protocol):
     def results(self, work: Callable[[T], R], tasks: Iterable[T]) -> Iterator[tuple[int, R]]:
-        """(number of the task, its result) in the order in which they are done; tasks are taken as they are needed."""
+        """(number of the task, its result) in order of completion; takes tasks as needed."""
         ...
 
 
@@ -28,7 +28,7 @@ class Pool(Protocol):
 def pool(scheduler: str | None = None) -> Iterator[Pool]:
     """Threads, or the workers of the Dask scheduler at an address such as tcp://host:8786.
 
-    A scheduler that cannot be reached, or has no workers, is an OSError that says so.
+    Raises OSError if the scheduler cannot be reached or has no workers.
     """
     if scheduler is None:
         with ThreadPoolExecutor(cores(), thread_name_prefix="sweep") as threads:
@@ -71,7 +71,7 @@ class _Cluster:
 
         def send() -> None:
             for number, task in islice(numbered, max(1, WAITING * self._threads() - len(numbers))):
-                # Not pure: a key of the content would be hashed over the task, and a repeated sweep never be run.
+                # Not pure: Dask would hash the content of each task, and would never run a repeated sweep.
                 future = self._client.submit(work, task, pure=False)
                 numbers[future.key] = number
                 done.add(future)
@@ -82,7 +82,7 @@ class _Cluster:
             try:
                 result = future.result()
             except KilledWorker as error:
-                raise OSError(f"a task has ended every worker of {self._scheduler} that took it: {error}") from None
+                raise OSError(f"a task crashed every worker of {self._scheduler} that ran it: {error}") from None
             yield numbers.pop(future.key), result
             future.release()
             send()
@@ -101,12 +101,12 @@ def _connected(scheduler: str) -> Iterator[Any]:
         client = Client(scheduler, timeout=CONNECT_SECONDS, set_as_default=False)
     except (OSError, TimeoutError, ValueError) as error:
         raise OSError(
-            f"{scheduler}: no Dask scheduler answers there ({_first_line(error)}); `dask scheduler` starts one, and "
-            "tells its address"
+            f"{scheduler}: no Dask scheduler answers there ({_first_line(error)}); start one with `dask scheduler`, "
+            "which prints its address"
         ) from None
     with client:
         if not client.nthreads():
-            raise OSError(f"{scheduler}: the scheduler has no workers; `dask worker {scheduler}` starts one")
+            raise OSError(f"{scheduler}: the scheduler has no workers; start one with `dask worker {scheduler}`")
         yield client
 
 

@@ -1,4 +1,4 @@
-"""Thresholds that fit recordings, found by trying: objective, split, study."""
+"""Search for thresholds that fit recordings: objective, split, study."""
 
 from .objective import Objective
 from .parts import FileBlocks, RecordingBlocks

@@ -1,4 +1,4 @@
-"""The frames that auto-tuning learns from, and those held back to judge it."""
+"""The split of frames into those for tuning and those held back for judging."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ from ..sweep.measure import Batch
 from ..sweep.totals import Totals
 from ..sweep.workers import Pool
 
-# Of each recording; every other one is held back. A block is a stretch of time, since neighbouring frames are alike.
+# Blocks per recording; every other one is held back. A block is a stretch of time, since neighbouring frames are alike.
 BLOCKS = 20
 Split = Literal["frames", "files"]
 
 
 class Blocks(Protocol):
-    """Stretches of frames that can be measured under a setting."""
+    """Stretches of frames that can be measured with a setting."""
 
     @property
     def train(self) -> Sequence[int]: ...
@@ -36,12 +36,12 @@ class Blocks(Protocol):
     def name(self) -> str: ...
 
     def totals(self, params: Params, which: Sequence[int]) -> list[Totals]:
-        """Of each of these blocks."""
+        """The totals of each of these blocks."""
         ...
 
 
 def stretches(frames: int, blocks: int, most: int | None) -> list[tuple[int, int]]:
-    """(start, stop) of blocks spread over a recording; together they hold `most` frames, all without."""
+    """(start, stop) of blocks spread over a recording, with `most` frames in total (default: all)."""
     blocks = max(1, min(blocks, frames // 2))
     ends = np.linspace(0, frames, blocks + 1).round().astype(int)
     share = -(-frames // blocks) if most is None else max(2, most // blocks)
@@ -49,7 +49,7 @@ def stretches(frames: int, blocks: int, most: int | None) -> list[tuple[int, int
 
 
 class RecordingBlocks:
-    """Blocks of a recording that is in memory."""
+    """Blocks of a recording in memory."""
 
     def __init__(self, recording: Recording, workers: Pool, scored: bool, most: int | None = None) -> None:
         spans = stretches(len(recording), BLOCKS, most)
@@ -78,7 +78,7 @@ def _measure(task: tuple[Batch, Params]) -> np.ndarray:
 
 
 class FileBlocks:
-    """Blocks of files, opened where the work is done; split: held back are every other block, or every other file."""
+    """Blocks of files, opened by the workers; split: whether every other block or every other file is held back."""
 
     def __init__(
         self,
@@ -90,7 +90,7 @@ class FileBlocks:
         most: int | None = None,
     ) -> None:
         if split == "files" and len(files) < 2:
-            raise ValueError("to hold files back, there must be two or more; with one, split by frames")
+            raise ValueError("splitting by files needs two or more files; split by frames instead")
         places = [(str(Path(file).absolute()), topic) for file in files]
         sources = [source for _, source in sorted(workers.results(describe, places), key=lambda row: row[0])]
         self._chunks: list[Chunk] = []

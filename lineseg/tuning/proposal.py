@@ -1,4 +1,4 @@
-"""Thresholds that fit a laser, found from its scans alone.
+"""Proposes thresholds that fit a laser, from its scans alone.
 
 The noise of the recording bounds ε from both sides. Between these bounds the search looks for steadiness. If ε is too
 small, walls break at noisy points, and a larger ε gives other lines. If it is too large, a wall takes in what stands
@@ -27,14 +27,14 @@ from .objective import Objective
 TRUTH = Objective("truth")
 FRAMES = 24
 LEAST_FRAMES = 4
-# From one value to the next; two steps are the factor at which lines are compared.
+# Factor from one value to the next; lines are compared two steps apart.
 STEP = 1.6**0.5
-# ε lies between so many times the white noise and so many times all the scatter.
+# Bounds of ε: this many times the white noise, and this many times the total scatter.
 LOWEST, HIGHEST = 2.5, 4.5
-# What the noise alone would choose, in times √(white noise · all the scatter); and how much steadier lines must be at a
-# value e times as far from that.
+# The choice from noise alone, as a multiple of √(white noise · total scatter); and how much steadier the lines must be
+# at a value that differs from it by a factor of e.
 USUAL, PULL = 3.2, 0.1
-# What present values may lack before others are proposed.
+# Steadiness that the present values may lack before others are proposed.
 AS_GOOD = 0.01
 
 
@@ -42,7 +42,7 @@ AS_GOOD = 0.01
 class Proposal:
     """Thresholds that fit a recording, or why there are none.
 
-    params: the proposed ones; the present ones if these are as good or if nothing can be proposed. changed: whether
+    params: the proposed ones, or the present ones if these are as good or if nothing can be proposed. changed: whether
     they differ. scatter: standard deviation of points from their walls [m]. pieces: number of segments into which a
     wall breaks at the present values, on average. tried: (k,) values of ε, or of the method's counterpart [m]; steady:
     (k,) score of the lines there, with the lines at 1.6 times that value as the truth, 0 to 1.
@@ -68,7 +68,7 @@ def propose(
     """Thresholds of a method that fit this laser, compared with the present ones.
 
     Only thresholds that depend on the noise change (see `Knob.scatter`), and none that is 0, which means "off".
-    Raises Cancelled as soon as `wanted` says no.
+    Raises Cancelled as soon as `wanted` returns False.
     """
     extractor = EXTRACTORS[method]
     search = _Search(recording, params if params is not None else extractor.params_type(), extractor.extract)
@@ -92,12 +92,12 @@ def scaled(params: Thresholds, scale: float) -> Thresholds:
 
 
 def _rounded(value: float) -> float:
-    """Two digits: more would promise too much."""
+    """Rounded to two digits; more would suggest false precision."""
     return float(f"{value:.2g}")
 
 
 class _Search:
-    """One method on some scans of a recording, at one value of ε after the other."""
+    """One method on some scans of a recording, at a series of values of ε."""
 
     def __init__(self, recording: Recording, present: Thresholds, extract: Callable[[Scan, Any], Extraction]) -> None:
         self.present, self._extract = present, extract
@@ -115,12 +115,12 @@ class _Search:
             self.scales = LOWEST * self._white * STEP ** np.arange(steps + 3)
 
     def why_not(self) -> str:
-        """Why nothing can be proposed, in a sentence; "" where something may be."""
+        """Why nothing can be proposed, in a sentence; "" if something can."""
         if scaled(self.present, 1.0) == self.present:
-            return "This method has no threshold that measures how far points scatter."
+            return "This method has no threshold that depends on the noise of the laser."
         if len(self._scans) < LEAST_FRAMES:
             few = len(self._scans)
-            return f"The noise of a laser shows in {LEAST_FRAMES} scans or more; {few} of these have a return."
+            return f"Estimating noise needs at least {LEAST_FRAMES} scans with a return; {few} have one."
         if not len(self.scales):
             return "No straight wall was found, so the noise of the laser is unknown."
         return ""
@@ -136,7 +136,7 @@ class _Search:
         count = len(self.scales) - 2
         steady = np.array([_agreement(self._lines[k], self._lines[k + 2]) for k in range(count)])
         if not steady.max() > 0.0:
-            return self.nothing("At no ε that fits this noise do lines stay the same.")
+            return self.nothing("No ε that fits this noise gives steady lines.")
         usual = USUAL * math.sqrt(self._white * self.scatter)
         best = int(np.argmax(steady - PULL * np.abs(np.log(self.scales[:count] / usual))))
         proposed, judges = scaled(self.present, self.scales[best]), self._lines[best + 1]
@@ -158,14 +158,14 @@ class _Search:
 
 
 def _agreement(found: list[Extraction], judges: list[Extraction]) -> float:
-    """How well lines agree with others, taken as the truth: the harmonic mean of TR and 1 − FR, times completeness."""
+    """Agreement of lines with other lines as the truth: the harmonic mean of TR and 1 − FR, times completeness."""
     total = Agreement.of_all(match(one, other.labels).agreement for one, other in zip(found, judges, strict=True))
     score = TRUTH.of_rates(total.true_rate, total.false_rate, total.completeness)
     return score if math.isfinite(score) else 0.0
 
 
 def _pieces(present: list[Extraction], walls: list[Extraction]) -> float:
-    """Segments on a wall, on average over the walls that have any; NaN where none has."""
+    """Mean number of segments on a wall, over the walls that have any; NaN if none has."""
     counts = []
     for one, other in zip(present, walls, strict=True):
         matching = match(one, other.labels)

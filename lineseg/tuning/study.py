@@ -1,4 +1,4 @@
-"""Auto-tuning: an Optuna study over the thresholds, kept in a file and continued later."""
+"""Auto-tuning: an Optuna study over the thresholds, which can be kept in a file and continued later."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ from .parts import Blocks
 
 STUDY = "lineseg"
 SEED = 2018
-# Importance of fewer trials is noise.
+# With fewer trials, importances are noise.
 LEAST_FOR_IMPORTANCE = 12
 
 
 @dataclass(frozen=True)
 class Trial:
-    """One setting that was tried; score: on the training half, NaN where it had none."""
+    """One tried setting; score: on the training half, NaN if undefined."""
 
     number: int
     params: Params
@@ -35,9 +35,9 @@ class Trial:
 
 @dataclass(frozen=True)
 class Verdict:
-    """The best trial beside the paper's defaults, both on the half that was held back.
+    """The best trial compared with the paper's defaults, both on the held-back half.
 
-    error: standard error of the gain (jackknife over the held-back blocks); gained: whether it is more than twice that.
+    error: standard error of the gain (jackknife over held-back blocks); gained: whether the gain exceeds twice that.
     """
 
     params: Params
@@ -56,22 +56,22 @@ class Verdict:
 
     @property
     def text(self) -> str:
-        numbers = f"{self.tuned:.4f} against {self.default:.4f} of the paper's defaults"
-        where = f"on {self.frames:,} frames that were held back"
+        numbers = f"{self.tuned:.4f} against {self.default:.4f} for the paper's defaults"
+        where = f"on {self.frames:,} held-back frames"
         if self.params == Params():
-            return f"No gain: no trial was better than the paper's defaults, which have {self.default:.4f}, {where}."
+            return f"No gain: no trial was better than the paper's defaults, which score {self.default:.4f} {where}."
         if self.gained:
-            return f"Gain {self.gain:+.4f} (± {self.error:.4f}): {numbers}, {where}."
+            return f"Gain {self.gain:+.4f} (± {self.error:.4f}): {numbers} {where}."
         if self.gain < -2 * self.error:
-            return f"No gain: {numbers}, {where}. The defaults are better there; keep them."
-        return f"No gain: {numbers}, {where}, differ by less than twice their uncertainty ± {self.error:.4f}."
+            return f"No gain: {numbers} {where}. The defaults are better there; keep them."
+        return f"No gain: {numbers} {where}. The difference is less than twice its uncertainty of ± {self.error:.4f}."
 
 
 class Tuning:
-    """Tries settings on the training blocks, one after another, as long as it is asked to.
+    """Tries settings on the training blocks, one at a time.
 
-    path: the SQLite file of the study; in memory without. thresholds: those that are tuned, those of the
-    objective without; the others stay as in `base`. A file that holds another study is a ValueError that says which.
+    path: SQLite file of the study (default: in memory). thresholds: names to tune (default: those of the objective);
+    the others stay as in `base`. Raises ValueError if the file contains another study.
     """
 
     def __init__(
@@ -95,7 +95,7 @@ class Tuning:
         about["frames"] = list(blocks.frames)
         self._study = self._opened(path, json.dumps(about))
         if not self._study.trials:
-            # The defaults first: nothing that is worse on the training half is ever proposed.
+            # The defaults first, so that nothing worse on the training half is ever proposed.
             for start in dict.fromkeys((Params(), self._base)):
                 self._study.enqueue_trial({name: getattr(start, name) for name in thresholds})
 
@@ -111,7 +111,9 @@ class Tuning:
         except Exception as error:
             if path is None:
                 raise
-            raise ValueError(f"{path}: no study can be kept there ({_first_line(error)})") from None
+            raise ValueError(
+                f"{path}: the study cannot be kept there ({_first_line(error)}); give another file"
+            ) from None
         if found is None and not study.trials:
             study.set_user_attr("about", about)
         elif found != about:
@@ -140,12 +142,12 @@ class Tuning:
         return Trial(trial.number, params, score)
 
     def run(self, trials: int) -> Iterator[Trial]:
-        """So many more."""
+        """Try `count` more settings."""
         for _ in range(trials):
             yield self.step()
 
     def trials(self) -> list[Trial]:
-        """All that are finished, also those of former runs."""
+        """All finished trials, including those of earlier runs."""
         finished = [trial for trial in self._study.trials if trial.state.is_finished() and trial.params]
         return [
             Trial(trial.number, self._params(trial.params), math.nan if trial.value is None else trial.value)
@@ -153,17 +155,17 @@ class Tuning:
         ]
 
     def best(self) -> Trial:
-        """The best on the training half; ValueError where no trial has a score."""
+        """The best trial on the training half. Raises ValueError if no trial has a score."""
         scored = [trial for trial in self.trials() if not math.isnan(trial.score)]
         if not scored:
             raise ValueError(
-                "no trial has a score: these frames hold no true line, or none with a return; try other frames, or "
+                "no trial has a score, because these frames have no true lines with a return; use other frames or "
                 "the label-free objective"
             )
         return max(scored, key=lambda trial: trial.score)
 
     def importance(self) -> dict[str, float]:
-        """Of each tuned threshold its share in what makes a trial good (PED-ANOVA); empty for a few trials."""
+        """The importance of each tuned threshold for the score (PED-ANOVA); empty if there are too few trials."""
         scored = [trial for trial in self.trials() if not math.isnan(trial.score)]
         if len(scored) < LEAST_FOR_IMPORTANCE or len(self._distributions) < 2:
             return {}
@@ -204,12 +206,12 @@ def _sum(parts: Sequence[Totals]) -> Totals:
 
 def _difference(found: str | None, about: str) -> str:
     if found is None:
-        return "a study of another program"
+        return "this is a study of another program"
     one, other = json.loads(found), json.loads(about)
     for name, what in [("objective", "objective"), ("thresholds", "set of thresholds"), ("data", "recording")]:
         if one[name] != other[name]:
-            return f"a study of another {what}, {_words(one[name])}, and this one is of {_words(other[name])}"
-    return "a study of other frames of the same recording"
+            return f"this is a study of another {what}: {_words(one[name])}, not {_words(other[name])}"
+    return "this is a study of other frames of the same recording"
 
 
 def _words(value: Any) -> str:

@@ -156,7 +156,7 @@ def test_the_command_compares_samples_and_files(hallway: Recording, tmp_path: Pa
     [
         (["gone"], "gone: there is no such file, sample or world"),
         (["hallway", "--methods", "guess"], "there is no method 'guess'; choose from region-growing"),
-        (["hallway", "--frames", "3"], "3 frames are too few to compare by"),
+        (["hallway", "--frames", "3"], "3 frames are too few for a comparison"),
         (["hallway", "--budget", "-1"], "the budget is -1 evaluations"),
         (["hallway", "-o", "out.pdf"], "out.pdf: use a name that ends in .md, .csv, .json"),
         (["hallway", "-o", "nowhere/out.md"], "the folder nowhere does not exist"),

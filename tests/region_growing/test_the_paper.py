@@ -81,9 +81,7 @@ def test_a_beam_of_a_merged_line_says_so():
     scan = open_recording(data_folder("sample_scans") / "lessons" / "5_shallow_corner.npz")[0]
     traced = trace(scan, Params(merge_rms=0.0))
     for beam in (20, 90):
-        assert traced.explain(beam).text.endswith(
-            "then two lines were merged into this one, 3.5° apart, less than 5.7°"
-        )
+        assert traced.explain(beam).text.endswith("then two lines merged into this one, 3.5° apart, less than 5.7°")
 
 
 def test_a_lost_beam_says_so():

@@ -38,7 +38,7 @@ def test_a_value_that_no_threshold_may_have_is_refused_before_the_work():
 
 def test_a_sweep_larger_than_memory_says_how_large_it_is():
     values = axis_values("0.01:0.1:2000", "epsilon")
-    with pytest.raises(ValueError, match=r"2000 × 2000 = 4,000,000 settings is larger than the 2,000,000"):
+    with pytest.raises(ValueError, match=r"2000 × 2000 = 4,000,000 settings exceeds the 2,000,000"):
         Grid(Params(), {"epsilon": values, "delta": values})
-    with pytest.raises(ValueError, match=r"100,000,000,000 settings is larger"):
+    with pytest.raises(ValueError, match=r"100,000,000,000 settings exceeds"):
         axis_values("0.01:0.1:100000000000", "epsilon")

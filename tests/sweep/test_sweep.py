@@ -165,9 +165,9 @@ def test_without_truth_the_table_leaves_the_rates_empty(tmp_path: Path, files: l
     [
         (["--epsilon", "0.01:0.1"], "--epsilon is '0.01:0.1'; a sweep is FROM:TO:COUNT"),
         (["--measure", "beauty"], "there is no measure 'beauty'; choose from coverage"),
-        (["-o", "sweep.xlsx"], "sweep.xlsx: a sweep is written as .csv or .parquet"),
+        (["-o", "sweep.xlsx"], "sweep.xlsx: use a name that ends in .csv or .parquet"),
         (["-o", "nowhere/sweep.csv"], "the folder nowhere does not exist"),
-        (["--plot", "sweep.gif"], "sweep.gif: a plot is written as .png or .svg"),
+        (["--plot", "sweep.gif"], "sweep.gif: use a name that ends in .png or .svg"),
         (["--scheduler", "tcp://127.0.0.1:1"], "tcp://127.0.0.1:1: no Dask scheduler answers there"),
     ],
 )

@@ -102,10 +102,10 @@ def scans_of(*ranges):
 @pytest.mark.parametrize(
     ("recording", "why"),
     [
-        pytest.param(scans_of(), "4 scans or more; 0 of these", id="no scan"),
-        pytest.param(scans_of(np.full(400, 2.0)), "4 scans or more; 1 of these", id="one frame"),
+        pytest.param(scans_of(), "scans with a return; 0 have one", id="no scan"),
+        pytest.param(scans_of(np.full(400, 2.0)), "scans with a return; 1 have one", id="one frame"),
         pytest.param(scans_of(*[np.full(10, 2.0)] * 9), "No straight wall", id="ten beams"),
-        pytest.param(scans_of(*[np.full(400, np.inf)] * 9), "4 scans or more; 0 of these", id="nothing returns"),
+        pytest.param(scans_of(*[np.full(400, np.inf)] * 9), "scans with a return; 0 have one", id="nothing returns"),
         pytest.param(scans_of(*np.random.default_rng(1).uniform(0.5, 20, (40, 400))), "No straight wall", id="no wall"),
     ],
 )

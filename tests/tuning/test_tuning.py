@@ -97,16 +97,16 @@ def test_a_study_of_something_else_is_refused_and_left_unchanged(hallway: Record
     blocks = RecordingBlocks(hallway, workers, scored=True)
     file = tmp_path / "study.db"
     list(Tuning(blocks, Objective("truth"), file).run(2))
-    with pytest.raises(ValueError, match=r"study.db: a study of another objective, truth .* this one is of label-free"):
+    with pytest.raises(ValueError, match=r"study.db: this is a study of another objective: truth .*, not label-free"):
         Tuning(blocks, Objective("label-free"), file)
     with pytest.raises(ValueError, match="a study of another set of thresholds"):
         Tuning(blocks, Objective("truth"), file, ["epsilon"])
     other = RecordingBlocks(replace(hallway, name="other"), workers, scored=True)
-    with pytest.raises(ValueError, match=r"a study of another recording, hallway.*, and this one is of other"):
+    with pytest.raises(ValueError, match=r"a study of another recording: hallway.*, not other"):
         Tuning(other, Objective("truth"), file)
     assert len(Tuning(blocks, Objective("truth"), file).trials()) == 2
     (tmp_path / "notes.db").write_text("no database, but a text that is longer than a header" * 20)
-    with pytest.raises(ValueError, match=r"notes.db: no study can be kept there"):
+    with pytest.raises(ValueError, match=r"notes.db: the study cannot be kept there"):
         Tuning(blocks, Objective("truth"), tmp_path / "notes.db")
 
 
@@ -115,7 +115,7 @@ def test_trials_without_a_score_lose_nothing(hallway: Recording, workers: Pool):
     tuning = Tuning(RecordingBlocks(nowhere, workers, scored=False), Objective("truth"))
     assert all(math.isnan(trial.score) for trial in tuning.run(3))
     assert len(tuning.trials()) == 3
-    with pytest.raises(ValueError, match="no trial has a score: these frames hold no true line"):
+    with pytest.raises(ValueError, match="no trial has a score, because these frames have no true line"):
         tuning.verdict()
     assert tuning.importance() == {}
 
@@ -136,13 +136,13 @@ def test_the_command_line_tunes_files_and_continues_a_study(hallway: Recording, 
     out, err = capsys.readouterr()
     assert read_params(out).epsilon > 0
     assert "Maximises the harmonic mean of TR and 1 − FR" in err
-    assert "on 40 frames that were held back" in err
+    assert "on 40 held-back frames" in err
     assert main(["tune", *files, *study, "--trials", "2", "-o", str(tmp_path / "found.yaml")]) == 0
     assert "least_thresh" in (tmp_path / "found.yaml").read_text()
     assert main(["tune", *files, *study, "--objective", "label-free"]) == 2
     assert "a study of another objective" in capsys.readouterr().err
     assert main(["tune", files[0], "--split", "files"]) == 2
-    assert "with one, split by frames" in capsys.readouterr().err
+    assert "split by frames instead" in capsys.readouterr().err
 
 
 def test_files_and_memory_hold_the_same_blocks(hallway: Recording, workers: Pool, tmp_path: Path):

@@ -121,7 +121,7 @@ def test_auto_tuning_sends_trials_and_a_verdict_and_continues_later(tab, hall: P
     assert [trial["number"] for trial in trials] == list(range(15))
     assert trials[0]["params"]["epsilon"] == 0.03
     verdicts = [answer["verdict"] for answer in answers if "verdict" in answer]
-    assert "that were held back" in verdicts[-1]["text"]
+    assert "held-back frames" in verdicts[-1]["text"]
     assert set(answers[-1]["importance"]) == {"epsilon", "delta"}
     assert end["done"]
     again, *_ = bench.answers(bench.tune(trials=1))
