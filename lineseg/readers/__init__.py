@@ -1,4 +1,4 @@
-"""Recordings from files: `open_recording` finds the format by content, then by suffix.
+"""Reads recordings from files. `open_recording` detects the format by content, then by suffix.
 
 A new format is one small class in one file, and one line in READERS.
 """
@@ -25,7 +25,7 @@ __all__ = ["READERS", "Cancelled", "Progress", "TextOptions", "open_recording", 
 HEAD_BYTES = 1 << 16
 
 
-# The order is that of asking: a failure pack is a zip as NPZ is, and text takes any lines, so it comes last.
+# Readers are asked in this order: a failure pack is a zip like NPZ, and text accepts any lines, so it comes last.
 READERS: tuple[type[Reader], ...] = (Ros1Bag, Ros2Bag, Mcap, FailurePack, Npz, CarmenLog, Text)
 
 
@@ -34,10 +34,10 @@ def open_recording(
 ) -> Recording:
     """The scans of a file, or of the folder of a ROS 2 bag.
 
-    topic: which stream of scans to take where there are several; the first without. `Recording.topics` names all.
-    progress: called with (done, total) while reading; if it raises `Cancelled`, that comes through.
-    text: what a plain text file does not say about itself.
-    A file that cannot be read is a ValueError or OSError whose text is one sentence.
+    topic: the stream of scans to read (default: the first). `Recording.topics` lists all.
+    progress: called with (done, total) while reading; may raise `Cancelled`, which is passed on.
+    text: the scan geometry that a plain text file does not contain.
+    Raises ValueError or OSError, with one sentence, if the file cannot be read.
     """
     need_path(path)
     path = Path(path)
@@ -49,12 +49,12 @@ def open_recording(
     except PermissionError:
         raise PermissionError(f"{path}: you have no permission to read it.") from None
     if not recording.ranges.size:
-        raise ValueError(f"{source.name} holds no scan with a beam.")
+        raise ValueError(f"{source.name} has no scan with a beam; open another file or topic.")
     return recording
 
 
 def _folder_reader(folder: Path) -> type[Reader]:
-    # A folder that no other format knows is taken for a bag, whose reader says what it lacks.
+    # Any other folder is treated as a ROS 2 bag, whose reader says what is missing.
     return next((reader for reader in READERS if reader.recognises_folder(folder)), Ros2Bag)
 
 
@@ -67,11 +67,13 @@ def _reader(source: Source, head: bytes) -> type[Reader]:
     for reader in READERS:
         if reader.recognises(head):
             if _packed(source.path) and not reader.unpacks:
-                raise ValueError(f"{source.name}: a {reader.format} packed by gzip; unpack it with `gunzip` first.")
+                raise ValueError(
+                    f"{source.name}: a {reader.format} compressed with gzip; unpack it with `gunzip` first."
+                )
             return CarmenLog if reader is Text and by_suffix is CarmenLog and not _has_numbers(head) else reader
     formats = ", ".join(reader.format for reader in READERS)
     raise ValueError(
-        f"{source.name} begins with {head[:8]!r}, which is no known recording{expected}. Formats read: {formats}."
+        f"{source.name} begins with {head[:8]!r}, which is not a known format{expected}. Known formats: {formats}."
     )
 
 
@@ -80,7 +82,7 @@ def _last(suffixes: list[str]) -> str:
 
 
 def _has_numbers(head: bytes) -> bool:
-    """Whether a line begins as a number does, so that a .log may be a table after all."""
+    """Whether a line starts like a number, so that a .log may be a table after all."""
     return any(line.lstrip()[:1] in b"+-.0123456789" for line in head.splitlines() if line.strip())
 
 
@@ -90,7 +92,7 @@ def _packed(path: Path) -> bool:
 
 
 def _head(path: Path) -> bytes:
-    """The first bytes of a file, unpacked if gzip packed it; of a broken one, what there is."""
+    """The first bytes of a file, unpacked if it is gzip; as many as are readable if it is broken."""
     if not _packed(path):
         with path.open("rb") as file:
             return file.read(HEAD_BYTES)

@@ -1,4 +1,4 @@
-"""What the readers of bags share: choosing a topic and decoding its messages."""
+"""Shared by the readers of bags: choosing a topic and decoding its messages."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from .source import Source, Sweeps
 
 @dataclass(frozen=True)
 class Stream:
-    """The messages of one publisher; several may share a topic. `handle` is whatever its reader knows it by."""
+    """The messages of one publisher; several may share a topic. `handle` identifies it for its reader."""
 
     topic: str
     type: str
@@ -28,7 +28,7 @@ class Stream:
 
 @contextmanager
 def guarded(source: Source, what: str, hint: str) -> Iterator[None]:
-    """Whatever a library raises over a damaged file becomes one sentence: each of them has its own errors."""
+    """Turns any error of a library over a damaged file into one sentence."""
     try:
         yield
     except Exception as error:
@@ -59,7 +59,7 @@ def collect(
     topics: tuple[Topic, ...],
     format: str,
 ) -> Recording:
-    """A Recording of (nanoseconds of recording, bytes) pairs; those times stand in where no message has a stamp."""
+    """A Recording from (recording time in nanoseconds, bytes) pairs; these times are used if no message has a stamp."""
     sweeps = Sweeps()
     recorded: list[float] = []
     for done, (nanoseconds, data) in enumerate(messages):
@@ -75,7 +75,7 @@ def collect(
         )  # fmt: skip
     source.progress(total, total)
     if not sweeps:
-        raise ValueError(f"{source.name}: the topic {topic} holds no message.")
+        raise ValueError(f"{source.name}: the topic {topic} has no messages; choose another topic.")
     recording = sweeps.recording(source, topic=topic, topics=topics, format=format)
     if not recording.stamps.any():
         recording.stamps[:] = np.array(recorded)
@@ -83,5 +83,5 @@ def collect(
 
 
 def _short(type: str) -> str:
-    """The name of a message type as users write it: without the "/msg/" of ROS 2."""
+    """The name of a message type as users write it, without the "/msg/" of ROS 2."""
     return type.replace("/msg/", "/")

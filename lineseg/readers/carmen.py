@@ -1,4 +1,4 @@
-"""CARMEN logs: FLASER and RLASER of the older kind, ROBOTLASER1 and 2 of the newer, plain or packed by gzip."""
+"""CARMEN logs: the older FLASER and RLASER, the newer ROBOTLASER1 and 2, plain or compressed with gzip."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ MAXIMA = {"FLASER": b"robot_front_laser_max", "RLASER": b"robot_rear_laser_max"}
 
 
 class Line(NamedTuple):
-    """One laser line, decoded; range_max is what the line announces, None if nothing."""
+    """One decoded laser line; range_max: as stated in the line, None if not stated."""
 
     ranges: Floats
     angle_min: float
@@ -30,7 +30,7 @@ class Line(NamedTuple):
 
 
 class CarmenLog(Reader):
-    """Lines of words; the first names the message, and for FLASER nothing but the number of beams tells the angles."""
+    """Lines of words, starting with the name of the message. For FLASER, the angles follow from the number of beams."""
 
     format = "CARMEN log"
     suffixes = (".log", ".clf", ".carmen")
@@ -99,16 +99,16 @@ def _decode_robotlaser(text: bytes) -> Line:
 
 
 def flaser_angles(count: int) -> tuple[float, float]:
-    """angle_min and angle_increment [rad] of `count` beams that came without angles: −90° and on, as a SICK LMS.
+    """angle_min and angle_increment [rad] of `count` beams without angles: from −90° on, like a SICK LMS.
 
-    180 and 181 beams are 1° apart, 360 and 361 are 0.5° apart; others are spread over 180°.
+    180 and 181 beams are 1° apart, 360 and 361 are 0.5° apart; other numbers are spread over 180°.
     """
     step = {180: 1.0, 181: 1.0, 360: 0.5, 361: 0.5}.get(count, 180.0 / max(count - 1, 1))
     return -np.pi / 2, np.deg2rad(step)
 
 
 def _words(text: bytes, count: int) -> list[bytes]:
-    """The first words of a line, the last of them being all that remains."""
+    """The first words of a line, followed by the rest of the line."""
     words = text.split(None, count - 1)
     if len(words) < count:
         raise ValueError(f"{_text(words[0])} breaks off after {len(words)} words; its ranges begin at word {count}.")
@@ -116,11 +116,11 @@ def _words(text: bytes, count: int) -> list[bytes]:
 
 
 def _ranges(message: bytes, count: bytes, values: bytes) -> tuple[Floats, list[bytes]]:
-    """The ranges at the front of `values`, and the words behind them."""
+    """The ranges at the start of `values`, and the words after them."""
     if not count.isdigit():
-        raise ValueError(f"{_text(message)} has {_text(count)!r} where the number of its ranges belongs.")
+        raise ValueError(f"{_text(message)} has {_text(count)!r} instead of the number of its ranges.")
     wanted = int(count)
-    if 2 * wanted > len(values) + 1:  # before memory is taken for what cannot be there
+    if 2 * wanted > len(values) + 1:  # before allocating memory for ranges that cannot exist
         raise ValueError(_missing(message, wanted, len(values.split())))
     ranges, end = leading_numbers(values, wanted)
     rest = values[end:].split()
@@ -137,7 +137,7 @@ def _missing(message: bytes, wanted: int, found: int) -> str:
 
 
 def _stamp(words: list[bytes], at: int) -> float:
-    """Seconds; 0 where the line has none."""
+    """Seconds; 0 if the line has none."""
     return _number(words[at] if at < len(words) else None) or 0.0
 
 

@@ -1,4 +1,4 @@
-"""sensor_msgs/LaserScan as bytes and as JSON. Its layout is fixed, so no message definition is needed or trusted."""
+"""sensor_msgs/LaserScan as bytes and as JSON. Its layout is fixed, so no message definition is read."""
 
 from __future__ import annotations
 
@@ -28,18 +28,18 @@ class LaserScan(NamedTuple):
 
     @property
     def stamp(self) -> float:
-        """[s], to about a microsecond for the times of today."""
+        """The stamp [s], to about a microsecond for present-day times."""
         return self.seconds + 1e-9 * self.nanoseconds
 
 
 def decode_ros1(data: bytes) -> LaserScan:
-    """The serialisation of ROS 1: little endian, packed."""
+    """The serialisation of ROS 1: little-endian, packed."""
     _, seconds, nanoseconds, length = struct.unpack_from("<IIII", data)
     return _decode(data, seconds, nanoseconds, 16, length, 16 + length, "<")
 
 
 def decode_cdr(data: bytes) -> LaserScan:
-    """The serialisation of ROS 2: four bytes that state the byte order, then CDR, where numbers are aligned."""
+    """The serialisation of ROS 2: four bytes that state the byte order, then CDR with aligned numbers."""
     order = "<" if data[1] & 1 else ">"
     seconds, nanoseconds, length = struct.unpack_from(f"{order}iII", data, 4)
     aligned = 4 + (12 + length + 3) // 4 * 4
@@ -60,14 +60,14 @@ def _decode(data: bytes, seconds: int, nanoseconds: int, at: int, length: int, n
 def decode_json(message: Any) -> LaserScan:
     """The message as a JSON object, as rosbridge and Foxglove send it.
 
-    ranges: a list of numbers; null, which stands for NaN and inf in JSON, is no return. header.stamp: {sec, nanosec} or
-    {secs, nsecs}; it may be absent (0), and so may angle_increment where angle_max is there, range_min and range_max.
+    ranges: a list of numbers; null, the JSON form of NaN and inf, means no return. header.stamp: {sec, nanosec} or
+    {secs, nsecs}. Optional: the stamp (then 0), range_min, range_max, and angle_increment if angle_max is given.
     """
     if not isinstance(message, Mapping):
         raise ValueError(f"a LaserScan is an object with ranges and angle_min, but this is {_shown(message)}")
     listed = message.get("ranges")
     if not isinstance(listed, list):
-        raise ValueError(f"ranges is {_shown(listed)}; a list of distances [m] is expected")
+        raise ValueError(f"ranges is {_shown(listed)}; give a list of distances [m]")
     try:
         with np.errstate(over="ignore"):
             ranges = np.array(listed, dtype=np.float64).astype(np.float32)
@@ -81,7 +81,7 @@ def decode_json(message: Any) -> LaserScan:
     stamp = stamp if isinstance(stamp, Mapping) else {}
     angles = (_number(message, "angle_min"), _number(message, "angle_max", 0.0))
     if "angle_increment" not in message and "angle_max" not in message:
-        raise ValueError("angle_increment [rad] is missing, and angle_max as well")
+        raise ValueError("angle_increment [rad] is missing; give it, or angle_max")
     rest = (_number(message, "angle_increment", 0.0), _number(message, "range_min", 0.0))
     return _checked(
         _whole(stamp, "sec", "secs"), _whole(stamp, "nanosec", "nsecs", "nsec"), str(header.get("frame_id", ""))[:200],
@@ -93,11 +93,11 @@ def _checked(
     seconds: int, nanoseconds: int, frame_id: str, angle_min: float, angle_max: float, increment: float,
     range_min: float, range_max: float, ranges: Floats,
 ) -> LaserScan:  # fmt: skip
-    """Limits of 0 mean that the device has none; an increment of 0 follows from angle_max."""
+    """A limit of 0 means that the device states none; an increment of 0 is computed from angle_max."""
     if increment == 0 and len(ranges) > 1:
         increment = (angle_max - angle_min) / (len(ranges) - 1)
     if not (math.isfinite(angle_min) and math.isfinite(increment)):
-        raise ValueError(f"its angle_min is {angle_min} and its angle_increment {increment}")
+        raise ValueError(f"its angle_min is {angle_min} and its angle_increment {increment}; both must be finite")
     longest = range_max if range_max > 0 else np.inf
     shortest = range_min if range_min > 0 else 0.0
     return LaserScan(seconds, nanoseconds, frame_id, angle_min, increment, shortest, longest, ranges)
@@ -105,17 +105,17 @@ def _checked(
 
 def _number(message: Mapping[str, Any], name: str, usual: float | None = None) -> float:
     value = message.get(name, usual)
-    if value is None and name in message:  # null: an infinity that JSON cannot say
+    if value is None and name in message:  # null: an infinity, which JSON lacks
         return math.nan
     if isinstance(value, bool) or not isinstance(value, int | float):
-        raise ValueError(f"{name} is {_shown(value)}; a number is expected")
+        raise ValueError(f"{name} is {_shown(value)}; it must be a number")
     return float(value)
 
 
 def _whole(stamp: Mapping[str, Any], *names: str) -> int:
     value = next((stamp[name] for name in names if name in stamp), 0)
     if isinstance(value, bool) or not isinstance(value, int) or not 0 <= value < 1 << 32:
-        raise ValueError(f"the stamp's {names[0]} is {_shown(value)}; a whole number is expected")
+        raise ValueError(f"the stamp's {names[0]} is {_shown(value)}; it must be a whole number")
     return value
 
 

@@ -1,4 +1,4 @@
-"""NPZ, the exchange format: arrays by name, read without pickle."""
+"""NPZ, the exchange format: named arrays, read without pickle."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ class Npz(Reader):
     """ranges (F, N) or (N,) [m], angle_min, angle_increment [rad] scalars or (F,); optional range_min, range_max [m],
     stamps (F,) [s], frame_id, wall (F, N) int, poses (F, 3), walls (W, 4).
 
-    For scans of different length: beams (F,) int, how many of a row count; for beams unevenly spaced: bearings (F, N)
-    [rad], which then stand in for angle_min and angle_increment.
+    For scans of different length: beams (F,) int, the number of beams in each row. For unevenly spaced beams: bearings
+    (F, N) [rad] instead of angle_min and angle_increment.
     """
 
     format = "NPZ"
@@ -42,7 +42,7 @@ class Npz(Reader):
 
     @staticmethod
     def read_from(file: Path | BinaryIO, source: Source) -> Recording:
-        """Read `file`, which is what `source` names or lies inside it."""
+        """Read `file`, which is the file of `source` or an entry in it."""
         source.progress(0, 1)
         arrays = _load(file, source)
         try:
@@ -55,7 +55,7 @@ class Npz(Reader):
 
 
 def save_npz(recording: Recording, target: str | Path | BinaryIO) -> None:
-    """Write `recording` so that `open_recording` gives it back; shorter scans are padded with NaN."""
+    """Write `recording` such that `open_recording` restores it; shorter scans are padded with NaN."""
     need_recording(recording)
     lengths = np.diff(recording.offsets)
     shape = (len(recording), int(lengths.max(initial=0)))
@@ -90,7 +90,9 @@ def _load(file: Path | BinaryIO, source: Source) -> dict[str, NDArray]:
         with zipfile.ZipFile(file) as archive:
             size = sum(each.file_size for each in archive.infolist())
         if size > MOST_BYTES:
-            raise ValueError(f"unpacked it would have {size / 2**30:.1f} GB; at most {MOST_BYTES >> 30} GB are read")
+            raise ValueError(
+                f"it would have {size / 2**30:.1f} GB unpacked; the limit is {MOST_BYTES >> 30} GB, so split it"
+            )
         with np.load(file, allow_pickle=False) as archive:
             return {name: _array(archive, name) for name in archive.files}
     except (zipfile.BadZipFile, zlib.error, EOFError, OSError) as error:
@@ -105,7 +107,7 @@ def _array(archive: Mapping[str, NDArray], name: str) -> NDArray:
     except MemoryError:
         raise ValueError(f"{name!r} states a shape that does not fit in memory; save the file again") from None
     except ValueError as error:
-        why = "holds Python objects, which are not loaded; save plain numbers" if "pickle" in str(error) else str(error)
+        why = "has Python objects, which are not loaded; save plain numbers" if "pickle" in str(error) else str(error)
         raise ValueError(f"{name!r} {why}") from None
 
 
@@ -113,14 +115,14 @@ def _recording(source: Source, arrays: dict[str, NDArray]) -> Recording:
     has = f"it has {', '.join(sorted(arrays)) or 'nothing'}"
     for name in ("ranges",) if "bearings" in arrays else ("ranges", "angle_min", "angle_increment"):
         if name not in arrays:
-            raise ValueError(f"there is no array {name!r}; {has}. Needed are {SHAPES}.")
+            raise ValueError(f"there is no array {name!r}; {has}. Required: {SHAPES}.")
     ranges = np.atleast_2d(_numbers(arrays, "ranges", np.float32))
     if ranges.ndim != 2:
-        raise ValueError(f"ranges has the shape {arrays['ranges'].shape}; needed are {SHAPES}.")
+        raise ValueError(f"ranges has the shape {arrays['ranges'].shape}; required: {SHAPES}.")
     frames, beams = ranges.shape
     lengths = _per_frame(arrays, "beams", frames, beams).astype(np.int64)
     if ((lengths < 0) | (lengths > beams)).any():
-        raise ValueError(f"beams has the value {lengths.max()}; a row of ranges has {beams}.")
+        raise ValueError(f"beams has the value {lengths.max()}; a row of ranges has only {beams}.")
     inside = np.arange(beams) < lengths[:, None]
     topic = Topic("ranges", frames)
     return Recording(
@@ -144,7 +146,7 @@ def _recording(source: Source, arrays: dict[str, NDArray]) -> Recording:
 
 
 def _frame_ids(arrays: dict[str, NDArray], frames: int) -> tuple[str, ...]:
-    """One name for all scans, or one for each."""
+    """One name for all scans, or one each."""
     names = arrays.get("frame_id", np.array(""))
     if names.shape not in ((), (1,), (frames,)):
         raise ValueError(f"frame_id has the shape {names.shape}; it needs one name, or one for each of {frames} scans.")
@@ -152,10 +154,10 @@ def _frame_ids(arrays: dict[str, NDArray], frames: int) -> tuple[str, ...]:
 
 
 def _numbers(arrays: dict[str, NDArray], name: str, least: type) -> NDArray:
-    """The array as it is if it holds floats, or turned into them; float32 stays float32."""
+    """The array converted to floats if necessary; float32 stays float32."""
     array = arrays[name]
     if array.dtype.kind not in "fiu":
-        raise ValueError(f"{name} holds {array.dtype}; it must hold numbers.")
+        raise ValueError(f"{name} has the type {array.dtype}; it must contain numbers.")
     return array if array.dtype in (np.float32, np.float64) else array.astype(np.result_type(array, least))
 
 
@@ -166,7 +168,7 @@ def _per_frame(arrays: dict[str, NDArray], name: str, frames: int, default: floa
     if array.shape not in ((), (1,), (frames,)):
         raise ValueError(f"{name} has the shape {array.shape}; it needs one value, or one for each of {frames} scans.")
     if name.startswith("angle") and not np.isfinite(array).all():
-        raise ValueError(f"{name} has a value that is not finite; angles are radians.")
+        raise ValueError(f"{name} has a value that is not finite; give finite angles in radians.")
     return np.broadcast_to(array, frames).copy()
 
 
@@ -175,7 +177,7 @@ def _rows(arrays: dict[str, NDArray], name: str, shape: tuple, inside: NDArray, 
         return None
     array = _numbers(arrays, name, np.float64)
     if np.atleast_2d(arrays[name]).shape != shape:
-        raise ValueError(f"{name} has the shape {arrays[name].shape}; it needs that of ranges, {shape}.")
+        raise ValueError(f"{name} has the shape {arrays[name].shape}; it needs the shape of ranges, {shape}.")
     return np.atleast_2d(array)[inside].astype(kind)
 
 

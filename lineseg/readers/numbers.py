@@ -1,4 +1,4 @@
-"""Decimal numbers out of text, at the speed of the disk: logs of laser scans are hardly anything else."""
+"""Parses decimal numbers at the speed of the disk, because logs of laser scans contain little else."""
 
 from __future__ import annotations
 
@@ -11,23 +11,23 @@ from ..scan import Floats
 
 SEPARATORS = re.compile(rb"[\s,;]+")
 WORD = re.compile(rb"[^\s,;]+")
-EXACT_POWERS = 10.0 ** np.arange(23)  # the powers of ten that a double holds exactly
-MOST_DIGITS = 15  # so many digits, too
+EXACT_POWERS = 10.0 ** np.arange(23)  # the powers of ten that a double represents exactly
+MOST_DIGITS = 15  # decimal digits that a double represents exactly
 
 
 def split(text: bytes) -> list[bytes]:
-    """The words of a line, parted by blanks, commas or semicolons."""
+    """The words of a line, separated by blanks, commas or semicolons."""
     return SEPARATORS.split(text.strip(b" \t,;\r\n"))
 
 
 def leading_numbers(text: bytes, count: int) -> tuple[Floats, int]:
-    """The first `count` numbers of `text`, and where they end; fewer if there are fewer or one word is no number.
+    """The first `count` numbers of `text`, and where they end; fewer if the text ends or a word is not a number.
 
-    The values are those of `float`, to the last bit.
+    The values equal those of `float` to the last bit.
     """
     values = np.empty(count)
     found, end = _plain_decimals(np.frombuffer(text, np.uint8), values, EXACT_POWERS)
-    if found < count:  # there are words of another kind, such as nan, 1e-3 or 17 digits
+    if found < count:  # there are other words, such as nan, 1e-3 or 17 digits
         for match in WORD.finditer(text, end):
             try:
                 values[found] = float(match[0])
@@ -61,10 +61,10 @@ def _is_separator(byte):
 
 @entry_kernel
 def _plain_decimals(text, values, powers):
-    """Fill `values` from the front of `text` while its words are like -12.34; their number, and where the last ends.
+    """Fill `values` from the start of `text` while words look like -12.34; returns their number and where they end.
 
-    Digits are gathered as an integer and divided once by a power of ten: both are exact, so the quotient is rounded
-    correctly, as `float` does it.
+    Digits are collected as an integer and divided once by a power of ten. Both are exact, so the quotient is rounded
+    correctly, like that of `float`.
     """
     at = end = found = 0
     size = len(text)

@@ -1,4 +1,4 @@
-"""Failure packs: a zip that holds one frame as NPZ, and what was found in it."""
+"""Reads failure packs: a zip with one frame as NPZ and the results for it."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ from .source import Reader, Source
 FORMAT, VERSION = "lineseg failure pack", 1
 ABOUT, FRAME = "lineseg.json", "frame.npz"
 MOST_BYTES = 1 << 28
-# Of the local header of a zip's first entry: its name begins here.
+# Offset of the name in the local header of a zip's first entry.
 NAME_AT = 30
 
 
 class FailurePack(Reader):
-    """lineseg.json first, which says what it is, and frame.npz; see `lineseg.writers.pack`."""
+    """lineseg.json first, with the description, and frame.npz; see `lineseg.writers.pack`."""
 
     format = "failure pack"
     suffixes = (".zip",)
@@ -40,32 +40,33 @@ class FailurePack(Reader):
 
 
 def read_pack(path: str | Path) -> PackAbout:
-    """What a pack says about itself; its frame comes from `open_recording`. ValueError where it is no pack."""
+    """The description in a pack; `open_recording` reads its frame. Raises ValueError if it is not a pack."""
     about = _about(Path(path))
     return PackAbout(**{name: about[name] for name in PackAbout.__dataclass_fields__})
 
 
 def _about(path: Path) -> dict[str, Any]:
-    """lineseg.json of a pack; a ValueError in one sentence where it is none, or of a newer version."""
+    """lineseg.json of a pack. Raises ValueError, with one sentence, if it is not a pack or of a newer version."""
     try:
         about = json.loads(_entry(path, ABOUT))
     except (ValueError, RecursionError) as error:
         raise ValueError(f"{path.name}: a damaged failure pack ({error}).") from None
     if not isinstance(about, dict) or about.get("format") != FORMAT:
-        raise ValueError(f"{path.name} is no failure pack.")
+        raise ValueError(f"{path.name} is not a failure pack.")
     if about.get("version") != VERSION:
         raise ValueError(
-            f"{path.name}: a failure pack of version {about.get('version')}, {VERSION} is read; update lineseg."
+            f"{path.name}: a failure pack of version {about.get('version')}, but this lineseg reads {VERSION}; update "
+            "it."
         )
     wanted = {"recording": str, "frame": int, "method": str, "params": dict, "note": str}
     for name, kind in wanted.items():
         if not isinstance(about.get(name), kind):
-            raise ValueError(f"{path.name}: {name} in {ABOUT} is {about.get(name)!r}; a {kind.__name__} is expected.")
+            raise ValueError(f"{path.name}: {name} in {ABOUT} is {about.get(name)!r}; it must be a {kind.__name__}.")
     return about
 
 
 def _entry(path: Path, name: str) -> bytes:
-    """An entry of the zip, as long as it may be unpacked."""
+    """An entry of the zip, up to a size limit."""
     try:
         with zipfile.ZipFile(path) as pack, pack.open(name) as entry:
             content = entry.read(MOST_BYTES + 1)

@@ -1,4 +1,4 @@
-"""Where the returns of a laser end and its codes for "no return" begin, for formats that do not say it reliably."""
+"""Estimates the limit between returns and codes for "no return", for formats that do not state it reliably."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import numpy as np
 
 from ..scan import Floats
 
-# SICK LMS2xx write the top of their number range for "nothing came back"; what they can measure ends a little below.
+# SICK LMS2xx use the top of their number range for "no return"; real measurements end a little below.
 # (longest measurement, lowest code, highest code), in metres
 SICK_CODES = (
     (8.0, 8.18, 8.192),
@@ -20,10 +20,10 @@ FEW_CODES = 3
 
 
 def longest_return(ranges: Floats, announced: float | None = None) -> float:
-    """A bound below which every range is a return and from which on none is [m]; inf if the data show none.
+    """A bound below which every range is a return, and no range from it on [m]; inf if the data show none.
 
-    announced: the maximum that the file states. It is believed if nothing lies beyond it but a few values that recur,
-    as codes do; a robot's "laser max" may be a setting of its driver, while real readings are longer.
+    announced: the maximum stated by the file. It is used only if beyond it lie no values, or a few that recur, like
+    codes; a robot's "laser max" may be a setting of its driver that real readings exceed.
     """
     finite = ranges[np.isfinite(ranges)]
     greatest = float(finite.max(initial=0.0))

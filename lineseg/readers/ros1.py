@@ -15,7 +15,7 @@ from .source import Reader, Source
 
 
 class Ros1Bag(Reader):
-    """`rosbags` finds the messages; the bytes of a LaserScan are read here."""
+    """`rosbags` finds the messages; this reader decodes the bytes of a LaserScan."""
 
     format = "ROS 1 bag"
     suffixes = (".bag", ".active")
@@ -52,9 +52,9 @@ def _check_version(source: Source) -> None:
 
 
 def _open_bag(source: Source) -> Any:
-    """A reader of `rosbags` that takes the length of an index record from its number of entries.
+    """A reader of `rosbags` that computes the length of an index record from its number of entries.
 
-    Bags of 2010 announce 20 bytes an entry where 12 were written.
+    Bags from 2010 announce 20 bytes per entry but contain 12.
     """
     from rosbags.rosbag1.reader import Header, IndexData, Reader, RecordType, read_bytes, read_uint32
 
@@ -73,8 +73,8 @@ def _open_bag(source: Source) -> Any:
 
 
 def _messages(source: Source, bag: Any, streams: list[Stream]) -> Iterator[tuple[int, bytes]]:
-    """`streams` is never empty: `rosbags` takes no connection for all of them."""
+    """`streams` must not be empty: `rosbags` treats an empty list as all connections."""
     assert streams
-    with guarded(source, "ROS bag", "`rosbag fix` may save what is left of it."):
+    with guarded(source, "ROS bag", "`rosbag fix` may save part of it."):
         for _, nanoseconds, data in bag.messages([stream.handle for stream in streams]):
             yield nanoseconds, data

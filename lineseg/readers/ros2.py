@@ -31,7 +31,7 @@ class Storage(Protocol):
 
 
 class Ros2Bag(Reader):
-    """A folder of .db3 or .mcap files, or one .db3. `metadata.yaml` is not needed: the files say the same."""
+    """A folder of .db3 or .mcap files, or one .db3. `metadata.yaml` is not needed, because the files say the same."""
 
     format = "ROS 2 bag"
     suffixes = (".db3",)
@@ -73,7 +73,9 @@ def _read(source: Source, files: list[Path], format: str) -> Recording:
         topic, topics, chosen = choose_streams(source, streams)
         encodings = {stream.handle.encoding for stream in chosen}
         if not encodings <= {"cdr", "ros1"}:
-            raise ValueError(f"{source.name}: {topic} is encoded as {', '.join(sorted(encodings))}; cdr can be read.")
+            raise ValueError(
+                f"{source.name}: {topic} is encoded as {', '.join(sorted(encodings))}; only cdr can be read."
+            )
 
         def messages() -> Iterator[tuple[int, bytes]]:
             for storage in storages:
@@ -87,13 +89,13 @@ def _read(source: Source, files: list[Path], format: str) -> Recording:
 
 
 def _bag_files(source: Source) -> list[Path]:
-    """The storage files of a bag's folder in the order of recording: bag_2 comes before bag_10."""
+    """The storage files of a bag's folder in recording order: bag_2 comes before bag_10."""
     names = (".db3", ".mcap", ".db3.zstd", ".mcap.zstd")
     files = [path for path in source.path.iterdir() if path.name.endswith(names) and path.is_file()]
     if not files:
         raise ValueError(
-            f"{source.name} is a folder without recordings of ROS 2; a bag's folder holds .db3 or .mcap files. "
-            "Other recordings are opened one file at a time."
+            f"{source.name} is a folder without a ROS 2 recording, which has .db3 or .mcap files. "
+            "Open other recordings one file at a time."
         )
     return sorted(files, key=lambda path: [int(part) if part.isdecimal() else part for part in _parts(path.name)])
 
@@ -126,7 +128,7 @@ def _storage(file: Path, stack: ExitStack) -> Iterator[Storage]:
 
 
 class _Channel:
-    """How a storage file knows a publisher."""
+    """The id of a publisher in a storage file."""
 
     def __init__(self, id: Any, encoding: str) -> None:
         self.id, self.encoding = id, encoding
@@ -167,10 +169,10 @@ class _McapFile:
 
 
 def _connect(file: Path, stack: ExitStack) -> sqlite3.Connection:
-    """The database, opened so that nothing is written beside it.
+    """The database, opened such that no files are written next to it.
 
-    An immutable database ignores the write-ahead log; where that holds messages (a recording that was cut short), a
-    copy of both is opened instead.
+    An immutable database ignores the write-ahead log. If the log has messages (after an interrupted recording), a copy
+    of both is opened instead.
     """
     log = file.with_name(f"{file.name}-wal")
     mode = "mode=ro&immutable=1"
@@ -185,7 +187,7 @@ def _connect(file: Path, stack: ExitStack) -> sqlite3.Connection:
 
 
 def _unpack_file(file: Path, stack: ExitStack) -> Path:
-    """A copy, unpacked, of a storage file that was packed as a whole."""
+    """An unpacked copy of a storage file that was compressed as a whole."""
     from rosbags.rosbag2.reader import zstd
 
     folder = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="lineseg-")))
@@ -196,7 +198,7 @@ def _unpack_file(file: Path, stack: ExitStack) -> Path:
 
 
 def _unpacked(data: bytes) -> bytes:
-    """A message as it was before a recorder packed it; CDR never begins as zstd does."""
+    """A message, decompressed if necessary; CDR never begins like zstd."""
     if not data.startswith(ZSTD_MAGIC):
         return data
     from rosbags.rosbag2.reader import zstd

@@ -1,4 +1,4 @@
-"""What every reader is given (`Source`), and how it hands its scans over (`Sweeps`)."""
+"""The input of every reader (`Source`), and the collector of its scans (`Sweeps`)."""
 
 from __future__ import annotations
 
@@ -20,15 +20,15 @@ GZIP_MAGIC = b"\x1f\x8b"
 LONGEST_LINE = 1 << 24
 
 
-class Cancelled(Exception):  # noqa: N818 - nothing went wrong
-    """Raised by a progress callback to stop a reader; `open_recording` lets it through."""
+class Cancelled(Exception):  # noqa: N818 - this is not an error
+    """Raised by a progress callback to stop a reader; `open_recording` passes it on."""
 
 
 @dataclass(frozen=True)
 class Source:
-    """One file to be read, and how.
+    """One file to read, with options.
 
-    progress: called with what is done and the total, in one unit (bytes or messages); it may raise `Cancelled`.
+    progress: called with (done, total) in bytes or messages; it may raise `Cancelled`.
     """
 
     path: Path
@@ -41,7 +41,7 @@ class Source:
         return self.path.name or str(self.path)
 
     def lines(self) -> Iterator[tuple[int, bytes]]:
-        """(number, line) of a text file or of one packed by gzip; numbers count from 1, the line end is cut off."""
+        """(number, line) of a text file, plain or gzip; numbers count from 1, line ends are removed."""
         total = max(self.path.stat().st_size, 1)
         number = 0
         with self.path.open("rb") as file:
@@ -57,13 +57,13 @@ class Source:
             except (EOFError, zlib.error, gzip.BadGzipFile) as error:
                 where = f"{self.name}:{number}: after this line" if number else f"{self.name}:"
                 raise ValueError(
-                    f"{where} the gzip data break off or are damaged ({str(error).rstrip('.')}); "
-                    "fetch the file again, or unpack what is left with `gzip -dc`."
+                    f"{where} the gzip data are incomplete or damaged ({str(error).rstrip('.')}); "
+                    "fetch the file again, or unpack the readable part with `gzip -dc`."
                 ) from None
         self.progress(total, total)
 
     def choose(self, topics: list[Topic], what: str = "topic") -> str:
-        """The wanted topic, or the first; a ValueError lists what there is."""
+        """The wanted topic, or the first. Raises ValueError, listing the topics, if it does not exist."""
         names = [topic.name for topic in topics]
         if self.topic is None:
             return names[0]
@@ -73,9 +73,9 @@ class Source:
 
 
 class Reader:
-    """A format. format: its name; suffixes: in lower case; expects: what such a file has, for messages.
+    """A format. format: its name; suffixes: in lower case; expects: the typical content, for messages.
 
-    unpacks: whether it also reads a file that gzip packed; `recognises` is then given the unpacked bytes.
+    unpacks: whether it also reads gzip files; `recognises` then gets the unpacked bytes.
     """
 
     format: ClassVar[str]
@@ -85,7 +85,7 @@ class Reader:
 
     @staticmethod
     def recognises(head: bytes) -> bool:
-        """Whether a file that begins so is of this format."""
+        """Whether a file that begins with `head` has this format."""
         raise NotImplementedError
 
     @staticmethod
@@ -95,12 +95,12 @@ class Reader:
 
     @staticmethod
     def read(source: Source) -> Recording:
-        """All scans of the chosen topic; a ValueError in one sentence if the file cannot be read."""
+        """All scans of the chosen topic. Raises ValueError, with one sentence, if the file cannot be read."""
         raise NotImplementedError
 
 
 class Sweeps:
-    """Collects scans one by one and joins them in a Recording."""
+    """Collects scans one by one and joins them into a Recording."""
 
     def __init__(self) -> None:
         self.ranges: list[Floats] = []
@@ -129,7 +129,7 @@ class Sweeps:
             self.bearings.append(bearings)
 
     def recording(self, source: Source, **fields: Any) -> Recording:
-        """All scans as one Recording; `fields` go to it as they are and win over what was collected."""
+        """All scans as one Recording; `fields` override the collected values."""
         geometry = np.array(self.geometry, dtype=np.float64).reshape(-1, 5)
         columns: dict[str, Any] = {
             "name": source.name,

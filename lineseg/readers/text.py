@@ -1,4 +1,4 @@
-"""Plain text: a scan a row, columns of angle and distance, or a table with a column `ranges`."""
+"""Plain text: one scan per row, columns of angle and distance, or a table with a column `ranges`."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from .range_limits import longest_return
 from .source import Reader, Source, Sweeps
 from .text_options import METRES, TextOptions, Unit
 
-# angle_min and angle_increment, in degrees, of common lasers by their number of beams.
+# angle_min and angle_increment, in degrees, of common lasers by number of beams.
 LASERS = {
     180: (-90.0, 1.0),
     181: (-90.0, 1.0),
@@ -44,7 +44,7 @@ class Row(NamedTuple):
 
 
 class Text(Reader):
-    """The reader that is tried last: whatever consists of lines with numbers."""
+    """The last reader to try: any file with lines of numbers."""
 
     format = "text"
     suffixes = (".csv", ".txt", ".dat", ".tsv", ".asc", ".xy")
@@ -77,7 +77,7 @@ class Text(Reader):
         return _read_scans(source, rows, options)
 
 
-TEXT_FORMS = "a text file has one scan a row, or the columns angle and distance, or a table with a column named ranges."
+TEXT_FORMS = "use one scan per row, or columns of angle and distance, or a table with a column named ranges."
 
 
 def _rows(source: Source) -> Iterator[Row]:
@@ -110,7 +110,7 @@ def _numbers(source: Source, row: Row, text: bytes) -> Floats:
 
 
 def _with_comments(source: Source, said: dict[str, str]) -> TextOptions:
-    """The options given, completed by what comment lines of the file say."""
+    """The given options, completed from the comment lines of the file."""
     found: dict[str, str | float | int] = {}
     for name in TextOptions.names():
         if name in said and getattr(source.text, name) is None:
@@ -140,7 +140,7 @@ def _read_scans(source: Source, rows: Iterator[Row], options: TextOptions) -> Re
         values = _numbers(source, row, row.text)[skip:]
         if scans and len(values) != len(scans[0]):
             raise ValueError(
-                f"{source.name}:{row.number}: {len(values)} ranges, but the scans before have {len(scans[0])}; "
+                f"{source.name}:{row.number}: {len(values)} ranges, but earlier scans have {len(scans[0])}; "
                 "is the line complete?"
             )
         scans.append(values)
@@ -148,7 +148,7 @@ def _read_scans(source: Source, rows: Iterator[Row], options: TextOptions) -> Re
     if len(scans) > 1 and len(scans[0]) == 1:
         scans = [np.concatenate(scans)]
     if len(scans[0]) == 0:
-        raise ValueError(f"{source.name}:{numbers[0]}: no range is left after {skip} leading columns.")
+        raise ValueError(f"{source.name}:{numbers[0]}: no ranges are left after {skip} leading columns; skip fewer.")
     ranges = np.concatenate(scans)
     unit = options.unit or _guess_unit(ranges)
     angle_min, increment = _angles(source, len(scans[0]), options)
@@ -159,7 +159,7 @@ def _read_scans(source: Source, rows: Iterator[Row], options: TextOptions) -> Re
 
 
 def _leading_columns(text: bytes) -> int:
-    """How many numbers stand in front of the ranges: all before a double space, if there is one such in the line."""
+    """Number of values before the ranges: those before a double space, if the line has exactly one."""
     parts = re.split(rb" {2,}", text.strip())
     return len(split(parts[0])) if len(parts) == 2 and len(split(parts[1])) > len(split(parts[0])) else 0
 
@@ -172,7 +172,7 @@ def _guess_unit(ranges: Floats) -> Unit:
 
 
 def _angles(source: Source, beams: int, options: TextOptions) -> tuple[float, float]:
-    """angle_min and angle_increment [rad]: as given, or of the laser that has so many beams."""
+    """angle_min and angle_increment [rad]: as given, or of the common laser with this number of beams."""
     low, step = (math.radians(angle) for angle in LASERS.get(beams, (math.nan, math.nan)))
     step = step if options.angle_increment is None else options.angle_increment
     low = low if options.angle_min is None else options.angle_min
@@ -180,8 +180,8 @@ def _angles(source: Source, beams: int, options: TextOptions) -> tuple[float, fl
         low = -step * (beams - 1) / 2
     if math.isnan(step):
         raise ValueError(
-            f"{source.name}: rows of {beams} numbers, and nothing says at which angles; "
-            f"give angle_increment and angle_min (without, 0° is the middle), and skip_columns if not all are ranges."
+            f"{source.name}: rows of {beams} numbers without angles; give angle_increment, and angle_min unless 0° "
+            "is in the middle, and skip_columns if not all numbers are ranges."
         )
     return low, step
 
@@ -230,7 +230,7 @@ def _column(source: Source, names: list[str], known: tuple[str, ...]) -> int:
 
 
 def _in_degrees(angles: Floats, name: str, options: TextOptions) -> bool:
-    """As asked for, as the column's name says, or because no angle in radians is so large."""
+    """The unit of angles: as given, from the column's name, or degrees if angles are too large for radians."""
     if options.angle_unit:
         return options.angle_unit == "deg"
     if name.endswith(("_deg", "_rad")):
@@ -239,13 +239,13 @@ def _in_degrees(angles: Floats, name: str, options: TextOptions) -> bool:
 
 
 def _revolutions(angles: Floats) -> Iterator[tuple[int, int]]:
-    """Half-open spans of the scans in a column of angles: a new one begins where the angle leaps back."""
+    """Half-open spans of the scans in a column of angles: a new scan starts where the angle jumps back."""
     leaps = np.flatnonzero(np.abs(np.diff(angles)) > np.pi) + 1
     edges = [0, *leaps.tolist(), len(angles)]
     yield from pairwise(edges)
 
 
-# A table with a column of lists, as `rostopic echo -p` and exporters write it
+# A table with a column of lists, as written by `rostopic echo -p` and exporters
 
 
 def _read_table(source: Source, names: list[str], rows: Iterator[Row], options: TextOptions) -> Recording:
@@ -265,21 +265,21 @@ def _read_table(source: Source, names: list[str], rows: Iterator[Row], options: 
         stamp, frame_id = _stamp(cell), _frame_id(cell)
         sweeps.add(ranges * METRES[options.unit or "m"], angle_min, increment, range_min, range_max, stamp, frame_id)
     if not sweeps:
-        raise ValueError(f"{source.name} has column names, but no scan below them.")
+        raise ValueError(f"{source.name} has column names, but no scans below them.")
     return _finish(source, sweeps, options, limits=True)
 
 
 def _value(source: Source, row: Row, cell: dict[str, str], name: str, default: float | None) -> float:
-    """The number in the column `name`; `default` where there is no such column or an empty cell."""
+    """The number in the column `name`; `default` if the column is missing or the cell is empty."""
     if cell.get(name, "").strip():
         return float(_numbers(source, row, cell[name].encode())[0])
     if default is None:
-        raise ValueError(f"{source.name}:{row.number}: there is no {name}; a column or an option must give it.")
+        raise ValueError(f"{source.name}:{row.number}: {name} is missing; give it in a column or an option.")
     return default
 
 
 def _stamp(cell: dict[str, str]) -> float:
-    """Seconds of a message's stamp, however the exporter wrote them; 0 if it wrote none."""
+    """The stamp of a message in seconds, in any of the exporters' forms; 0 if there is none."""
     header = cell.get("header", "")
     seconds = re.search(r"\bsecs?'?\s*:\s*(-?\d+)", header)
     nanoseconds = re.search(r"\bn(?:ano)?secs?'?\s*:\s*(\d+)", header)

@@ -90,7 +90,7 @@ class Objective:
         if self.kind == "truth":
             return "The result is only as good as the truth: anything it lacks, such as furniture, counts as false."
         return (
-            "Without truth, this rewards results that look tidy. It is misleading if short lines can cover clutter, "
+            "Without truth, this rewards results that look tidy. It misleads if short lines can cover clutter, "
             "if the laser moves fast (which lowers steadiness), or if the noise is far from the given rms. Look at "
             "some frames before you use the result."
         )

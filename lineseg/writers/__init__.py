@@ -1,4 +1,4 @@
-"""Results and thresholds as files: segments, a frame as a drawing, thresholds for ROS, Python, the command line."""
+"""Writes segments, drawings of frames, and thresholds for ROS, Python and the command line."""
 
 from __future__ import annotations
 

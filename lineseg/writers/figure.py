@@ -1,4 +1,4 @@
-"""One frame as a drawing: its points and segments from above, with a scale bar and a legend, as SVG."""
+"""Draws one frame as SVG: points and segments from above, with a scale bar and a legend."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ STEPS = (1, 2, 5)
 
 
 def figure_svg(scan: Scan, extraction: Extraction, title: str = "") -> str:
-    """The frame as an SVG document of WIDTH × HEIGHT, x to the right and y up, as the laser sees it; the laser a cross.
+    """The frame as an SVG document of WIDTH × HEIGHT in the frame of the laser, x to the right and y up.
 
-    The scale is that at which all valid points just fit; the bar under the drawing says what it is.
+    A cross marks the laser. The drawing is scaled to fit all valid points; the scale bar is below it.
     """
     place = _Place(scan.xy[scan.valid])
     parts = [
@@ -40,14 +40,14 @@ def figure_svg(scan: Scan, extraction: Extraction, title: str = "") -> str:
 
 
 def figure_title(recording: Recording, frame: int, method: str) -> str:
-    """ "corridor.bag, frame 18 of 300, Region growing": frames are counted from 1, as the page does."""
+    """ "corridor.bag, frame 18 of 300, Region growing", with frames counted from 1 as on the page."""
     if recording.pack is not None:
         return f"{recording.pack.recording}, frame {recording.pack.frame + 1}, {method}"
     return f"{recording.name}, frame {frame + 1} of {len(recording)}, {method}"
 
 
 class _Place:
-    """Where a point of the frame [m] lies in the drawing [px]."""
+    """The position in the drawing [px] of a point in the frame [m]."""
 
     def __init__(self, xy: NDArray[np.float64]) -> None:
         corners = np.vstack((xy, (0.0, 0.0)))
@@ -107,6 +107,6 @@ def _foot(scan: Scan, extraction: Extraction, title: str, place: _Place) -> Iter
 
 
 def bar_length(most: float) -> float:
-    """The longest of 1, 2 and 5 times a power of ten that is not longer than `most` [m], most > 0."""
+    """The greatest of 1, 2 and 5 times a power of ten that is at most `most` [m], most > 0."""
     power = 10.0 ** math.floor(math.log10(most) + 1e-12)
     return power * max(step for step in STEPS if step * power <= most * (1 + 1e-9))

@@ -1,4 +1,4 @@
-"""Numbers for formats that have neither NaN nor infinity, such as JSON."""
+"""Numbers for formats without NaN and infinity, such as JSON."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A failure pack: one frame and all that was found in it, in a zip that opens again as a recording."""
+"""Writes failure packs: one frame and its results, in a zip that opens again as a recording."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from ..tracing.decisions import Trace
 from .figure import figure_svg, figure_title
 from .segments import segment_lines
 
-# The same pack is the same bytes.
+# A fixed date, so that equal packs have equal bytes.
 STAMP = (1980, 1, 1, 0, 0, 0)
 
 
@@ -36,8 +36,8 @@ def write_pack(
 ) -> None:
     """Write a zip of the frame (frame.npz, frame.csv), its segments, the trace, a drawing, the thresholds and a note.
 
-    `open_recording` opens it as a recording of this one frame, `read_params` reads its lineseg.json. A pack of a pack's
-    frame tells where that came from.
+    `open_recording` opens it as a recording of one frame, `read_params` reads its lineseg.json. A pack made from a pack
+    keeps the original source.
     """
     need_recording(recording)
     params = Params() if params is None else params
@@ -53,7 +53,7 @@ def write_pack(
     )
     title = figure_title(recording, frame, method.label)
     with zipfile.ZipFile(target, "w") as pack:
-        # First, so that the file is known by its first bytes.
+        # First, so that the first bytes identify the file.
         _add(pack, ABOUT, json.dumps(about, ensure_ascii=False, indent=2))
         _add(pack, FRAME, _npz(alone))
         _add(pack, "frame.csv", "".join(_beams(scan, found.labels)))
@@ -64,7 +64,7 @@ def write_pack(
 
 
 def _add(pack: zipfile.ZipFile, name: str, content: str | bytes) -> None:
-    # An NPZ is packed already.
+    # An NPZ is already compressed.
     kind = zipfile.ZIP_STORED if name == FRAME else zipfile.ZIP_DEFLATED
     pack.writestr(zipfile.ZipInfo(name, STAMP), content, kind)
 

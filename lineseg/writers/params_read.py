@@ -1,4 +1,4 @@
-"""Thresholds read back from a ROS 1 launch file, ROS 2 parameters in YAML, JSON, Python, or flags."""
+"""Reads thresholds from a ROS 1 launch file, ROS 2 parameters in YAML, JSON, Python, or flags."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ MOST_CHARACTERS = 1 << 20
 ALIAS = re.compile(r"(?:^|[\s\[{,:])\*\w", re.MULTILINE)
 CALL = re.compile(r"^[^#\n]*Params\(", re.MULTILINE)
 FLAG = re.compile(r"(?<!\S)(?:--([a-z][a-z0-9_-]*)|([a-z][a-z0-9_]*)(?==))")
-Found = tuple[str, Any, int]  # name as written, value, line (0 unknown)
+Found = tuple[str, Any, int]  # name as written, value, line (0: unknown)
 Known = Mapping[str, str]  # name or alias → name
 T = TypeVar("T", bound=Thresholds)
 
@@ -24,18 +24,18 @@ T = TypeVar("T", bound=Thresholds)
 def read_params(text: str, kind: type[T] = Params) -> T:
     """The thresholds in a ROS 1 launch file, ROS 2 parameters, JSON, Python or flags; others keep their defaults.
 
-    kind: of the method. Names are those of the ROS program (`least_thresh`) or of the fields (`epsilon`). An unknown
-    name or a value that is not allowed is a ValueError that names it, and its line where the format tells lines apart.
+    kind: type of the method's thresholds. Names may be those of the ROS program (`least_thresh`) or of the fields
+    (`epsilon`). Raises ValueError, with the line if known, for an unknown name or a value that is not allowed.
     """
     if len(text) > MOST_CHARACTERS:
         raise ValueError(f"the text has {len(text)} characters; a file of thresholds has at most {MOST_CHARACTERS}.")
     start = text.lstrip("\ufeff \t\r\n")[:1]
     if not start:
-        raise ValueError("the text is empty; a ROS 1 launch file, ROS 2 YAML or JSON with thresholds is expected.")
+        raise ValueError("the text is empty; give a ROS 1 launch file, ROS 2 YAML or JSON with thresholds.")
     known = {alias: name for name, _, knob in kind.knobs() for alias in (name, knob.ros) if alias}
     found = list(_finder(text, start)(text.removeprefix("\ufeff"), known))
     if not found:
-        raise ValueError(f"there is no threshold in the text; choose from {_names(kind)}.")
+        raise ValueError(f"there is no threshold in the text; give some of {_names(kind)}.")
     return _params(found, kind, known)
 
 
@@ -64,7 +64,7 @@ def _params(found: list[Found], kind: type[T], known: Known) -> T:
 
 
 def _number(value: Any) -> Any:
-    """A number that a format keeps as text; anything else as it is, for Params to refuse."""
+    """A number that the format stores as text; any other value unchanged, for Params to refuse."""
     if not isinstance(value, str):
         return value
     try:
@@ -77,7 +77,7 @@ def _number(value: Any) -> Any:
 
 
 def _is_meant(name: str, value: Any, known: Known) -> bool:
-    """Whether a setting of a node is a threshold or may be a misspelt one; its topic and the like are no numbers."""
+    """Whether a setting of a node is a threshold or may be a misspelt one; others, such as topics, are not numbers."""
     return name in known or (isinstance(_number(value), int | float) and not isinstance(value, bool))
 
 
@@ -86,7 +86,7 @@ def _names(kind: type[Thresholds]) -> str:
 
 
 def _in_xml(text: str, known: Known) -> Iterator[Found]:
-    """<param name value> anywhere in the file. Entities are refused: a few lines of them can fill the memory."""
+    """<param name value> anywhere in the file. Refuses entities, because a few lines of them can fill the memory."""
     found: list[Found] = []
     parser = expat.ParserCreate()
 
@@ -98,33 +98,33 @@ def _in_xml(text: str, known: Known) -> Iterator[Found]:
             found.append((name, attributes["value"], parser.CurrentLineNumber))
 
     def refuse(*_: Any) -> None:
-        raise ValueError(f"line {parser.CurrentLineNumber}: a document type is not read; a launch file needs none.")
+        raise ValueError(f"line {parser.CurrentLineNumber}: a document type is not allowed; remove it.")
 
     parser.StartElementHandler = start
     parser.StartDoctypeDeclHandler = refuse
     try:
         parser.Parse(text, True)
     except expat.ExpatError as error:
-        raise ValueError(f"line {error.lineno}: this is no launch file: {expat.ErrorString(error.code)}.") from None
+        raise ValueError(f"line {error.lineno}: this is not a launch file: {expat.ErrorString(error.code)}.") from None
     yield from (each for each in found if _is_meant(each[0], each[1], known))
 
 
 def _in_yaml(text: str, known: Known) -> Iterator[Found]:
-    """The entries under every `ros__parameters`, or those of the file where there is none."""
+    """The entries under every `ros__parameters`, or all entries if there is none."""
     from ruamel.yaml import YAML
     from ruamel.yaml.error import MarkedYAMLError, YAMLError
 
     if alias := ALIAS.search(text):
         raise ValueError(
-            f"line {text.count(chr(10), 0, alias.start()) + 1}: aliases are not read; write the value out."
+            f"line {text.count(chr(10), 0, alias.start()) + 1}: aliases are not allowed; write the value out."
         )
     try:
         tree = YAML(typ="safe", pure=True).load(text)
     except MarkedYAMLError as error:
         line = error.problem_mark.line + 1 if error.problem_mark else 0
-        raise ValueError(f"line {line}: this is no YAML: {error.problem}.") from None
+        raise ValueError(f"line {line}: this is not YAML: {error.problem}.") from None
     except (YAMLError, RecursionError) as error:
-        raise ValueError(f"this is no YAML: {str(error).splitlines()[0]}.") from None
+        raise ValueError(f"this is not YAML: {str(error).splitlines()[0]}.") from None
     if not isinstance(tree, Mapping):
         raise ValueError("this is neither a launch file, nor YAML with ros__parameters, nor a JSON object.")
     for entries in list(_ros_parameters(tree)) or [tree]:
@@ -142,32 +142,32 @@ def _ros_parameters(tree: Mapping[Any, Any]) -> Iterator[Mapping[Any, Any]]:
 
 
 def _line_of(text: str, name: str) -> int:
-    """The line in which `name` is given a value; 0 if it is written in a way that hides it."""
+    """The line that sets `name`; 0 if it cannot be found."""
     found = re.search(rf"(?:^|[\s{{,\"'])({re.escape(name)})[\"']?\s*:", text, re.MULTILINE)
     return text.count("\n", 0, found.start(1)) + 1 if found else 0
 
 
 def _in_json(text: str, known: Known) -> Iterator[Found]:
-    """An object of thresholds, or one that has it under "params"."""
+    """An object of thresholds, or an object with one under "params"."""
     try:
         tree = json.loads(text)
     except json.JSONDecodeError as error:
-        raise ValueError(f"line {error.lineno}: this is no JSON: {error.msg}.") from None
+        raise ValueError(f"line {error.lineno}: this is not JSON: {error.msg}.") from None
     except RecursionError:
-        raise ValueError("this is no JSON with thresholds: it is nested too deeply.") from None
+        raise ValueError("this is not JSON with thresholds: it is nested too deeply.") from None
     tree = tree["params"] if isinstance(tree.get("params"), dict) else tree
     for name, value in tree.items():
         yield name, value, _line_of(text, name)
 
 
 def _in_python(text: str, known: Known) -> Iterator[Found]:
-    """The keywords of the first call of Params, or of another method's; the text is parsed, never run."""
+    """The keywords of the first call of Params, or of another method's type; the text is parsed, never run."""
     try:
         tree = ast.parse(text)
     except SyntaxError as error:
-        raise ValueError(f"line {error.lineno}: this is no Python: {error.msg}.") from None
+        raise ValueError(f"line {error.lineno}: this is not Python: {error.msg}.") from None
     except (RecursionError, MemoryError, ValueError):
-        raise ValueError("this is no Python with thresholds.") from None
+        raise ValueError("this is not Python with thresholds.") from None
     for call in ast.walk(tree):
         if isinstance(call, ast.Call) and ast.unparse(call.func).endswith("Params"):
             for keyword in call.keywords:
@@ -180,7 +180,7 @@ def _in_python(text: str, known: Known) -> Iterator[Found]:
 
 
 def _in_flags(text: str, known: Known) -> Iterator[Found]:
-    """--epsilon 0.02, --epsilon=0.02 or --set epsilon=0.02; what is no threshold, as --topic /scan, is skipped."""
+    """--epsilon 0.02, --epsilon=0.02 or --set epsilon=0.02; skips other flags, such as --topic /scan."""
     for flag in FLAG.finditer(text):
         name, rest = (flag[1] or flag[2]).replace("-", "_"), text[flag.end() :].lstrip(" \t=\\\r\n")
         value = "" if not rest or rest.startswith("--") else rest.split(maxsplit=1)[0].strip("'\"")

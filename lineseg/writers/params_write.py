@@ -1,4 +1,4 @@
-"""Thresholds as text: for ROS 1 and 2 under the names of the authors' program, for Python, for the command line."""
+"""Writes thresholds: for ROS 1 and 2 with the names of the authors' program, for Python, for the command line."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from ..extractors import method_of
 from ..knobs import Knob, Thresholds
 from ..params import Params
 
-EXTENSION = "extension of lineseg; the authors' program does not know it"
+EXTENSION = "extension of lineseg; not in the authors' program"
 
 
 def ros1_launch(params: Thresholds) -> str:
-    """A launch file; the parameters lie in the namespace of the node, as the authors' program reads them."""
+    """A launch file with the parameters in the namespace of the node, where the authors' program reads them."""
     lines = [
         "<launch>",
-        "  <!-- The name of the line extraction node; or copy the parameters into its <node>. -->",
+        "  <!-- Set the name of the line extraction node, or copy the parameters into its <node>. -->",
         '  <arg name="node" default="line_extraction"/>',
         '  <group ns="$(arg node)">',
     ]
@@ -28,7 +28,7 @@ def ros1_launch(params: Thresholds) -> str:
 
 
 def ros2_yaml(params: Thresholds) -> str:
-    """A parameter file for whatever node loads it."""
+    """A parameter file that any node can load."""
     lines = ["/**:", "  ros__parameters:"]
     lines += [
         f"    {knob.ros or name}: {_yaml(value)}{_note('# {}', knob)}" for name, value, knob in _ros_values(params)
@@ -37,7 +37,7 @@ def ros2_yaml(params: Thresholds) -> str:
 
 
 def python(params: Thresholds) -> str:
-    """Source text that makes these thresholds."""
+    """Python source that creates these thresholds."""
     values = ",\n".join(f"    {name}={value!r}" for name, value, _ in _values(params))
     kind = type(params)
     module = "lineseg" if kind is Params else kind.__module__
@@ -61,9 +61,9 @@ PARAMS_WRITERS: dict[str, Callable[[Thresholds], str]] = {
 
 
 def params_text(params: Thresholds, format: str) -> str:
-    """`params` in a format of PARAMS_WRITERS; every threshold is written, also those at their defaults."""
+    """`params` in a format of PARAMS_WRITERS, with every threshold, including those at their defaults."""
     if format not in PARAMS_WRITERS:
-        raise ValueError(f"thresholds cannot be written as {format!r}; they can as {', '.join(PARAMS_WRITERS)}.")
+        raise ValueError(f"thresholds cannot be written as {format!r}; choose from {', '.join(PARAMS_WRITERS)}.")
     return PARAMS_WRITERS[format](params)
 
 
@@ -73,10 +73,10 @@ def _values(params: Thresholds) -> Iterator[tuple[str, int | float, Knob]]:
 
 
 def _ros_values(params: Thresholds) -> list[tuple[str, int | float, Knob]]:
-    """Those that a ROS program knows, and extensions; a switch that shows what a program does is neither."""
+    """The thresholds of the ROS program, and extensions; switches that model a program's behaviour are left out."""
     values = [(name, value, knob) for name, value, knob in _values(params) if knob.ros or knob.extension]
     if not any(knob.ros for _, _, knob in values):
-        raise ValueError(f"no ROS program is known that has the thresholds of {method_of(params).name}.")
+        raise ValueError(f"no ROS program has the thresholds of {method_of(params).name}; choose python or flags.")
     return values
 
 
@@ -85,6 +85,6 @@ def _note(comment: str, knob: Knob) -> str:
 
 
 def _yaml(value: int | float) -> str:
-    """YAML 1.1 takes 1e-06 for a string: a float needs its point."""
+    """YAML 1.1 reads 1e-06 as a string, so a float needs a decimal point."""
     text = repr(value).lower()
     return text if isinstance(value, int) or "." in text else text.replace("e", ".0e")

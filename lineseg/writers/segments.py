@@ -1,6 +1,6 @@
-"""Segments as JSON lines (a scan a line, scans without segments too), CSV (a segment a row) and GeoJSON.
+"""Writes segments as JSON lines (one line per scan, even without segments), CSV (one row per segment) and GeoJSON.
 
-With the noise of the beams given, each segment also has its (ρ, θ) and their covariance; see `lineseg.covariance`.
+With the noise of the beams, each segment also has its (ρ, θ) and their covariance; see `lineseg.covariance`.
 """
 
 from __future__ import annotations
@@ -26,10 +26,10 @@ POLAR_COLUMNS = ("rho", "theta", "var_rho", "cov_rho_theta", "var_theta")
 
 
 def json_lines(rows: Rows, noise: Noise | None = None) -> Iterator[str]:
-    """An object a line: frame, stamp, frame_id, and segments of start, end, first, last, line, points, length, rms.
+    """One object per line: frame, stamp, frame_id, and segments of start, end, first, last, line, points, length, rms.
 
-    With `noise` also rho, theta and covariance, [[var ρ, cov], [cov, var θ]]. One line for each scan; null is a stamp
-    that is not finite, and the covariance where there is none.
+    With `noise` also rho, theta and covariance, [[var ρ, cov], [cov, var θ]]. One line for each scan; null for a stamp
+    that is not finite and for an undefined covariance.
     """
     for frame, scan, extraction in rows:
         segments = _segments(scan, extraction, noise)
@@ -38,9 +38,9 @@ def json_lines(rows: Rows, noise: Noise | None = None) -> Iterator[str]:
 
 
 def geojson(rows: Rows, noise: Noise | None = None) -> Iterator[str]:
-    """A FeatureCollection with a LineString for each segment; what `json_lines` tells besides are its properties.
+    """A FeatureCollection with a LineString for each segment; the other fields of `json_lines` are its properties.
 
-    Coordinates are metres in the frame of the laser, not degrees: GeoJSON knows no other way to say so than here.
+    Coordinates are metres in the frame of the laser, not degrees; GeoJSON has no field to declare this.
     """
     yield '{"type": "FeatureCollection", "features": ['
     separator = "\n"
@@ -55,7 +55,7 @@ def geojson(rows: Rows, noise: Noise | None = None) -> Iterator[str]:
 
 
 def csv_lines(rows: Rows, noise: Noise | None = None) -> Iterator[str]:
-    """A header and a row for each segment; a number has as many digits as give it back exactly."""
+    """A header and a row for each segment, with enough digits to restore every number exactly."""
     yield _csv_line(COLUMNS if noise is None else (*COLUMNS, *POLAR_COLUMNS))
     for frame, scan, extraction in rows:
         stamp = finite_or_none(scan.stamp)
@@ -66,7 +66,7 @@ def csv_lines(rows: Rows, noise: Noise | None = None) -> Iterator[str]:
             yield _csv_line((frame, "" if stamp is None else stamp, scan.frame_id, *place, *fit, *polar))
 
 
-# Suffix → writer: rows of (frame, scan, extraction) in, pieces of text out.
+# Suffix → writer: takes rows of (frame, scan, extraction), yields pieces of text.
 SEGMENT_WRITERS: dict[str, Callable[[Rows, Noise | None], Iterator[str]]] = {
     "jsonl": json_lines,
     "csv": csv_lines,
@@ -77,15 +77,15 @@ SEGMENT_WRITERS: dict[str, Callable[[Rows, Noise | None], Iterator[str]]] = {
 def segment_lines(format: str, rows: Rows, noise: Noise | None = None) -> Iterator[str]:
     """The text of `rows` in a format of SEGMENT_WRITERS, piece by piece; with covariances if the noise is given."""
     if format not in SEGMENT_WRITERS:
-        raise ValueError(f"segments cannot be written as {format!r}; they can as {', '.join(SEGMENT_WRITERS)}.")
+        raise ValueError(f"segments cannot be written as {format!r}; choose from {', '.join(SEGMENT_WRITERS)}.")
     return SEGMENT_WRITERS[format](rows, noise)
 
 
 def write_segments(target: str | Path | TextIO, format: str | None, rows: Rows, noise: Noise | None = None) -> None:
-    """Write `rows` to a path or an open text file, row by row as they come; format None: as the path's suffix says.
+    """Write `rows` to a path or an open text file, row by row; format: None to use the path's suffix.
 
     noise: of the beams, to write covariances too.
-    A file appears under its name when it is complete; what was there before stays until then.
+    The file appears under its name when it is complete; an existing file stays until then.
     """
     if not isinstance(target, str | Path):
         target.writelines(segment_lines(format or "jsonl", rows, noise))
@@ -103,7 +103,7 @@ def write_segments(target: str | Path | TextIO, format: str | None, rows: Rows, 
 
 
 def _segments(scan: Scan, extraction: Extraction, noise: Noise | None) -> list[dict[str, object]]:
-    """What there is to say of each segment in JSON."""
+    """The fields of each segment for JSON."""
     segments = [_fields(segment) for segment in extraction.segments]
     if noise is not None:
         for fields, polar in zip(segments, _polar(scan, extraction, noise), strict=True):

@@ -92,7 +92,7 @@ def test_an_announced_maximum_that_many_readings_exceed_is_not_believed(log):
     [
         ("FLASER 180 1.0 2.0", "corridor.log:2: FLASER announces 180 ranges, but 2 values follow."),
         ("FLASER 3 1.0 x 3.0", "corridor.log:2: FLASER has 'x' among its ranges; they must be numbers."),
-        ("FLASER many 1.0", "corridor.log:2: FLASER has 'many' where the number of its ranges belongs."),
+        ("FLASER many 1.0", "corridor.log:2: FLASER has 'many' instead of the number of its ranges."),
         ("FLASER", "corridor.log:2: FLASER breaks off after 1 words; its ranges begin at word 3."),
         ("FLASER 999999999999 1.0", "corridor.log:2: FLASER announces 999999999999 ranges, but 1 value follows."),
         (robotlaser([1.0], increment="x"), "corridor.log:2: ROBOTLASER1 has 'x' in its header; it must be a number."),
@@ -114,5 +114,5 @@ def test_truncated_gzip_is_named_with_its_line(log, tmp_path):
     whole = log(*lines, name="corridor.log.gz").read_bytes()
     broken = tmp_path / "broken.log.gz"
     broken.write_bytes(whole[: len(whole) // 2])
-    with pytest.raises(ValueError, match=r"broken.log.gz:\d+: after this line the gzip data break off"):
+    with pytest.raises(ValueError, match=r"broken.log.gz:\d+: after this line the gzip data are incomplete"):
         open_recording(broken)

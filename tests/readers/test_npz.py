@@ -71,9 +71,9 @@ def test_one_scan_with_single_values_is_enough(npz):
 @pytest.mark.parametrize(
     ("values", "sentence"),
     [
-        ({"scan": [1.0]}, "there is no array 'ranges'; it has scan. Needed are ranges"),
+        ({"scan": [1.0]}, "there is no array 'ranges'; it has scan. Required: ranges"),
         ({"ranges": [1.0], "angle_min": 0.0}, "there is no array 'angle_increment'"),
-        ({"ranges": np.ones((2, 2, 2)), **GEOMETRY}, r"ranges has the shape \(2, 2, 2\); needed are"),
+        ({"ranges": np.ones((2, 2, 2)), **GEOMETRY}, r"ranges has the shape \(2, 2, 2\); required:"),
         (
             {"ranges": np.ones((2, 3)), **GEOMETRY, "stamps": np.ones(5)},
             r"stamps has the shape \(5,\); .* each of 2 scans",
@@ -84,10 +84,10 @@ def test_one_scan_with_single_values_is_enough(npz):
             r"poses has the shape \(3, 3\); it needs \(2, 3\)",
         ),
         ({"ranges": np.ones((2, 3)), **GEOMETRY, "beams": [3, 9]}, "beams has the value 9; a row of ranges has 3"),
-        ({"ranges": np.array(["a"]), **GEOMETRY}, "ranges holds <U1; it must hold numbers"),
+        ({"ranges": np.array(["a"]), **GEOMETRY}, "ranges has the type <U1; it must contain numbers"),
         ({"ranges": [1.0], "angle_min": np.nan, "angle_increment": 0.1}, "angle_min has a value that is not finite"),
-        ({"ranges": np.array([{}]), **GEOMETRY}, "'ranges' holds Python objects, which are not loaded"),
-        ({"ranges": np.ones((0, 5)), **GEOMETRY}, "holds no scan"),
+        ({"ranges": np.array([{}]), **GEOMETRY}, "'ranges' has Python objects, which are not loaded"),
+        ({"ranges": np.ones((0, 5)), **GEOMETRY}, "has no scan"),
         ({"ranges": np.ones((2, 3)), **GEOMETRY, "frame_id": ["a", "b", "c"]}, r"frame_id has the shape \(3,\)"),
     ],
 )

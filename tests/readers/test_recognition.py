@@ -21,7 +21,7 @@ def test_content_decides_before_the_suffix(tmp_path):
     [
         ("empty.bag", b"", "empty.bag is empty; a ROS 1 bag has #ROSBAG V2.0 at its beginning."),
         ("blank.log", b" \n\n", "blank.log is empty; a CARMEN log has lines that begin with FLASER"),
-        ("junk.mcap", b"\0\1\2\3" * 50, "junk.mcap begins with b'.*', which is no known recording; a MCAP has"),
+        ("junk.mcap", b"\0\1\2\3" * 50, "junk.mcap begins with b'.*', which is not a known format; a MCAP has"),
         (
             "junk",
             b"\0\1\2\3" * 50,
@@ -31,9 +31,9 @@ def test_content_decides_before_the_suffix(tmp_path):
         (
             "walk.bag.gz",
             gzip.compress(b"#ROSBAG V2.0\n", mtime=0),
-            "walk.bag.gz: a ROS 1 bag packed by gzip; unpack it with `gunzip`",
+            "walk.bag.gz: a ROS 1 bag compressed with gzip; unpack it with `gunzip`",
         ),
-        ("short.log.gz", gzip.compress(FLASER, mtime=0)[:12], "short.log.gz: the gzip data break off"),
+        ("short.log.gz", gzip.compress(FLASER, mtime=0)[:12], "short.log.gz: the gzip data are incomplete"),
         ("short.npz", b"PK\x03\x04" + b"\0" * 20, "short.npz: a damaged NPZ file"),
         ("short.db3", b"SQLite format 3\0" + b"\0" * 99, "short.db3: a damaged ROS 2 bag"),
         ("short.mcap", b"\x89MCAP0\r\n" + b"\0" * 9, "short.mcap: a damaged MCAP"),
@@ -49,7 +49,7 @@ def test_an_unreadable_file_gives_one_sentence(tmp_path, name, content, sentence
 
 
 def test_a_folder_without_bag_says_what_a_bag_has(tmp_path):
-    with pytest.raises(ValueError, match="is a folder without recordings of ROS 2; a bag's folder holds"):
+    with pytest.raises(ValueError, match="is a folder without a ROS 2 recording, which has"):
         open_recording(tmp_path)
 
 

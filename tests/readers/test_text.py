@@ -36,7 +36,7 @@ def test_the_number_of_beams_tells_the_laser(text, beams, first, last):
 
 def test_an_unknown_number_of_beams_needs_the_angles(text):
     path = text(rows(100))
-    with pytest.raises(ValueError, match=r"scan.csv: rows of 100 numbers, and nothing says at which angles"):
+    with pytest.raises(ValueError, match=r"scan.csv: rows of 100 numbers without angles"):
         open_recording(path)
     bearings = open_recording(path, text=TextOptions(angle_increment=0.01))[0].bearings
     assert bearings[[0, -1]].tolist() == pytest.approx([-0.495, 0.495])
@@ -104,13 +104,13 @@ def test_output_of_rostopic_echo_opens(text):
 @pytest.mark.parametrize(
     ("content", "sentence"),
     [
-        (rows(181) + "\n1.0, 2.0", r"scan.csv:4: 2 ranges, but the scans before have 181; is the line complete\?"),
+        (rows(181) + "\n1.0, 2.0", r"scan.csv:4: 2 ranges, but earlier scans have 181; is the line complete\?"),
         ("0.0, 1.0\n0.1\n", r"scan.csv:2: 1 of 2 columns \(angle, distance\); is the line complete\?"),
-        ("1.0, 2.0, x\n", "scan.csv:1: 'x' is not a number; a text file has one scan a row"),
+        ("1.0, 2.0, x\n", "scan.csv:1: 'x' is not a number; use one scan per row"),
         ("Dear reader,\nthis is a letter.\n", "scan.csv begins with 'dear reader', which names no column angle"),
         ("# nothing but words\n", "scan.csv has no line of numbers"),
         ("angle,distance\n", "scan.csv has column names, but no line of numbers"),
-        ('time,ranges\n1,"[1.0]"\n', "scan.csv:2: there is no angle_min; a column or an option must give it"),
+        ('time,ranges\n1,"[1.0]"\n', "scan.csv:2: angle_min is missing; give it in a column or an option"),
         ("# unit = ell\n1 2 3\n", "scan.csv: unit is 'ell'; it can be m, cm, mm"),
         ("# angle_min = left\n1 2 3\n", "scan.csv: its comments say angle_min = 'left'; it must be a number"),
     ],

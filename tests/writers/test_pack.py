@@ -75,8 +75,8 @@ def test_packing_twice_gives_the_same_bytes():
 @pytest.mark.parametrize(
     ("about", "sentence"),
     [
-        ({"version": 2}, "a failure pack of version 2, 1 is read; update lineseg"),
-        ({"format": "other"}, "bad.zip is no failure pack"),
+        ({"version": 2}, "a failure pack of version 2, but this lineseg reads 1; update it"),
+        ({"format": "other"}, "bad.zip is not a failure pack"),
         ({"frame": "x"}, "frame in lineseg.json is 'x'; a int is expected"),
     ],
 )

@@ -115,14 +115,14 @@ def test_a_whole_command_line_is_read():
         ("", "the text is empty"),
         ('{"epsilonn": 1}', "line 1: there is no threshold 'epsilonn'; choose from least_thresh"),
         ('{\n"epsilon": true}', "line 2: epsilon is True, which is not a number"),
-        ('{"epsilon": ', "line 1: this is no JSON"),
+        ('{"epsilon": ', "line 1: this is not JSON"),
         (
             "/**:\n  ros__parameters:\n    least_thresh: wide\n",
             r"line 3: epsilon is 'wide', .* \(written least_thresh\)",
         ),
         ("/**:\n  ros__parameters:\n    seed_points: 2\n", "line 3: seed_points is 2; a seed needs 3 or more points"),
         ("/**:\n  ros__parameters:\n    leest_thresh: 0.03\n", "line 3: there is no threshold 'leest_thresh'"),
-        ("a: [1, 2", "line 1: this is no YAML"),
+        ("a: [1, 2", "line 1: this is not YAML"),
         ("a: &a {b: 1}\nc: *a\n", "line 2: aliases are not read"),
         ("just words", "this is neither a launch file"),
         ("<launch>\n<param name='least_thresh'/>\n</launch>", "line 2: the param 'least_thresh' has no value"),
@@ -131,16 +131,16 @@ def test_a_whole_command_line_is_read():
             "line 2: min_points is 2.5, .* whole number",
         ),
         ("params = Params(\n    epsilon=wide,\n)", "line 2: epsilon is 'wide', which is not a number"),
-        ("params = Params(epsilon=)", "line 1: this is no Python"),
+        ("params = Params(epsilon=)", "line 1: this is not Python"),
         ("params = Params()", "there is no threshold in the text"),
         ("--epsilonn 0.03", "line 1: there is no threshold 'epsilonn'"),
         ("--delta 0.1\n--epsilon --min-points 3", "line 2: epsilon is '', which is not a number"),
-        ("<launch>", "line 1: this is no launch file"),
+        ("<launch>", "line 1: this is not a launch file"),
         ("<launch/>", "there is no threshold in the text"),
         ('<!DOCTYPE a [<!ENTITY b "c">]>\n<launch/>', "line 1: a document type is not read"),
         ("x" * (1 << 21), "the text has 2097152 characters"),
-        ("[" * 100_000, "this is no YAML|line 1"),
-        ('{"a":' * 100_000, "this is no JSON"),
+        ("[" * 100_000, "this is not YAML|line 1"),
+        ('{"a":' * 100_000, "this is not JSON"),
     ],
 )
 def test_an_unreadable_line_is_named_with_its_number(text, sentence):
@@ -149,6 +149,6 @@ def test_an_unreadable_line_is_named_with_its_number(text, sentence):
 
 
 def test_an_unknown_format_lists_the_known_ones():
-    with pytest.raises(ValueError, match="cannot be written as 'ros3'; they can as ros2, ros1, python, flags"):
+    with pytest.raises(ValueError, match="cannot be written as 'ros3'; choose from ros2, ros1, python, flags"):
         params_text(Params(), "ros3")
     assert set(PARAMS_WRITERS) == {"ros2", "ros1", "python", "flags"}

@@ -67,7 +67,7 @@ def test_the_suffix_of_the_path_chooses_the_format(tmp_path):
     for suffix, writer in SEGMENT_WRITERS.items():
         write_segments(tmp_path / f"out.{suffix}", None, [row(0, WALL)])
         assert (tmp_path / f"out.{suffix}").read_text() == "".join(writer([row(0, WALL)]))
-    with pytest.raises(ValueError, match="cannot be written as 'txt'; they can as jsonl, csv"):
+    with pytest.raises(ValueError, match="cannot be written as 'txt'; choose from jsonl, csv"):
         write_segments(tmp_path / "out.txt", None, [])
 
 
