@@ -83,7 +83,7 @@ def test_one_scan_with_single_values_is_enough(npz):
             {"ranges": np.ones((2, 3)), **GEOMETRY, "poses": np.ones((3, 3))},
             r"poses has the shape \(3, 3\); it needs \(2, 3\)",
         ),
-        ({"ranges": np.ones((2, 3)), **GEOMETRY, "beams": [3, 9]}, "beams has the value 9; a row of ranges has 3"),
+        ({"ranges": np.ones((2, 3)), **GEOMETRY, "beams": [3, 9]}, "beams has the value 9; a row of ranges has only 3"),
         ({"ranges": np.array(["a"]), **GEOMETRY}, "ranges has the type <U1; it must contain numbers"),
         ({"ranges": [1.0], "angle_min": np.nan, "angle_increment": 0.1}, "angle_min has a value that is not finite"),
         ({"ranges": np.array([{}]), **GEOMETRY}, "'ranges' has Python objects, which are not loaded"),

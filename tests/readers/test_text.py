@@ -111,7 +111,7 @@ def test_output_of_rostopic_echo_opens(text):
         ("# nothing but words\n", "scan.csv has no line of numbers"),
         ("angle,distance\n", "scan.csv has column names, but no line of numbers"),
         ('time,ranges\n1,"[1.0]"\n', "scan.csv:2: angle_min is missing; give it in a column or an option"),
-        ("# unit = ell\n1 2 3\n", "scan.csv: unit is 'ell'; it can be m, cm, mm"),
+        ("# unit = ell\n1 2 3\n", "scan.csv: unit is 'ell'; choose from m, cm, mm"),
         ("# angle_min = left\n1 2 3\n", "scan.csv: its comments say angle_min = 'left'; it must be a number"),
     ],
 )

@@ -77,7 +77,7 @@ def test_packing_twice_gives_the_same_bytes():
     [
         ({"version": 2}, "a failure pack of version 2, but this lineseg reads 1; update it"),
         ({"format": "other"}, "bad.zip is not a failure pack"),
-        ({"frame": "x"}, "frame in lineseg.json is 'x'; a int is expected"),
+        ({"frame": "x"}, "frame in lineseg.json is 'x'; it must have the type int"),
     ],
 )
 def test_a_pack_that_cannot_be_read_says_why(pack, tmp_path, about, sentence):
