@@ -1,4 +1,4 @@
-"""Writes the page's types from those of the server: `python -m lineseg_app.page_types > static/wire.d.ts`."""
+"""Generates the page's types from those of the server: `python -m lineseg_app.page_types > static/wire.d.ts`."""
 
 from __future__ import annotations
 
@@ -18,8 +18,8 @@ from .shelf import lessons
 from .told import answers, drawn, messages
 from .told.typescript import alias, interface
 
-HEAD = """// Written by `python -m lineseg_app.page_types` from what the server declares; a test says if it is outdated.
-// The page names these types as import("./wire.js").NAME; there is no such module, for they are gone when it runs.
+HEAD = """// Generated from the server's types by `python -m lineseg_app.page_types`; a test fails if it is outdated.
+// Refer to these types as import("./wire.js").NAME. No such module exists, because types are gone at run time.
 """
 SHARED = {
     "Params": dict[str, float],
@@ -32,15 +32,15 @@ SHARED = {
     "Where": messages.Where,
     "Job": answers.Job,
 }
-# What TypeScript says better than an annotation.
+# Types that are easier to write in TypeScript than as annotations.
 WRITTEN = """
-/** What is looked at. Every input changes only this. */
+/** What the tab shows. Every input changes only this. */
 export type View = Required<Omit<ViewPatch, "mode" | "against">> & {
   mode: string;
   against: Against | null;
 };
 export type Against = Required<Pinned>;
-/** The drawn state, as the page keeps it. latencyMs: from the latest change that was made here until it was drawn. */
+/** The drawn state, as the page keeps it. latencyMs: from the latest change made here until it was drawn. */
 export type State = DrawnState & { rev: number; latencyMs: number | null };
 export type Field = FieldEntry;
 export type Knob = KnobEntry;
@@ -49,14 +49,14 @@ export type Score = ScoreEntry;
 export type Trouble = Failure;
 export type Columns = TraceColumns;
 export type Marks = Record<string, number[]>;
-/** What crosses the socket of a tab. */
+/** The messages on the socket of a tab. */
 export type Incoming = Hello | Change | OpenLink | Cancel | Close | Follow;
 export type Message = Welcome | Recordings | LiveStatus | Loading | Failure | Traced | Drawn | Survey;
 /** The scores of every stride-th frame, as the page reads them: score after score in the order of Welcome.scores. */
 export type Survey = Surveyed & { values: Float32Array };
-/** Of a threshold its values, and of each measure what it is at them. */
+/** The values of a threshold, and the value of each measure there. */
 export type Curve = { values: number[] } & Record<string, (number | null)[]>;
-/** What long work answers. */
+/** An answer of long work. */
 export type Answer = Worked & Partial<SampledCurves & SampledMap> & Tuned;
 """
 
@@ -81,7 +81,7 @@ def page_types() -> str:
 
 
 def _declared(module: ModuleType) -> list[type]:
-    """The messages that a module declares itself, in their order."""
+    """The messages declared in a module, in order."""
     own = [each for each in vars(module).values() if inspect.isclass(each) and each.__module__ == module.__name__]
     return [each for each in own if is_typeddict(each) or (issubclass(each, BaseModel) and each.model_fields)]
 

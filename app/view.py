@@ -1,4 +1,4 @@
-"""What one browser tab looks at: each field is declared once, and all that is known of it follows from there."""
+"""The View: what one browser tab shows. Each field is declared once, and everything else follows from that."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass, field, fields, replace
@@ -29,8 +29,8 @@ SUSPICION = Score(
     "suspicion",
     "suspicion",
     "",
-    "All scores together: how far each stands out, to its doubtful side, from the recording and from the frames "
-    "around; their mean, by the weights.",
+    "All scores combined: the weighted mean of how far each stands out, in its doubtful direction, from the recording "
+    "and from nearby frames.",
     "higher",
     least=0.5,
     weight=0.0,
@@ -40,7 +40,7 @@ STRIP_SCORES = {**SCORES, SUSPICION.name: SUSPICION, DIFFERENCE.name: DIFFERENCE
 
 @dataclass(frozen=True)
 class Layers:
-    """What is drawn; `replay` is the geometry of the decision under view."""
+    """What is drawn; `replay` is the geometry of the decision on the screen."""
 
     points: bool = True
     invalid: bool = False
@@ -56,42 +56,42 @@ class Layers:
     replay: bool = True
 
     def but(self, /, **values: bool) -> Self:
-        """These layers with some of them switched; an unknown name is a ValueError that lists the known ones."""
+        """A copy with some layers switched. Raises ValueError, listing the known names, for an unknown one."""
         known = [entry.name for entry in fields(self)]
         for name in values:
             if name not in known:
-                raise ValueError(f"there is no layer {name!r}; there are {', '.join(known)}")
+                raise ValueError(f"there is no layer {name!r}; choose from {', '.join(known)}")
         return replace(self, **values)
 
 
 @dataclass(frozen=True)
 class Against:
-    """A, the result that was pinned: it stands beside that of the View, B."""
+    """The pinned result A, for comparison with the result B of the View."""
 
     method: str
     params: Thresholds
 
     @classmethod
     def of(cls, method: str, params: Mapping[str, Any]) -> Self:
-        """A bad value is a ValueError that names it."""
+        """Raises ValueError naming any bad value."""
         if method not in EXTRACTORS:
-            raise ValueError(f"there is no method {method!r}; there are {', '.join(EXTRACTORS)}")
+            raise ValueError(f"there is no method {method!r}; choose from {', '.join(EXTRACTORS)}")
         return cls(method, EXTRACTORS[method].params_type().but(**params))
 
     def numbers(self) -> dict[str, Any]:
-        """As `of` takes it."""
+        """The arguments for `of`."""
         return {"method": self.method, "params": self.params.numbers()}
 
 
 class Pinned(Message):
-    """A, as a patch says it."""
+    """A in a patch."""
 
     method: Name
     params: Values = Field(default_factory=dict)
 
 
 def all_weights(changed: tuple[tuple[str, float], ...]) -> dict[str, float]:
-    """The usual weights, but for those that were changed."""
+    """The default weights with the given changes."""
     return {**WEIGHTS, **dict(changed)}
 
 
@@ -100,7 +100,7 @@ def _changed_weights(values: Mapping[str, float]) -> tuple[tuple[str, float], ..
         if name not in WEIGHTS:
             raise ValueError(f"weights has no {name!r}; it has {', '.join(WEIGHTS)}")
         if not 0 <= weight <= MOST_WEIGHT:
-            raise ValueError(f"the weight of {name} is {weight}; it may be 0 to {MOST_WEIGHT:g}")
+            raise ValueError(f"the weight of {name} is {weight}; allowed: 0 to {MOST_WEIGHT:g}")
     return tuple(sorted((name, float(weight)) for name, weight in values.items() if weight != WEIGHTS[name]))
 
 
@@ -109,15 +109,15 @@ PLACE = ("recording", "topic")
 
 @dataclass(frozen=True)
 class View:
-    """The whole state of a tab; it hashes, and two equal Views are drawn alike.
+    """The whole state of a tab. It is hashable, and equal Views are drawn the same.
 
-    A field stands behind those that it is reset or switched off by, and the links write them in this order.
+    A field comes after the fields that reset it or switch it off. Links list the fields in this order.
 
-    step: the decision after which the replay stands, or None where the whole result is shown.
-    selected: the beam whose fate is explained, or None. score: of the strip. against: what it is compared with.
-    weights: of the suspicion, where they are not the usual ones.
-    reference: by what segments are judged where both are there, "labels" of people or the "wall" of the recording.
-    live: whether the newest frame of a live recording is followed; else the recording stays as it was then.
+    step: the decision that the replay shows, or None for the whole result.
+    selected: the beam to explain, or None. score: shown in the strip. against: the result to compare with.
+    weights: of the suspicion, if not the defaults.
+    reference: the truth to use if both exist: "labels" made by people, or the "wall" of the recording.
+    live: whether to follow the newest frame of a live recording; if not, the recording stays frozen.
     dark: whether the page has dark colours.
     """
 
@@ -186,11 +186,11 @@ class View:
     dark: Annotated[bool, ViewField(link=None, mirrored=False)] = False
 
     def patched(self, patch: Mapping[str, Any]) -> Self:
-        """This View with some fields changed; `params`, `layers` and `weights` may name only some of theirs.
+        """A copy with some fields changed; `params`, `layers` and `weights` may be given in part.
 
-        What a change resets starts afresh unless the patch carries it: another recording or topic begins at its frame
-        0, another method with its defaults. Who chooses a frame or a step follows no longer. A bad value is a
-        ValueError that names it.
+        A change resets other fields unless the patch sets them: another recording or topic starts at frame 0, another
+        method with its defaults. Choosing a frame or a step stops following live frames. Raises ValueError naming any
+        bad value.
         """
         declared = view_fields(type(self))
         for name in patch:
@@ -211,7 +211,7 @@ class View:
         return view
 
     def salvaged(self, said: Mapping[str, Any]) -> tuple[Self, str | None]:
-        """This View with all that can be had of what a link says, whatever that is; and a complaint about the rest."""
+        """A copy with the valid part of a link, and an error about the rest."""
         try:
             return self._checked(said), None
         except ValueError:
@@ -226,7 +226,7 @@ class View:
         return view, "; ".join(told) or None
 
     def _checked(self, said: Mapping[str, Any]) -> Self:
-        """As `patched`, with what may be of any type."""
+        """Same as `patched`, for values of any type."""
         try:
             patch = patch_of(type(self)).model_validate(dict(said))
         except ValidationError as error:
@@ -235,16 +235,16 @@ class View:
 
     @property
     def all_weights(self) -> dict[str, float]:
-        """Of every score that the suspicion is made of."""
+        """The weight of every score in the suspicion."""
         return all_weights(self.weights)
 
     def as_json(self) -> dict[str, Any]:
-        """This View as a patch that restores it."""
+        """A patch that restores this View."""
         return {name: entry.tell(getattr(self, name)) for name, entry in view_fields(type(self)).items()}
 
 
 def _parts(said: Mapping[str, Any], order: list[str]) -> Iterator[dict[str, Any]]:
-    """What is said piece by piece, what resets other fields before them."""
+    """The patch in pieces, with fields that reset others first."""
     for name in sorted(said, key=lambda name: order.index(name) if name in order else len(order)):
         value = said[name]
         if isinstance(value, Mapping) and name != "against":

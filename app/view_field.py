@@ -1,4 +1,4 @@
-"""How a field of the View is declared, and what follows from that for patches, links and the page."""
+"""Declares the fields of the View, and derives patches, links and the page's defaults from them."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ Written = Literal["text", "whole", "choice", "thresholds", "pinned", "numbers", 
 
 @dataclass(frozen=True, eq=False)
 class ViewField:
-    """What all need to know of a field of the View, besides its type and default.
+    """The declaration of a field of the View, apart from its type and default.
 
-    link: its key in a link; None: no link has it. mirrored: whether a follower shows what its presenter does; otherwise
-    it keeps its own. reset_by: the fields whose change lets it begin afresh: with its default, or as `fresh` says.
-    off_by: the fields that switch it off when they are chosen. lasting: whether it still means something when a link
-    to a live recording is opened later. choices: what it may be. patch: its type in a patch, where that is another.
-    take: the value from the View and what a patch says; a ValueError says what is wrong. tell: the value as a patch
-    says it. written: how a link writes it, where the type does not say so. most: of each of its numbers.
+    link: its key in a link; None: not in links. mirrored: whether a follower takes it from its presenter or keeps its
+    own. reset_by: fields whose change resets it, to its default or to the result of `fresh`. off_by: fields that
+    switch it off when they are set. lasting: whether it is still valid when a link to a live recording is opened
+    later. choices: allowed values. patch: its type in a patch, if different. take: computes the value from the View
+    and a patch; raises ValueError for a bad one. tell: converts the value to its form in a patch. written: its form in
+    a link, if the type does not decide it. most: upper limit of its numbers.
     """
 
     link: str | None
@@ -45,21 +45,21 @@ class ViewField:
     most: float | None = None
 
     def taken(self, name: str, view: Any, value: Any) -> Any:
-        """The value of the field of this name, from what a patch says."""
+        """The value of the field `name` from a patch."""
         if self.choices and value not in self.choices:
-            raise ValueError(f"there is no {name} {value!r}; there are {', '.join(self.choices)}")
+            raise ValueError(f"there is no {name} {value!r}; choose from {', '.join(self.choices)}")
         return self.take(view, value)
 
 
 class Viewlike(Protocol):
-    """A dataclass whose fields carry a ViewField each; all of them have defaults."""
+    """A dataclass with a ViewField and a default for each field."""
 
     def as_json(self) -> dict[str, Any]: ...
 
 
 @cache
 def view_fields(view: type[Viewlike]) -> dict[str, ViewField]:
-    """The declaration of each field, in their order; a field without one is a TypeError."""
+    """The declaration of each field, in order. Raises TypeError for a field without one."""
     hints = get_type_hints(view, include_extras=True)
     declared: dict[str, ViewField] = {}
     for name in (entry.name for entry in fields(view)):  # type: ignore[arg-type]
@@ -71,7 +71,7 @@ def view_fields(view: type[Viewlike]) -> dict[str, ViewField]:
 
 
 class Patch(Message):
-    """Some fields of a View; those that were not sent stay as they are."""
+    """Some fields of a View; the others stay unchanged."""
 
     def changes(self) -> dict[str, Any]:
         return self.model_dump(exclude_unset=True)
@@ -79,7 +79,7 @@ class Patch(Message):
 
 @cache
 def patch_of(view: type[Viewlike]) -> type[Patch]:
-    """The model of a patch of such a View."""
+    """The model of a patch of this View."""
     usual = view().as_json()
     types: Any = {name: (patch_type, usual[name]) for name, patch_type in _patch_types(view).items()}
     return create_model(f"{view.__name__}Patch", __base__=Patch, __module__=__name__, **types)
@@ -91,7 +91,7 @@ def _patch_types(view: type[Viewlike]) -> dict[str, Any]:
 
 
 class FieldEntry(BaseModel):
-    """A field of the View as the page knows it; see ViewField.
+    """A field of the View as sent to the page; see ViewField.
 
     default: {} where it depends on other fields. most: of a number, or of the length of a text.
     """
@@ -108,7 +108,7 @@ class FieldEntry(BaseModel):
 
 
 def field_entries(view: type[Viewlike]) -> list[FieldEntry]:
-    """What the page is told of each field."""
+    """The description of each field for the page."""
     usual, types = view().as_json(), _patch_types(view)
     return [_entry(name, entry, types[name], usual[name]) for name, entry in view_fields(view).items()]
 
@@ -132,6 +132,6 @@ def _entry(name: str, entry: ViewField, patch_type: Any, default: Any) -> FieldE
 
 
 def page_module(view: type[Viewlike]) -> str:
-    """The declaration as a module of the page, which reads a link before any message has come."""
+    """The declaration as a module of the page, which reads a link before the first message arrives."""
     entries = [entry.model_dump() for entry in field_entries(view)]
     return f"export const VIEW = {json.dumps(entries, allow_nan=False)};\n"

@@ -1,4 +1,4 @@
-"""What comes in: the messages of the page on /api/session, and their bounds."""
+"""The messages from the page on /api/session, and their bounds."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ Said = Annotated[dict[str, JsonValue], As("Partial<View>")]
 
 
 class ViewPatch(patch_of(View)):
-    """Some fields of a View; those that were not sent stay as they are."""
+    """Some fields of a View; the others stay unchanged."""
 
 
 class Hello(Message):
-    """The first message: which session to take up again, if it is still there, and what to look at."""
+    """The first message: the session to resume, if it still exists, and the View."""
 
     type: Literal["hello"]
     session: Annotated[str, Field(max_length=64)] | None = None
@@ -54,7 +54,7 @@ class Close(Message):
 
 
 class Follow(Message):
-    """Mirror the tab that shows itself under this id; null: no more."""
+    """Mirror the tab with this presenter id; null stops mirroring."""
 
     type: Literal["follow"]
     id: Annotated[str, Field(max_length=64)] | None
@@ -66,7 +66,7 @@ LONGEST_MESSAGE = 64 * 1024
 
 
 class BadMessageError(ValueError):
-    """A message that cannot be taken; `where` and `rev` as in Failure."""
+    """A message that is not valid; `where` and `rev` as in Failure."""
 
     def __init__(self, sentence: str, where: Where = "view", rev: int | None = None) -> None:
         super().__init__(sentence)
@@ -75,9 +75,9 @@ class BadMessageError(ValueError):
 
 
 def parse(text: str) -> Hello | Change | OpenLink | Cancel | Close | Follow:
-    """A message of the page; BadMessageError with one sentence if it is none."""
+    """Parse a message of the page. Raises BadMessageError with one sentence if it is not valid."""
     if len(text) > LONGEST_MESSAGE:
-        raise BadMessageError(f"a message of {len(text)} characters; {LONGEST_MESSAGE} are the most")
+        raise BadMessageError(f"the message has {len(text)} characters; send at most {LONGEST_MESSAGE}")
     try:
         return _INCOMING.validate_json(text)
     except ValidationError as error:
@@ -86,7 +86,7 @@ def parse(text: str) -> Hello | Change | OpenLink | Cancel | Close | Follow:
 
 
 def _rev_of(text: str) -> int | None:
-    """The revision of a message that is bad elsewhere, so that the page learns which of its changes failed."""
+    """The revision of an invalid message, so that the page knows which of its changes failed."""
     try:
         rev = json.loads(text)["rev"]
     except (ValueError, TypeError, KeyError, RecursionError):

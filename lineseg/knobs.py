@@ -1,4 +1,4 @@
-"""What every method's thresholds are: declared once, for command line, sliders, presets, URL and ROS export."""
+"""Thresholds, declared once for the command line, sliders, presets, URL and ROS export."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from typing import Any, Self, get_type_hints
 
 @dataclass(frozen=True)
 class Knob:
-    """How a threshold is called, shown and bounded.
+    """The name, display and bounds of a threshold.
 
-    symbol: the paper's; ros: the name in the ROS program that has it ("" where none has).
-    low, high: the range of a slider; least, most: what is allowed at all, and why.
+    symbol: as in the paper; ros: its name in the ROS program that has it ("" if none has).
+    low, high: the range of the slider; least, most: the allowed range; why: the reason for it.
     step: of a slider [unit]; log: whether the slider is logarithmic; extension: not in the paper.
     refuses: what is said of what it refuses, in the fields of `Sentence`: a check of this name is then there for the
     kernels; floor: it refuses what is below it, not what is above. counted: what its histogram counts, if it has one.
@@ -40,12 +40,12 @@ class Knob:
 
 
 def switch(symbol: str, label: str, help: str) -> Knob:
-    """The knob of something that is on or off; as numbers 1 and 0."""
+    """The knob of a switch; on and off are the numbers 1 and 0."""
     return Knob(symbol, 0, 1, most=1, why="it is on (1) or off (0)", label=label, help=help)
 
 
 class Thresholds:
-    """Base of the thresholds of a method: a frozen dataclass whose fields carry a Knob each."""
+    """Base class for the thresholds of a method: a frozen dataclass with a Knob on each field."""
 
     def __post_init__(self) -> None:
         for name, kind, knob in self.knobs():
@@ -64,10 +64,10 @@ class Thresholds:
         return tuple(entry.name for entry in fields(cls))  # type: ignore[arg-type]
 
     def but(self, /, **values: Any) -> Self:
-        """These thresholds with some of them changed; an unknown name is a ValueError that lists the known ones."""
+        """A copy with some thresholds changed. Raises ValueError, listing the known names, for an unknown one."""
         for name in values:
             if name not in self.names():
-                raise ValueError(f"there is no threshold {name!r}; there are {', '.join(self.names())}")
+                raise ValueError(f"there is no threshold {name!r}; choose from {', '.join(self.names())}")
         return replace(self, **values)  # type: ignore[type-var]
 
     def numbers(self) -> dict[str, int | float]:
@@ -77,10 +77,10 @@ class Thresholds:
 
 
 def _checked(name: str, value: Any, kind: type, knob: Knob) -> int | float | bool:
-    """`value` as `kind`, or a ValueError that names field, value, allowed range and why."""
+    """`value` as `kind`. Raises ValueError naming the field, the value, the allowed range and the reason."""
     unit = f" {knob.unit}" if knob.unit else ""
-    allowed = f"allowed are {knob.least:g} to {knob.most:g}{unit}"
-    whole = "" if kind is float else "whole numbers, "
+    allowed = f"allowed: {knob.least:g} to {knob.most:g}{unit}"
+    whole = "" if kind is float else "whole numbers only, "
     try:
         number = float(value)
     except (TypeError, ValueError, OverflowError):

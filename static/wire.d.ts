@@ -1,5 +1,5 @@
-// Written by `python -m lineseg_app.page_types` from what the server declares; a test says if it is outdated.
-// The page names these types as import("./wire.js").NAME; there is no such module, for they are gone when it runs.
+// Generated from the server's types by `python -m lineseg_app.page_types`; a test fails if it is outdated.
+// Refer to these types as import("./wire.js").NAME. No such module exists, because types are gone at run time.
 
 // Both directions
 
@@ -21,13 +21,13 @@ export type Where = "recording" | "params" | "frame" | "view" | "upload" | "serv
 
 export type Job = "curves" | "map" | "auto";
 
-/** What is looked at. Every input changes only this. */
+/** What the tab shows. Every input changes only this. */
 export type View = Required<Omit<ViewPatch, "mode" | "against">> & {
   mode: string;
   against: Against | null;
 };
 export type Against = Required<Pinned>;
-/** The drawn state, as the page keeps it. latencyMs: from the latest change that was made here until it was drawn. */
+/** The drawn state, as the page keeps it. latencyMs: from the latest change made here until it was drawn. */
 export type State = DrawnState & { rev: number; latencyMs: number | null };
 export type Field = FieldEntry;
 export type Knob = KnobEntry;
@@ -36,25 +36,25 @@ export type Score = ScoreEntry;
 export type Trouble = Failure;
 export type Columns = TraceColumns;
 export type Marks = Record<string, number[]>;
-/** What crosses the socket of a tab. */
+/** The messages on the socket of a tab. */
 export type Incoming = Hello | Change | OpenLink | Cancel | Close | Follow;
 export type Message = Welcome | Recordings | LiveStatus | Loading | Failure | Traced | Drawn | Survey;
 /** The scores of every stride-th frame, as the page reads them: score after score in the order of Welcome.scores. */
 export type Survey = Surveyed & { values: Float32Array };
-/** Of a threshold its values, and of each measure what it is at them. */
+/** The values of a threshold, and the value of each measure there. */
 export type Curve = { values: number[] } & Record<string, (number | null)[]>;
-/** What long work answers. */
+/** An answer of long work. */
 export type Answer = Worked & Partial<SampledCurves & SampledMap> & Tuned;
 
 // What the page sends
 
-/** A, as a patch says it. */
+/** A in a patch. */
 export interface Pinned {
   method: string;
   params?: Record<string, number>;
 }
 
-/** Some fields of a View; those that were not sent stay as they are. */
+/** Some fields of a View; the others stay unchanged. */
 export interface ViewPatch {
   mode?: "tune" | "learn" | "inspect";
   recording?: string;
@@ -74,7 +74,7 @@ export interface ViewPatch {
   dark?: boolean;
 }
 
-/** The first message: which session to take up again, if it is still there, and what to look at. */
+/** The first message: the session to resume, if it still exists, and the View. */
 export interface Hello {
   type: "hello";
   session?: string | null;
@@ -104,13 +104,13 @@ export interface Close {
   type: "close";
 }
 
-/** Mirror the tab that shows itself under this id; null: no more. */
+/** Mirror the tab with this presenter id; null stops mirroring. */
 export interface Follow {
   type: "follow";
   id: string | null;
 }
 
-/** Without its ends they are those of the points. */
+/** A true line; missing ends are taken from its points. */
 export interface SaidLine {
   first: number;
   last: number;
@@ -118,7 +118,7 @@ export interface SaidLine {
   end?: [number, number] | null;
 }
 
-/** Everything that is said of a frame; revision: the one that this is on top of. */
+/** All labels of a frame; revision: the one they are based on. */
 export interface Said {
   recording: string;
   topic?: string | null;
@@ -144,7 +144,7 @@ export interface MapWish {
   measure: string;
 }
 
-/** anew: forget the trials of former runs. */
+/** anew: forget the trials of earlier runs. */
 export interface AutoWish {
   type: "auto";
   job: number;
@@ -166,7 +166,7 @@ export interface PublishAsked {
   topic?: string;
 }
 
-/** To the node at this address; extensions: also the thresholds that the authors' program does not know. */
+/** The node to send to; extensions: include thresholds that the authors' program does not have. */
 export interface SendAsked {
   address: string;
   node: string;
@@ -177,7 +177,7 @@ export interface SendAsked {
 
 // What the server sends
 
-/** A recording on offer; `missing` if its file is no longer there. */
+/** A recording in the menu; `missing` if its file no longer exists. */
 export interface RecordingEntry {
   id: string;
   label: string;
@@ -185,7 +185,7 @@ export interface RecordingEntry {
   missing: boolean;
 }
 
-/** A threshold: its name and its bounds. low, high, step: of its slider; least, most: what it may be, and why. */
+/** A threshold: its name and its bounds. low, high, step: of its slider; least, most: allowed range, and why. */
 export interface KnobEntry {
   name: string;
   kind: "float" | "int" | "bool";
@@ -206,7 +206,7 @@ export interface KnobEntry {
   default: number;
 }
 
-/** begins: how a line of the method begins, in a word; ros: whether a ROS program knows its thresholds. */
+/** begins: how a line of the method starts, in a word; ros: whether a ROS program has its thresholds. */
 export interface MethodEntry {
   name: string;
   label: string;
@@ -216,7 +216,7 @@ export interface MethodEntry {
   knobs: KnobEntry[];
 }
 
-/** A score of the strip. least: a difference that is worth a look; weight: in the suspicion, as it is at first. */
+/** A score of the strip. least: smallest difference that matters; weight: default weight in the suspicion. */
 export interface ScoreEntry {
   name: string;
   label: string;
@@ -227,7 +227,7 @@ export interface ScoreEntry {
   weight: number;
 }
 
-/** The answer to hello. viser: where the scene is; presenter: the id under which others may follow this tab. */
+/** The answer to hello. viser: address of the scene; presenter: id with which others may follow this tab. */
 export interface Welcome {
   type: "welcome";
   session: string;
@@ -241,7 +241,7 @@ export interface Welcome {
   presenter: string;
 }
 
-/** All that is on offer, when the list has changed. */
+/** All recordings in the menu, sent when the list changes. */
 export interface Recordings {
   type: "recordings";
   recordings: RecordingEntry[];
@@ -258,11 +258,11 @@ export interface Loading {
 }
 
 /**
- * How a live source fares; told while a tab shows it, at most a few times a second.
+ * Status of a live source, sent while a tab shows it, at most a few times a second.
  *
- * rate: scans a second; delay: of the last scan, from its stamp to its arrival [s]. total: scans since the
- * beginning, of which the oldest were dropped, so that at most `most` are kept; refused: messages that were no
- * scans. publisher: which tab's segments go back to the robot, if any.
+ * rate: scans per second; delay: of the last scan, from its stamp to its arrival [s]. total: scans since the source
+ * began; the newest `most` are kept; refused: messages that were not scans. publisher: the tab whose segments go
+ * back to the robot, if any.
  */
 export interface LiveStatus {
   type: "live";
@@ -282,7 +282,7 @@ export interface LiveStatus {
   publishTrouble: string;
 }
 
-/** What could not be had, and why; rev: of the change that asked for it, if one did. */
+/** A failed request, and why; rev: of the change that caused it, if any. */
 export interface Failure {
   type: "error";
   where: "recording" | "params" | "frame" | "view" | "upload" | "server";
@@ -290,13 +290,13 @@ export interface Failure {
   rev: number | null;
 }
 
-/** Every decision of the frame that the next `drawn` shows. */
+/** All decisions of the frame in the next `drawn` message. */
 export interface Traced {
   type: "trace";
   trace: TraceColumns;
 }
 
-/** `origin` says whose input it answers: "page", or "scene" for viser's sliders and clicks in the scene. */
+/** origin: the source of the input: "page", or "scene" for viser's sliders and clicks in the scene. */
 export interface Drawn {
   type: "drawn";
   rev: number;
@@ -307,11 +307,10 @@ export interface Drawn {
 /**
  * The scores of every stride-th frame under these thresholds, or a message why there are none.
  *
- * Crosses the network as one binary frame: the length of the rest of the head (uint32), the head in JSON, filled up
- * with blanks to a multiple of 4 bytes, and `values`: float32, score after score in the order of Welcome.scores,
- * each of ⌈frames / stride⌉ frames. All little-endian. The last of the scores, the differences from A, is there,
- * and totals of every fate, if there is an A and every frame is known. first: number of the first frame, as in the
- * state.
+ * Sent as one binary frame: the length of the head (uint32); the head in JSON, padded with spaces to a multiple of
+ * 4 bytes; and `values`: float32, score after score in the order of Welcome.scores, each with ⌈frames / stride⌉
+ * frames. All little-endian. The last score, the differences from A, and the totals of every fate are present only
+ * if there is an A and every frame is known. first: number of the first frame, as in the state.
  */
 export interface Surveyed {
   type: "survey";
@@ -333,7 +332,7 @@ export interface Topic {
   scans: number;
 }
 
-/** Where the frame of a failure pack came from, counted from 0, and how it was looked at. */
+/** The origin of a failure pack's frame, counted from 0, and how it was viewed. */
 export interface Pack {
   recording: string;
   frame: number;
@@ -342,7 +341,7 @@ export interface Pack {
   note: string;
 }
 
-/** first, last: its beams. rms: of the distances of its points [m]. */
+/** first, last: its beams. rms: root mean square distance of its points [m]. */
 export interface Segment {
   start: [number, number];
   end: [number, number];
@@ -354,7 +353,7 @@ export interface Segment {
   rms: number;
 }
 
-/** A line that was not kept; check: the threshold that it falls short of. */
+/** A dropped line; check: the threshold that it missed. */
 export interface Dropped {
   first: number;
   last: number;
@@ -364,7 +363,7 @@ export interface Dropped {
   text: string;
 }
 
-/** The decision that the replay shows; value, limit: what was compared, null where it is no finite number. */
+/** The decision that the replay shows; value, limit: the compared numbers, null if not finite. */
 export interface Decision {
   index: number;
   kind: string;
@@ -382,7 +381,7 @@ export interface Decision {
   line: [number | null, number | null, number | null];
 }
 
-/** What became of the selected beam. at: its point [m]; segment: that of the beam, −1 without one. */
+/** The explanation of the selected beam. at: its point [m]; segment: its segment, or −1. */
 export interface Explanation {
   beam: number;
   text: string;
@@ -394,7 +393,7 @@ export interface Explanation {
   at: Point | null;
 }
 
-/** How often the quantity that a threshold cuts had which value, from low to high. */
+/** Histogram, from low to high, of the quantity that a threshold limits. */
 export interface Histogram {
   low: number;
   high: number;
@@ -403,7 +402,7 @@ export interface Histogram {
   failed: number[];
 }
 
-/** Segments against true lines: the numbers of the paper's Table 4 and more; null where one is not defined. */
+/** Segments compared with true lines: the numbers of the paper's Table 4 and more; null if undefined. */
 export interface Agreement {
   trueLines: number | null;
   segments: number | null;
@@ -417,7 +416,7 @@ export interface Agreement {
   endpointMost: number | null;
 }
 
-/** A line that is there, as people say: its beams and its ends [m]. */
+/** A labelled true line: its beams and its ends [m]. */
 export interface TrueLine {
   first: number;
   last: number;
@@ -425,7 +424,7 @@ export interface TrueLine {
   end: [number, number];
 }
 
-/** What people say of a frame. lines: null where nobody has said which are true; revision: counts the savings. */
+/** The labels of a frame. lines: null if its true lines are not labelled; revision: number of saves. */
 export interface Labelled {
   revision: number;
   lines: TrueLine[] | null;
@@ -434,10 +433,10 @@ export interface Labelled {
 }
 
 /**
- * What people say of the frame on the screen, and where it is kept.
+ * The labels of the frame on the screen, and where they are kept.
  *
- * apart: whether that is the user's data folder, not the folder of the recording. stamp: another one whenever the
- * file is; trouble: why the file cannot be read, or "".
+ * apart: whether that is the user's data folder, not the folder of the recording. stamp: changes with the file;
+ * trouble: why the file cannot be read, or "".
  */
 export interface Labels {
   revision: number;
@@ -454,14 +453,14 @@ export interface Labels {
 /**
  * What is on the screen.
  *
- * view: all of it, as a patch that leads back to it. label: of the recording; pack: of a failure pack, what it
- * says. topic: the one on the screen. live: whether the newest frame is followed, null of a recording that is not
- * live; first: number of the first frame, of a live recording the oldest are gone. stamp: time since the first scan
- * [s]. covered: how many of the `valid` beams are in segments. steps: decisions that there are. difference: what
- * became of the lines of A. truth: the recording knows its walls. agreement: in the mode Inspect, where the truth
- * is known; labels: there, of a recording that can have some. references: by what segments can be judged; judgedBy:
- * by what they are, "" without truth. extent: box around the points of the frame, bounds: of the recording [m].
- * extractionUs: time of the extraction [µs].
+ * view: the whole View, as a patch that restores it. label: of the recording; pack: description in a failure pack.
+ * topic: on the screen. live: whether the newest frame is followed, null if the recording is not live; first:
+ * number of the first frame, above 0 if a live recording has dropped frames. stamp: time since the first scan [s].
+ * covered: number of `valid` beams in segments. steps: number of decisions. difference: fates of the lines of A.
+ * truth: whether the recording has its true walls. agreement: in the mode Inspect if the truth is known; labels: in
+ * the mode Inspect if the recording can have labels. references: available references; judgedBy: the one in use, ""
+ * without truth. extent: box around the points of the frame, bounds: of the recording [m]. extractionUs: time of
+ * the extraction [µs].
  */
 export interface Scene {
   view: View;
@@ -508,16 +507,16 @@ export interface Scene {
   extractionUs: number;
 }
 
-/** How long it took to make the picture, and to hand it to viser [ms]. */
+/** Time to make the picture, and to pass it to viser [ms]. */
 export interface Timings {
   pictureMs: number;
   drawMs: number;
 }
 
 /**
- * The state that was drawn.
+ * The drawn state.
  *
- * marks: decisions at which replay may halt, if the trace is another than that of the last message. following: the
+ * marks: decisions at which the replay may pause, sent if the trace differs from the last message. following: the
  * presenter that this tab mirrors.
  */
 export interface DrawnState {
@@ -569,20 +568,20 @@ export interface DrawnState {
   following: "here" | "away" | "gone" | null;
 }
 
-/** Indices of decisions at which each phase and each line begins. */
+/** Indices of the decisions at which each phase and each line starts. */
 export interface Starts {
   phase: number[];
   line: number[];
 }
 
 /**
- * The decisions of a frame as columns, one entry each, and the points they speak of.
+ * The decisions of a frame as columns, one entry each, and the points they refer to.
  *
- * kinds, checks, phases: names of the numbers in the columns kind, check, phase. first, last, beam: beams, −1 none.
- * text: the sentence of each. points: how many points lie from first to last. jumps: indices to which each jump of
- * the method leads. total: decisions that there are, of which the columns hold the first. a, b, c: of the line;
- * others, ends: of the few decisions that have them, by index: (a, b, c) of the partner's line, (x1, y1, x2, y2) of
- * the endpoints. x, y: of every beam [m], null where it has no return. circle: whether the scan is a full circle.
+ * kinds, checks, phases: names of the numbers in the columns kind, check, phase. first, last, beam: beams, −1 if
+ * none. text: the sentence of each. points: number of points from first to last. jumps: indices for each jump of
+ * the method. total: number of all decisions; the columns hold the first ones. a, b, c: of the line; others, ends:
+ * by index, for the few decisions that have them: (a, b, c) of the partner's line, (x1, y1, x2, y2) of the
+ * endpoints. x, y: of every beam [m], null if it has no return. circle: whether the scan is a full circle.
  */
 export interface TraceColumns {
   kinds: string[];
@@ -613,7 +612,7 @@ export interface TraceColumns {
   y: (number | null)[];
 }
 
-/** What would change the answer for the selected beam, and of which answer. */
+/** The threshold changes that would change the answer for the selected beam, and that answer. */
 export interface WhatIfs {
   frame: number;
   beam: number | null;
@@ -622,7 +621,7 @@ export interface WhatIfs {
   changes: WhatIf[];
 }
 
-/** What looks wrong in the frames that were asked about, by their numbers. */
+/** What looks wrong in the requested frames, by frame number. */
 export interface Whys {
   recording: string;
   method: string;
@@ -631,9 +630,9 @@ export interface Whys {
 }
 
 /**
- * How the whole recording agrees with its truth; stride: of so many frames one was looked at.
+ * The agreement of the whole recording with its truth; stride: every stride-th frame was judged.
  *
- * labelled: stamp of the labels that are the truth, or "".
+ * labelled: stamp of the labels used as truth, or "".
  */
 export interface Truth {
   recording: string;
@@ -645,7 +644,7 @@ export interface Truth {
   stride: number;
 }
 
-/** What people say of a frame, in short. lines: how many, null where nobody has said which are true. */
+/** Summary of the labels of a frame. lines: number of true lines, null if they are not labelled. */
 export interface Brief {
   revision: number;
   lines: number | null;
@@ -653,22 +652,22 @@ export interface Brief {
   note: string;
 }
 
-/** What people say of a recording, by frame. stamp: another one whenever its file is. */
+/** The labels of a recording, by frame. stamp: changes with the file. */
 export interface LabelsOverview {
   stamp: string;
   frames: Record<number, Brief>;
 }
 
-/** points: of each beam [m], null without a return. */
+/** points: of each beam [m], null if it has no return. */
 export interface Sweep {
   points: ([number, number] | null)[];
   fullCircle: boolean;
 }
 
 /**
- * One threshold over its range, of each value how many lines there are and which beams are in them.
+ * One threshold over its range: the number of lines at each value, and the beams in them.
  *
- * runs: of each value the stretches of beams of one line: first, last, "#rrggbb".
+ * runs: at each value, the stretches of beams of one line: first, last, "#rrggbb".
  */
 export interface ThresholdSweep {
   name: string;
@@ -679,9 +678,9 @@ export interface ThresholdSweep {
 }
 
 /**
- * The table of a sweep. axes: the values of each swept threshold; columns: of each row.
+ * The table of a sweep. axes: values of each swept threshold; columns: measures of each row.
  *
- * file: of each row its place in files.
+ * file: index into `files` of each row.
  */
 export interface SweepTable {
   files: string[];
@@ -691,14 +690,14 @@ export interface SweepTable {
   columns: Record<string, (number | null)[]>;
 }
 
-/** What thresholds do to some frames of a recording, spread evenly; of: how many it has. */
+/** The effect of thresholds on evenly spread frames of a recording; of: total number of frames. */
 export interface Sampled {
   frames: number;
   of: number;
   params: Record<string, number>;
 }
 
-/** Of each threshold its values, and of each measure what it is at them. */
+/** For each threshold its values, and the value of each measure there. */
 export interface SampledCurves {
   frames: number;
   of: number;
@@ -706,7 +705,7 @@ export interface SampledCurves {
   curves: Record<string, Curve>;
 }
 
-/** heights: a row for each of ys; of each of xs what the measure is, null where it is not defined. */
+/** heights: a row for each of ys, with the measure at each of xs, null if undefined. */
 export interface SampledMap {
   frames: number;
   of: number;
@@ -719,21 +718,21 @@ export interface SampledMap {
   heights: ((number | null)[])[];
 }
 
-/** score: null where there is none. */
+/** score: null if there is none. */
 export interface Trial {
   number: number;
   params: Record<string, number>;
   score: number | null;
 }
 
-/** The thresholds that are proposed, and whether they gain anything on frames that were held back. */
+/** The proposed thresholds, and whether they gain anything on the held-back frames. */
 export interface Verdict {
   params: Record<string, number>;
   text: string;
   gained: boolean;
 }
 
-/** A step of auto-tuning: at first what is looked for, then trials as they come, now and then what matters. */
+/** A step of auto-tuning: first the objective, then trials as they finish, and sometimes the importances. */
 export interface Tuned {
   text?: string;
   caution?: string;
@@ -744,7 +743,7 @@ export interface Tuned {
   verdict?: Verdict;
 }
 
-/** What every answer of long work has. done: it has ended; stopped: because somebody said so; message: why not. */
+/** Common fields of answers of long work. done: it has ended; stopped: on request; message: why it failed. */
 export interface Worked {
   type: "curves" | "map" | "auto";
   job: number;
@@ -753,7 +752,7 @@ export interface Worked {
   message?: string;
 }
 
-/** A decision, by what it is and not by its number: the nth (from 0, or from the end) that agrees in all. */
+/** Finds a decision by its properties: the nth (from 0, or negative from the end) that matches all of them. */
 export interface Find {
   kind: string;
   check: string | null;
@@ -763,10 +762,10 @@ export interface Find {
 }
 
 /**
- * One text, and what the page shows beside it: the decision found, or without one the whole result.
+ * One text and what the page shows with it: the decision found, or the whole result.
  *
- * params: on top of the lesson's own. method: whose whole result is shown, with its usual thresholds, instead of
- * that of region growing; nothing of it can be searched for.
+ * params: override those of the lesson. method: shows the whole result of this method, with its default thresholds,
+ * instead of region growing; it cannot be combined with find or params.
  */
 export interface Step {
   text: string;
@@ -777,12 +776,12 @@ export interface Step {
 }
 
 /**
- * What must be so, in all its parts, for the task to be done.
+ * Conditions that must all hold for the task to be done.
  *
- * lines: how many, [least, most]. together: pairs of beams in one line; apart: in two; inside, outside: beams in
- * some line, in none. changed: the only thresholds that may differ from the lesson's, and at least one of them
- * must. at: the kind of decision that is shown. selected: the beam is one of these. count: how many such decisions
- * there are, [least, most].
+ * lines: number of lines, [least, most]. together: pairs of beams in one line; apart: pairs in different lines;
+ * inside, outside: beams in some line, in no line. changed: the only thresholds that may differ from the lesson's;
+ * at least one must. at: kind of the shown decision. selected: beams, one of which must be selected. count: number
+ * of such decisions, [least, most].
  */
 export interface Goal {
   lines: [number, number] | null;
@@ -796,7 +795,7 @@ export interface Goal {
   count: [Find, number, number] | null;
 }
 
-/** text: what to do; hint: on demand; done: said when it is done. */
+/** text: what to do; hint: shown on request; done: shown when it is done. */
 export interface Task {
   text: string;
   hint: string;
@@ -805,7 +804,7 @@ export interface Task {
   params: Record<string, number>;
 }
 
-/** params: thresholds that differ from USUAL and the defaults; knobs: those the lesson offers to change. */
+/** params: thresholds that differ from USUAL and the defaults; knobs: thresholds that the reader may change. */
 export interface Lesson {
   title: string;
   about: string;
@@ -829,14 +828,14 @@ export interface NamedLesson {
   id: string;
 }
 
-/** broken: one sentence for each file that is no lesson. */
+/** broken: one sentence for each file that is not a valid lesson. */
 export interface Lessons {
   lessons: NamedLesson[];
   broken: string[];
 }
 
 /**
- * A field of the View as the page knows it; see ViewField.
+ * A field of the View as sent to the page; see ViewField.
  *
  * default: {} where it depends on other fields. most: of a number, or of the length of a text.
  */
@@ -852,7 +851,7 @@ export interface FieldEntry {
   lasting: boolean;
 }
 
-/** How a measure is called and read; truth: whether it needs true lines. */
+/** The name and meaning of a measure; truth: whether it needs true lines. */
 export interface Measure {
   name: string;
   label: string;
@@ -863,9 +862,9 @@ export interface Measure {
 }
 
 /**
- * The nearest value of a threshold at which a beam has another answer; None if no value in its range gives one.
+ * The nearest value of a threshold that changes the answer for a beam; None if no value in its range does.
  *
- * segment: that of the beam at this value; first, last: the beams of that segment; −1 for none.
+ * segment: the beam's segment at this value; first, last: the beams of that segment; −1 for none.
  */
 export interface WhatIf {
   name: string;
@@ -877,9 +876,9 @@ export interface WhatIf {
 }
 
 /**
- * One parameter: under which name, what was sent, what the robot has now (None if nothing), and what it said.
+ * One parameter: its name, the value sent, the robot's present value (None if unset), and the robot's answer.
  *
- * taken: whether the robot has the value that was sent.
+ * taken: whether the robot now has the value that was sent.
  */
 export interface Sent {
   name: string;

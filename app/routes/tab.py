@@ -1,4 +1,4 @@
-"""The sockets of a browser tab: its messages, and its scene."""
+"""The sockets of a browser tab: messages and scene."""
 
 from __future__ import annotations
 
@@ -101,7 +101,7 @@ async def _hello(socket: WebSocket) -> Hello | None:
 async def _session_of(
     hello: Hello, library: Library, sessions: Sessions, topic: str | None
 ) -> tuple[Session, bool, str | None]:
-    """The former session or a new one with the page's View; and a complaint if that View cannot be had."""
+    """The earlier session, or a new one with the page's View; and an error if that View is not possible."""
     said = hello.view or {}
     former = sessions.resume(hello.session)
     if former is not None:
@@ -124,7 +124,7 @@ async def _converse(
     loop = asyncio.get_running_loop()
 
     def send(message: BaseModel) -> None:
-        """From the worker's thread; waits until the message is on its way, so that a slow page slows its worker."""
+        """Called in the worker's thread; waits until the message is sent, so a slow page slows only its own worker."""
         sending = asyncio.run_coroutine_threadsafe(_tell(socket, message), loop)
         try:
             sending.result(SEND_SECONDS)
@@ -154,7 +154,7 @@ async def _converse(
 
 
 async def _listen(socket: WebSocket, session: Session, sessions: Sessions) -> None:
-    """Take the page's messages until it goes, or its session ends."""
+    """Handle the page's messages until the page leaves or the session ends."""
     while True:
         try:
             message = parse(await socket.receive_text())
@@ -184,7 +184,7 @@ async def _listen(socket: WebSocket, session: Session, sessions: Sessions) -> No
                 await sessions.close(session)
                 return
             case Hello():
-                await _tell(socket, Failure(where="server", message="this tab has said hello already"))
+                await _tell(socket, Failure(where="server", message="this tab has already said hello; reload the page"))
 
 
 def _named(message: Change | OpenLink) -> set[str]:
@@ -205,7 +205,7 @@ async def _follow(socket: WebSocket, session: Session, sessions: Sessions, id: s
 
 async def _hang_up(socket: WebSocket) -> None:
     with contextlib.suppress(RuntimeError):
-        await socket.close(CLOSED, "this session was closed, because it was idle or the server stops")
+        await socket.close(CLOSED, "this session was closed because it was idle or the server is stopping")
 
 
 async def _tell(socket: WebSocket, message: BaseModel) -> None:

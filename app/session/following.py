@@ -1,4 +1,4 @@
-"""Tabs that mirror another one: a class that looks at what its teacher shows."""
+"""Tabs that mirror another tab, as for a class that follows its teacher."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from typing import Literal, Protocol
 from ..view import View
 from ..view_field import view_fields
 
-# Theme, camera and layers stay the follower's own.
+# Followers keep their own theme, camera and layers.
 OWN = frozenset(name for name, entry in view_fields(View).items() if not entry.mirrored)
 
 Presence = Literal["here", "away", "gone"]
 
 
 class Follower(Protocol):
-    """Who mirrors a presenter; both are called in threads of the presenter, one after the other, and do not wait."""
+    """A follower of a presenter. Both callbacks run in the presenter's threads, never at once, and must not block."""
 
     def mirror(self, view: View) -> None: ...
 
@@ -26,7 +26,7 @@ class Follower(Protocol):
 
 
 class Presenter:
-    """One side of it: whom a tab shows itself to, under an id of its own, which gives no control over the tab."""
+    """A tab as presenter, with its followers. Its public id gives no control over the tab."""
 
     def __init__(self) -> None:
         self.id = secrets.token_urlsafe(12)
@@ -36,7 +36,7 @@ class Presenter:
         self._lock = threading.Lock()
 
     def join(self, follower: Follower) -> Callable[[], None]:
-        """Mirror to this follower too, from now on; the result ends that."""
+        """Mirror to this follower from now on. Returns a function that ends it."""
         with self._lock:
             follower.presenter_is(self._presence)
             if self._presence != "gone":
@@ -51,14 +51,14 @@ class Presenter:
                 self._followers.remove(follower)
 
     def show(self, view: View) -> None:
-        """The presenter looks at this."""
+        """Send the presenter's new View to the followers."""
         with self._lock:
             self._view = view
             for follower in self._followers:
                 follower.mirror(view)
 
     def tell(self, presence: Presence) -> None:
-        """Whether the presenter's page is there, away for a moment, or gone for good: its last word."""
+        """Tell followers whether the presenter's page is there, briefly away, or gone for good."""
         with self._lock:
             if self._presence in (presence, "gone"):
                 return
@@ -70,6 +70,6 @@ class Presenter:
 
 
 def mirrored(own: View, shown: View) -> View:
-    """A follower's View when its presenter looks at `shown`."""
+    """The View of a follower when its presenter shows `shown`."""
     kept = [name for name, entry in view_fields(type(own)).items() if not entry.mirrored]
     return replace(shown, **{name: getattr(own, name) for name in kept})

@@ -1,4 +1,4 @@
-"""One browser tab: its View, and a worker that draws the newest one."""
+"""One browser tab: its View, and a worker that draws the newest View."""
 
 from __future__ import annotations
 
@@ -35,13 +35,13 @@ Send = Callable[[BaseModel], None]
 Watch = Callable[[View, Recording, str, Findings], None]
 
 log = logging.getLogger(__name__)
-# A live recording is drawn at most so often [s]; what came in between is in the recording all the same.
+# Shortest time between redraws of a live recording [s]; no scan is lost.
 FOLLOW_EVERY = 0.04
 
 
 @dataclass(frozen=True)
 class Request:
-    """A View to be drawn; `number` counts the requests of a session."""
+    """A View to draw; `number` counts the requests of a session."""
 
     number: int
     view: View
@@ -58,15 +58,15 @@ class Shown:
     found: Findings
 
     def paused(self, view: View) -> bool:
-        """Whether it is a live recording that `view` keeps as it is."""
+        """Whether it shows a live recording that `view` does not follow."""
         return isinstance(self.recording, LiveRecording) and self.view.recording == view.recording and not view.live
 
 
 class Session:
-    """Every input changes the View and wakes the worker; while it draws, newer requests replace each other.
+    """Every input changes the View and wakes the worker; while the worker draws, only the newest request is kept.
 
-    `send` is called in the worker's thread and may block: a page that is slow to read slows its own session only.
-    Making a session starts a viser server and blocks for a moment.
+    `send` is called in the worker's thread and may block: a slow page only slows its own session.
+    Creating a session starts a viser server and blocks for a moment.
     """
 
     def __init__(
@@ -120,7 +120,7 @@ class Session:
             return self._shown
 
     def attach(self, send: Send, hang_up: Callable[[], None], rev: int | None = None) -> None:
-        """A page is there: tell it everything. hang_up: called when the session ends; rev: the page's count so far."""
+        """A page has connected; send it everything. hang_up: called when the session ends; rev: the page's revision."""
         with self._lock:
             self.detached_at = None
             self.last_input = time.monotonic()
@@ -141,7 +141,7 @@ class Session:
         return self._presence in ("here", "away")
 
     def follow(self, presenter: Presenter | None) -> None:
-        """Mirror a presenter, whose View replaces this one whenever it changes; None: no more."""
+        """Mirror a presenter: its View replaces this one whenever it changes. None ends it."""
         if self._leave_presenter is not None:
             self._leave_presenter()
             self._leave_presenter = None
@@ -157,13 +157,13 @@ class Session:
                 self._ask(own, self._wanted.rev, "scene")
 
     def presenter_is(self, presence: Presence | None) -> None:
-        """Tell the page, with the next picture."""
+        """Send this to the page with the next picture."""
         with self._lock:
             self._presence = presence
             self._ask(self._wanted.view, self._wanted.rev, "scene")
 
     def change(self, patch: Mapping[str, Any], rev: int | None = None, origin: Origin = "page") -> None:
-        """Change the View; a bad value is a ValueError, and the View stays as it was."""
+        """Change the View. Raises ValueError, and leaves the View unchanged, for a bad value."""
         with self._lock:
             self.last_input = time.monotonic()
             view = self._wanted.view.patched(patch)
@@ -178,12 +178,12 @@ class Session:
         return complaint
 
     def cancel(self) -> None:
-        """Give up the loading in progress, if any."""
+        """Cancel loading, if in progress."""
         with self._lock:
             self._cancelled = self._done != self._wanted.number
 
     def close(self) -> None:
-        """Stop the worker and the viser server; blocks until they are gone."""
+        """Stop the worker and the viser server; blocks until they have ended."""
         with self._lock:
             self._closing = True
             hang_up = self._hang_up
@@ -210,10 +210,10 @@ class Session:
         try:
             self.change(patch, origin="scene")
         except ValueError as error:
-            log.debug("the scene asked for what cannot be: %s", error)
+            log.debug("the scene sent an invalid change: %s", error)
 
     def _pick(self, point: tuple[float, float], radius: float) -> None:
-        """Select the beam whose point is nearest to a click, or none if none is near."""
+        """Select the beam whose point is nearest to a click, or none if no point is near."""
         shown = self.shown
         if shown is None:
             return
@@ -230,7 +230,7 @@ class Session:
             self._fall_back(request, str(error))
         except Exception as error:
             log.exception("drawing %s failed", request.view)
-            self._fall_back(request, f"this could not be drawn: {type(error).__name__}: {error}")
+            self._fall_back(request, f"drawing failed: {type(error).__name__}: {error}")
         self._keep_up()
 
     def _keep_up(self) -> None:
@@ -241,13 +241,13 @@ class Session:
                 self._ask(self._wanted.view, self._wanted.rev, "page", due=self._followed)
 
     def _relabelled(self, recording: str) -> None:
-        """The labels of a recording were saved, here or in another tab."""
+        """Handle saved labels of a recording, from this or another tab."""
         with self._lock:
             if self._wanted.view.recording == recording:
                 self._ask(self._wanted.view, self._wanted.rev, "scene")
 
     def _behind(self) -> bool:
-        """Whether a newer frame of the live recording on the screen is to be followed."""
+        """Whether a newer frame of the live recording should be shown."""
         shown, wanted = self._shown, self._wanted.view
         if self._send is None or shown is None or not (wanted.live and isinstance(shown.recording, LiveRecording)):
             return False
@@ -288,12 +288,12 @@ class Session:
         self.presenter.show(view)
         if self._watch is not None:
             self._watch(view, recording, self._library.label(view.recording), found)
-        # After the status: the frame of the scene shares a thread with the page, and its rendering would hold it back.
+        # After the status: the scene's iframe shares a thread with the page, and its rendering would delay the status.
         self._scene.flush()
         self._survey()
 
     def _survey(self) -> None:
-        """Let the strip follow what is on the screen."""
+        """Update the strip to match the screen."""
         with self._lock:
             shown = self._shown
             if shown is not None and self._send is not None:
@@ -326,7 +326,7 @@ class Session:
         return recording
 
     def _fall_back(self, request: Request, message: str | None) -> None:
-        """Keep what is on the screen; where nothing is yet, show the first recording that can be shown."""
+        """Keep the present picture; if there is none, show the first recording that works."""
         view = request.view
         with self._lock:
             self._done = request.number

@@ -1,4 +1,4 @@
-"""The scores of every frame of the recording on the screen, for the strip of the page's timeline."""
+"""Computes the scores of every frame of the recording on the screen, for the strip of the page's timeline."""
 
 from __future__ import annotations
 
@@ -27,17 +27,17 @@ from ..newest import Newest
 from ..told.messages import Surveyed
 from ..view import Against, View, all_weights
 
-# A glance of this many beams takes some milliseconds of one core: too little to be worth stopping.
+# A quick survey of this many beams takes a few milliseconds on one core: too short to be worth stopping.
 GLANCE_BEAMS = 400_000
 LEAST_STRIDE = 4
-# The scores of a recording that grows are told anew so often [s].
+# Time between updates of the scores of a growing recording [s].
 LIVE_EVERY = 1.0
 
 log = logging.getLogger(__name__)
 
 
 class Key(NamedTuple):
-    """All of a View that the scores depend on."""
+    """The part of a View that the scores depend on."""
 
     recording: str
     topic: str | None
@@ -49,7 +49,7 @@ class Key(NamedTuple):
 
 
 def key_of(view: View) -> Key:
-    # Stability takes many surveys, and the suspicion many medians: only where they are looked at, and nothing grows.
+    # Stability needs many surveys and the suspicion many medians: compute them only if shown, and not while growing.
     deep = (view.mode == "inspect" or view.score in ("unstable", "suspicion")) and not view.recording.startswith(
         "live:"
     )
@@ -58,7 +58,7 @@ def key_of(view: View) -> Key:
 
 @dataclass(frozen=True, eq=False)
 class Subject:
-    """What is to be surveyed, for which revision of the View."""
+    """What to survey, and the revision of the View."""
 
     key: Key
     recording: Recording
@@ -68,7 +68,7 @@ class Subject:
 
 @dataclass(frozen=True, eq=False)
 class Known:
-    """What came of a whole recording; other weights make another suspicion of it. changed: (frames, 0 or 1)."""
+    """The result for a whole recording, from which other weights give another suspicion. changed: (frames, 0 or 1)."""
 
     key: Key
     recording: Recording
@@ -78,7 +78,7 @@ class Known:
 
 
 def told(subject: Subject, known: Known) -> Surveyed:
-    """The message of every frame; the suspicion is not known where nobody looks at it."""
+    """The message with every frame; the suspicion is unknown unless it is shown."""
     deep = subject.key.deep
     rank = suspicion(known.scores, all_weights(subject.key.weights)) if deep else np.full(len(known.scores), np.nan)
     columns = [known.scores, rank[:, None], known.changed] if deep or known.totals else [known.scores]
@@ -86,10 +86,10 @@ def told(subject: Subject, known: Known) -> Surveyed:
 
 
 class Strip:
-    """Surveys in a thread of its own, behind everything else: the newest subject wins, and stops the one before.
+    """Surveys in its own low-priority thread; a new subject stops the previous one.
 
-    A long recording is glanced at first: some of its frames, evenly spread, are there while a slider still moves.
-    ready: set once the kernels are compiled. send: called in the strip's thread and may block.
+    A long recording first gets a quick survey of evenly spread frames, ready while a slider is still moving.
+    ready: set once the kernels are compiled. send: called in the strip's thread; may block.
     """
 
     def __init__(self, name: str, ready: threading.Event, send: Callable[[BaseModel], None]) -> None:
@@ -104,7 +104,7 @@ class Strip:
         self._surveying = Newest(name, self._work, behind=True)
 
     def want(self, view: View, recording: Recording, rev: int, passing: bool = False) -> None:
-        """Survey this, unless it is surveyed already; only glance at it in passing, where a newer one is to come."""
+        """Survey this unless it has been surveyed; only quickly, in passing, if a newer one is about to come."""
         key = key_of(view)
         self.keep(view)
         with self._lock:
@@ -116,7 +116,7 @@ class Strip:
                 self._surveying.put(subject, due=self._rest_until if view.live else 0.0)
 
     def keep(self, view: View | None) -> None:
-        """Stop what is not of this View; of None: whatever it is, and it may be wanted again."""
+        """Stop work that is not for this View; with None, stop any work, which may be requested again."""
         with self._lock:
             if self._subject is not None and (view is None or self._subject.key != key_of(view)):
                 self._subject.stop[0] = True
@@ -124,7 +124,7 @@ class Strip:
                 self._surveying.drop()
 
     def close(self) -> None:
-        """Stop; blocks until the thread is gone."""
+        """Stop; blocks until the thread has ended."""
         self.keep(None)
         with self._lock:
             self._closing = True
@@ -153,7 +153,7 @@ class Strip:
             return True
 
     def _stands(self, subject: Subject) -> bool:
-        """Whether it still belongs to what is on the screen; a glance may be one change of the thresholds late."""
+        """Whether it still matches the screen; a quick survey may be one change of the thresholds late."""
         with self._lock:
             now = self._subject
             return not self._closing and (now is None or now.key[:2] == subject.key[:2])
@@ -174,7 +174,7 @@ class Strip:
             yield told(subject, self._known)
             return
         stride = stride_of(recording)
-        # The other methods take too long for a glance that nothing can stop.
+        # The other methods are too slow for a quick survey that cannot be stopped.
         if stride >= LEAST_STRIDE and isinstance(key.params, Params):
             yield surveyed(subject, self._glanced_scores(recording, stride, key.params), stride)
         whole = survey(recording, key.params, subject.stop)
@@ -198,13 +198,13 @@ class Strip:
         threes = survey(self._glance(recording, stride), params, threads=1)
         assert threes.scores is not None
         scores = threes.scores[1::3]
-        # The first and the last frame lie between no two others.
+        # The first and the last frame have only one neighbour.
         ends = np.isin(np.arange(0, len(recording), stride), (0, len(recording) - 1))
         scores[ends] = np.where([name in BESIDE for name in SCORES], 0, scores[ends])
         return scores
 
     def _pinned_survey(self, subject: Subject, params: Thresholds) -> Survey:
-        """Of A, which stays the same while the thresholds of B move."""
+        """The survey of A, which stays the same while the thresholds of B change."""
         if self._pinned is None or self._pinned[0] is not subject.recording or self._pinned[1] != params:
             self._pinned = subject.recording, params, survey(subject.recording, params, subject.stop, scores=False)
         return self._pinned[2]
@@ -217,7 +217,7 @@ def surveyed(
     message: str | None = None,
     totals: dict[str, int] | None = None,
 ) -> Surveyed:
-    """The message for scores (frames, scores) of every stride-th frame."""
+    """The message with scores (frames, scores) of every stride-th frame."""
     return Surveyed(
         rev=subject.rev,
         recording=subject.key.recording,
@@ -234,12 +234,12 @@ def surveyed(
 
 
 def stride_of(recording: Recording) -> int:
-    """Of how many frames one is glanced at."""
+    """The stride of a quick survey."""
     return -(-3 * int(recording.offsets[-1]) // GLANCE_BEAMS)
 
 
 def glance_of(recording: Recording, stride: int) -> Recording:
-    """Every stride-th frame, between the two beside it, with which a score may compare it."""
+    """Every stride-th frame with its two neighbours, for scores that compare them."""
     glanced = np.arange(0, len(recording), stride)
     beside = np.column_stack((glanced - 1, glanced, glanced + 1))
     return recording.only(np.clip(beside, 0, len(recording) - 1).ravel())

@@ -1,10 +1,10 @@
-"""The state that was drawn, and the decisions of its frame: dictionaries, because they are sent many times a second."""
+"""The drawn state and the decisions of its frame, as dictionaries because they are sent many times a second."""
 
 from __future__ import annotations
 
 from typing import Annotated, Any, Literal, NotRequired
 
-# Of the standard library, pydantic takes that of Python 3.12 and later only.
+# pydantic accepts the TypedDict of the standard library from Python 3.12 on only.
 from typing_extensions import TypedDict
 
 from .typescript import As
@@ -26,7 +26,7 @@ class Topic(TypedDict):
 
 
 class Pack(TypedDict):
-    """Where the frame of a failure pack came from, counted from 0, and how it was looked at."""
+    """The origin of a failure pack's frame, counted from 0, and how it was viewed."""
 
     recording: str
     frame: int
@@ -36,7 +36,7 @@ class Pack(TypedDict):
 
 
 class Segment(TypedDict):
-    """first, last: its beams. rms: of the distances of its points [m]."""
+    """first, last: its beams. rms: root mean square distance of its points [m]."""
 
     start: Point
     end: Point
@@ -49,7 +49,7 @@ class Segment(TypedDict):
 
 
 class Dropped(TypedDict):
-    """A line that was not kept; check: the threshold that it falls short of."""
+    """A dropped line; check: the threshold that it missed."""
 
     first: int
     last: int
@@ -60,7 +60,7 @@ class Dropped(TypedDict):
 
 
 class Decision(TypedDict):
-    """The decision that the replay shows; value, limit: what was compared, null where it is no finite number."""
+    """The decision that the replay shows; value, limit: the compared numbers, null if not finite."""
 
     index: int
     kind: str
@@ -79,7 +79,7 @@ class Decision(TypedDict):
 
 
 class Explanation(TypedDict):
-    """What became of the selected beam. at: its point [m]; segment: that of the beam, −1 without one."""
+    """The explanation of the selected beam. at: its point [m]; segment: its segment, or −1."""
 
     beam: int
     text: str
@@ -92,7 +92,7 @@ class Explanation(TypedDict):
 
 
 class Histogram(TypedDict):
-    """How often the quantity that a threshold cuts had which value, from low to high."""
+    """Histogram, from low to high, of the quantity that a threshold limits."""
 
     low: float
     high: float
@@ -102,7 +102,7 @@ class Histogram(TypedDict):
 
 
 class Agreement(TypedDict):
-    """Segments against true lines: the numbers of the paper's Table 4 and more; null where one is not defined."""
+    """Segments compared with true lines: the numbers of the paper's Table 4 and more; null if undefined."""
 
     trueLines: float | None
     segments: float | None
@@ -117,7 +117,7 @@ class Agreement(TypedDict):
 
 
 class TrueLine(TypedDict):
-    """A line that is there, as people say: its beams and its ends [m]."""
+    """A labelled true line: its beams and its ends [m]."""
 
     first: int
     last: int
@@ -126,7 +126,7 @@ class TrueLine(TypedDict):
 
 
 class Labelled(TypedDict):
-    """What people say of a frame. lines: null where nobody has said which are true; revision: counts the savings."""
+    """The labels of a frame. lines: null if its true lines are not labelled; revision: number of saves."""
 
     revision: int
     lines: list[TrueLine] | None
@@ -135,10 +135,10 @@ class Labelled(TypedDict):
 
 
 class Labels(Labelled):
-    """What people say of the frame on the screen, and where it is kept.
+    """The labels of the frame on the screen, and where they are kept.
 
-    apart: whether that is the user's data folder, not the folder of the recording. stamp: another one whenever the file
-    is; trouble: why the file cannot be read, or "".
+    apart: whether that is the user's data folder, not the folder of the recording. stamp: changes with the file;
+    trouble: why the file cannot be read, or "".
     """
 
     file: str
@@ -151,14 +151,14 @@ class Labels(Labelled):
 class Scene(TypedDict):
     """What is on the screen.
 
-    view: all of it, as a patch that leads back to it. label: of the recording; pack: of a failure pack, what it says.
-    topic: the one on the screen. live: whether the
-    newest frame is followed, null of a recording that is not live; first: number of the first frame, of a live
-    recording the oldest are gone. stamp: time since the first scan [s]. covered: how many of the `valid` beams are in
-    segments. steps: decisions that there are. difference: what became of the lines of A. truth: the recording knows its
-    walls. agreement: in the mode Inspect, where the truth is known; labels: there, of a recording that can have some.
-    references: by what segments can be judged; judgedBy: by what they are, "" without truth. extent: box around the
-    points of the frame, bounds: of the recording [m]. extractionUs: time of the extraction [µs].
+    view: the whole View, as a patch that restores it. label: of the recording; pack: description in a failure pack.
+    topic: on the screen. live: whether the newest frame
+    is followed, null if the recording is not live; first: number of the first frame, above 0 if a live recording has
+    dropped frames. stamp: time since the first scan [s]. covered: number of `valid` beams in segments. steps: number
+    of decisions. difference: fates of the lines of A. truth: whether the recording has its true walls. agreement: in
+    the mode Inspect if the truth is known; labels: in the mode Inspect if the recording can have labels. references:
+    available references; judgedBy: the one in use, "" without truth. extent: box around the points of the frame,
+    bounds: of the recording [m]. extractionUs: time of the extraction [µs].
     """
 
     view: Annotated[dict[str, Any], As("View")]
@@ -206,16 +206,16 @@ class Scene(TypedDict):
 
 
 class Timings(TypedDict):
-    """How long it took to make the picture, and to hand it to viser [ms]."""
+    """Time to make the picture, and to pass it to viser [ms]."""
 
     pictureMs: float
     drawMs: float
 
 
 class DrawnState(Scene, Timings):
-    """The state that was drawn.
+    """The drawn state.
 
-    marks: decisions at which replay may halt, if the trace is another than that of the last message. following: the
+    marks: decisions at which the replay may pause, sent if the trace differs from the last message. following: the
     presenter that this tab mirrors.
     """
 
@@ -224,20 +224,20 @@ class DrawnState(Scene, Timings):
 
 
 class Starts(TypedDict):
-    """Indices of decisions at which each phase and each line begins."""
+    """Indices of the decisions at which each phase and each line starts."""
 
     phase: list[int]
     line: list[int]
 
 
 class TraceColumns(TypedDict):
-    """The decisions of a frame as columns, one entry each, and the points they speak of.
+    """The decisions of a frame as columns, one entry each, and the points they refer to.
 
-    kinds, checks, phases: names of the numbers in the columns kind, check, phase. first, last, beam: beams, −1 none.
-    text: the sentence of each. points: how many points lie from first to last. jumps: indices to which each jump of the
-    method leads. total: decisions that there are, of which the columns hold the first. a, b, c: of the line; others,
-    ends: of the few decisions that have them, by index: (a, b, c) of the partner's line, (x1, y1, x2, y2) of the
-    endpoints. x, y: of every beam [m], null where it has no return. circle: whether the scan is a full circle.
+    kinds, checks, phases: names of the numbers in the columns kind, check, phase. first, last, beam: beams, −1 if none.
+    text: the sentence of each. points: number of points from first to last. jumps: indices for each jump of the method.
+    total: number of all decisions; the columns hold the first ones. a, b, c: of the line; others, ends: by index, for
+    the few decisions that have them: (a, b, c) of the partner's line, (x1, y1, x2, y2) of the endpoints. x, y: of
+    every beam [m], null if it has no return. circle: whether the scan is a full circle.
     """
 
     kinds: tuple[str, ...]

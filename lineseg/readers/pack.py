@@ -61,7 +61,9 @@ def _about(path: Path) -> dict[str, Any]:
     wanted = {"recording": str, "frame": int, "method": str, "params": dict, "note": str}
     for name, kind in wanted.items():
         if not isinstance(about.get(name), kind):
-            raise ValueError(f"{path.name}: {name} in {ABOUT} is {about.get(name)!r}; it must have the type {kind.__name__}.")
+            raise ValueError(
+                f"{path.name}: {name} in {ABOUT} is {about.get(name)!r}; it must have the type {kind.__name__}."
+            )
     return about
 
 

@@ -38,7 +38,9 @@ class TextOptions:
         if self.angle_increment == 0:
             raise ValueError("angle_increment is 0, which would put all beams on one ray; give another value.")
         if self.skip_columns is not None and self.skip_columns < 0:
-            raise ValueError(f"skip_columns is {self.skip_columns}; a number of columns is never negative, give 0 or more.")
+            raise ValueError(
+                f"skip_columns is {self.skip_columns}; a number of columns is never negative, give 0 or more."
+            )
 
     @classmethod
     def names(cls) -> tuple[str, ...]:
