@@ -10,7 +10,7 @@ import subprocess
 import sys
 import sysconfig
 import tomllib
-from importlib.metadata import Distribution, PackageNotFoundError
+from importlib.metadata import Distribution
 from importlib.util import find_spec
 from pathlib import Path
 from urllib.parse import urlsplit
@@ -52,11 +52,9 @@ def _extras_of_uv(receipt: Path) -> list[str]:
 
 def _checkout() -> Path | None:
     """The working copy that an editable installation runs from."""
-    try:
-        about = Distribution.from_name(DISTRIBUTION).read_text("direct_url.json")
-    except PackageNotFoundError:
-        return None
-    origin = json.loads(about or "{}")
+    # A build leaves metadata in the checkout itself, which says nothing of how it was installed.
+    texts = (found.read_text("direct_url.json") for found in Distribution.discover(name=DISTRIBUTION))
+    origin = json.loads(next(filter(None, texts), "{}"))
     if not origin.get("dir_info", {}).get("editable"):
         return None
     return Path(url2pathname(urlsplit(origin["url"]).path))

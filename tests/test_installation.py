@@ -84,6 +84,16 @@ def test_a_checkout_in_another_environment_stays_a_checkout(tmp_path: Path):
     assert said_by(python) == f"{python} -m pip install -e '{checkout}[rerun]'"
 
 
+def test_metadata_that_a_build_left_in_the_folder_is_no_way_of_installing(tmp_path: Path):
+    python = environment_in(tmp_path / ".venv")
+    install_editable(tmp_path / ".venv", tmp_path)
+    left = tmp_path / "laser_lineseg.egg-info"
+    left.mkdir()
+    (left / "PKG-INFO").write_text("Metadata-Version: 2.4\nName: laser-lineseg\nVersion: 0.1.0\n")
+    done = subprocess.run([python, "-c", SAY], cwd=tmp_path, capture_output=True, text=True, check=True, timeout=60)
+    assert done.stdout.strip() == f"make -C {tmp_path} install EXTRAS=rerun"
+
+
 def test_a_python_of_the_system_takes_no_packages():
     script = "import sysconfig; print(sysconfig.get_path('stdlib'))"
     base = sys._base_executable

@@ -94,5 +94,5 @@ def test_page_scene_and_trace_agree_on_every_step_both_ways(new_tab, name):
         if decision.beam >= 0:
             assert str(decision.beam) in seen["said"]
         if decision.kind in ("point added", "line kept"):
-            assert f"{decision.value:.3f}\u00a0m" in seen["said"]
+            assert f"{decision.value:.3f} m" in seen["said"]
     assert tab.page.evaluate(WALK, [last, 0, expected]) == forward[::-1]
