@@ -48,7 +48,7 @@ VOCABULARY = Vocabulary(
             "overlap cut", "overlap", "parted", "cut",
             "overlap cut at beam {beam}, {value:m} from the first line, {limit:m} from the second; "
             "the first line keeps {span}",
-            within="overlap cut after beam {last}: every shared point is nearer to the first line, which keeps {span}",
+            within="overlap cut before beam {beam}: every shared point is nearer to the first line, which keeps {span}",
         ),
         Kind(
             "endpoints", "endpoints", "placed", "",
