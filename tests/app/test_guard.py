@@ -142,5 +142,5 @@ def test_a_public_server_answers_to_addresses_but_not_to_any_name(public: Addres
 
 
 def test_a_busy_port_is_named_with_a_way_out(server: Address):
-    with pytest.raises(OSError, match=rf"port {server.port} .* is taken.*--port"):
+    with pytest.raises(OSError, match=rf"port {server.port} .* is in use.*--port"):
         listen("127.0.0.1", server.port)

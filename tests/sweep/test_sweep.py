@@ -163,7 +163,7 @@ def test_without_truth_the_table_leaves_the_rates_empty(tmp_path: Path, files: l
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        (["--epsilon", "0.01:0.1"], "--epsilon is '0.01:0.1'; a sweep is FROM:TO:COUNT"),
+        (["--epsilon", "0.01:0.1"], "--epsilon is '0.01:0.1'; give FROM:TO:COUNT"),
         (["--measure", "beauty"], "there is no measure 'beauty'; choose from coverage"),
         (["-o", "sweep.xlsx"], "sweep.xlsx: use a name that ends in .csv or .parquet"),
         (["-o", "nowhere/sweep.csv"], "the folder nowhere does not exist"),

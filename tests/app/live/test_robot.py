@@ -136,7 +136,7 @@ def test_a_message_that_is_not_a_scan_is_counted_and_skipped(peer: RosBridgePeer
         peer.publish("/scan", {"data": "hello"})
         peer.publish("/scan", scan_message([1.0, 2.0], angle_min=math.nan))
         refused = page.heard("live", lambda m: m["refused"] == 2)
-        assert "a message of /scan is no scan: its angle_min is nan" in refused["message"]
+        assert "a message of /scan is not a scan: its angle_min is nan" in refused["message"]
         state = send(peer, page, 3.0)
         peer.publish("/scan", scan_message([math.nan, math.inf, *wall(2.5)[2:]]))
         state = page.until(lambda s: s["frames"] == 2)
