@@ -73,10 +73,10 @@ def test_a_live_recording_is_recorded_for_rerun_in_its_current_state(server: Add
         ("a", b'{"angle_min": 0, "angle_increment": 0.1, "ranges": []}', 400, "the scan has no ranges"),
         ("a", b'{"ranges": ' + b"[" * 100_000, 400, "this is not JSON"),
         ("a", b" " * (LARGEST + 1), 413, "at most"),
-        ("a" * 65, b"{}", 400, "is no name"),
+        ("a" * 65, b"{}", 400, "is not a valid name"),
         ("..", b"{}", 404, ""),
         ("a%2Fb", b"{}", 404, ""),
-        ("%00", b"{}", 400, "is no name"),
+        ("%00", b"{}", 400, "is not a valid name"),
     ],
 )
 def test_an_invalid_scan_is_refused(server: Address, name: str, content: bytes, status: int, sentence: str):
@@ -122,7 +122,7 @@ def test_a_program_sends_the_token_as_bearer(tmp_path: Path):
         bearer = {"Authorization": "Bearer correct horse"}
         with connect(f"{server.ws}/api/scans/a", additional_headers=bearer, proxy=None) as socket:
             socket.send("{")
-            assert "no JSON" in json.loads(socket.recv(timeout=20))["error"]
+            assert "not JSON" in json.loads(socket.recv(timeout=20))["error"]
 
 
 def test_an_unknown_live_source_is_named(server: Address):
