@@ -105,7 +105,7 @@ def test_csv_and_json_hold_every_row_and_markdown_names_the_best_first(done: Com
     text = TABLE_WRITERS[".md"](done.rows)
     best = max((row for row in done.rows if row.tuned), key=lambda row: row.score)
     assert f"| 1 | {best.label} | {best.score:.3f} |" in text
-    assert f"tuned by {best.evaluations} evaluations" in text
+    assert f"tuned with {best.evaluations} evaluations" in text
 
 
 def test_two_recordings_also_have_a_total(hallway: Recording):

@@ -62,5 +62,5 @@ def test_it_can_be_stopped_and_needs_scores():
     recording = Recording.from_scans([wall_ahead()])
     with pytest.raises(Cancelled):
         with_stability(recording, survey(recording), np.ones(1, np.bool_))
-    with pytest.raises(ValueError, match="without scores"):
+    with pytest.raises(ValueError, match="has no scores"):
         with_stability(recording, survey(recording, scores=False))

@@ -54,9 +54,9 @@ ROW = ",".join(["a.npz", *(str(value) for value in Params().numbers().values()),
         ("a.csv", f"{HEAD}\n{ROW}\na.npz,0.03\n".encode(), "row 2 has 2 cells"),
         ("a.csv", f"{HEAD}\n{ROW.replace('0.03', 'wide')}\n".encode(), "epsilon of row 1 is 'wide'"),
         ("a.csv", f"{HEAD}\n{ROW.replace('0.03', '')}\n".encode(), "epsilon of row 1 is missing"),
-        ("a.csv", b"\xff\xfe\x00", "it is no CSV"),
+        ("a.csv", b"\xff\xfe\x00", "it is not CSV"),
         ("a.csv", f"{HEAD}\n".encode() + f"{ROW}\n".encode() * 100_001, "the page shows 1 to 100,000"),
-        ("a.parquet", b"PAR1 and no more", "it is no Parquet"),
+        ("a.parquet", b"PAR1 and no more", "it is not Parquet"),
     ],
 )
 def test_a_file_that_is_not_a_sweep_table_is_refused_in_one_sentence(name: str, content: bytes, sentence: str):
