@@ -19,16 +19,15 @@ import { closePopovers } from "./widgets/menu.js";
  */
 export function bindingsOf(page, parts, words, help) {
   const does = words.page.help.keys;
-  const { timeline, inspect, labels, draw, camera } = parts;
-  const { stepper, zoom, answer } = parts.learn;
-  const steps = () => (page.learning ? stepper : parts.replay);
+  const { timeline, inspect, labels, draw, camera, learn } = parts;
+  const steps = () => (page.learning ? learn.stepper : parts.replay);
   /** What ← and → move through. */
   const place = () => (page.replaying ? steps() : timeline);
   /** The part whose edits Ctrl+Z undoes. */
   const editor = () => [draw, labels].find(({ active }) => active) ?? page.store;
 
   /** @param {"refusal" | "merge" | "cut"} mark */
-  const jumpInLearn = (mark) => page.learning && stepper.jump(mark);
+  const jumpInLearn = (mark) => page.learning && learn.stepper.jump(mark);
 
   function openLabels() {
     page.setMode("inspect");
@@ -73,7 +72,7 @@ export function bindingsOf(page, parts, words, help) {
     { keys: ["x"], shown: "X M C", does: words.learn.keys.jumps, run: () => jumpInLearn("refusal") },
     { keys: ["m"], shown: "", does: "", run: () => (labels.active ? labels.merge(1) : jumpInLearn("merge")) },
     { keys: ["c"], shown: "", does: "", run: () => jumpInLearn("cut") },
-    { keys: ["z"], shown: "Z", does: words.learn.keys.zoom, run: () => page.learning && zoom() },
+    { keys: ["z"], shown: "Z", does: words.learn.keys.zoom, run: () => page.learning && learn.zoom() },
     { keys: ["Shift+n"], shown: "N Shift+N", does: does.doubtful, run: () => !page.replaying && doubtful(-1) },
     { keys: ["b"], shown: "B Shift+B", does: words.inspect.keys.ab, run: inspect.togglePin },
     { keys: ["Shift+b"], shown: "", does: "", run: inspect.nextDifference },
@@ -81,8 +80,8 @@ export function bindingsOf(page, parts, words, help) {
     { keys: ["a"], shown: "A S M Del", does: words.label.keys.edit, run: () => labels.active && labels.draw() },
     { keys: ["Shift+m"], shown: "", does: "", run: () => labels.active && labels.merge(-1) },
     { keys: ["Delete", "Backspace"], shown: "", does: "", run: () => labels.active && labels.remove() },
-    { keys: ["1"], shown: "1 2", does: words.learn.keys.answer, run: () => page.learning && answer(true) },
-    { keys: ["2"], shown: "", does: "", run: () => page.learning && answer(false) },
+    { keys: ["1"], shown: "1 2", does: words.learn.keys.answer, run: () => page.learning && learn.answer(true) },
+    { keys: ["2"], shown: "", does: "", run: () => page.learning && learn.answer(false) },
     { keys: ["f"], shown: "F", does: does.fit, run: camera.fit },
     { keys: ["v"], shown: "V", does: does.view, run: camera.toggle },
     { keys: ["l"], shown: "L", does: does.layers, run: () => parts.layers.button.click() },

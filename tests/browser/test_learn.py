@@ -254,6 +254,14 @@ def test_predictions_are_asked_before_the_decision_and_counted(new_tab):
     assert text_of(tab, ".predict-score") == "1 of 2 right"
 
 
+def test_z_shows_the_points_of_the_decision_from_near_by(new_tab):
+    tab = learn(new_tab, "lesson:1_perfect_corner", step=0)
+    metre = "lineseg.project(1, 0)[0] - lineseg.project(0, 0)[0]"
+    before = tab.page.evaluate(metre)
+    tab.page.keyboard.press("z")
+    tab.eventually(lambda: tab.page.evaluate(metre) > 1.5 * before, "Z shows nothing nearer")
+
+
 def test_the_picture_of_a_threshold_takes_a_click_back_to_its_value(new_tab):
     tab = learn(new_tab, "sample:hallway", step=0)
     tab.page.get_by_role("button", name="All steps").click()
