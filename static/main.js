@@ -139,6 +139,7 @@ page.connect(
   createReceiver(page, { address, notices, work, following, packCard, opening, panel: tune.panel }, text),
   following,
 );
-address.read(session.hash);
+// A link says nothing of the theme: what it is read on top of must have it already.
 store.adopt({ dark: theme.show() });
+address.read(session.hash);
 offerToScripts(page, { timeline, address, rerun, tuner: tune.tuner, stage });

@@ -162,3 +162,11 @@ def test_every_control_has_a_name(tab):
             .map((element) => element.outerHTML.slice(0, 120))"""
     )
     assert unnamed == []
+
+
+def test_a_link_is_shown_in_the_colours_of_the_page(tab):
+    tab.page.emulate_media(color_scheme="dark")
+    tab.page.goto("about:blank")
+    tab.page.goto(f"{tab.address}#recording=sample:hallway&frame=3")
+    tab.until("s.view.frame === 3")
+    assert tab.page.evaluate("lineseg.state.view.dark") is True
