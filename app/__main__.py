@@ -7,6 +7,7 @@ import sys
 from collections.abc import Sequence
 
 import tyro
+from tyro.conf import DisallowNone, FlagCreatePairsOff
 
 from lineseg import __version__
 
@@ -28,7 +29,11 @@ def main(argv: Sequence[str] | None = None) -> int:
     try:
         with interruptible():
             tyro.extras.subcommand_cli_from_dict(
-                COMMANDS, prog="lineseg", description="Line segments from 2D laser scans.", args=arguments
+                COMMANDS,
+                prog="lineseg",
+                description="Line segments from 2D laser scans.",
+                args=arguments,
+                config=(DisallowNone, FlagCreatePairsOff),
             )
             sys.stdout.flush()
     except KeyboardInterrupt:

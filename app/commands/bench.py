@@ -10,16 +10,17 @@ from tyro.conf import OmitArgPrefixes, Positional
 
 from lineseg.readers import TextOptions
 
+from .flag_types import Switch, Unset
 from .progress import open_with_progress
 from .thresholds import Flags, changed
 
 
 def bench(
-    file: Positional[Path | None] = None,
+    file: Positional[Unset[Path]] = None,
     *,
     thresholds: OmitArgPrefixes[Flags],  # type: ignore[valid-type]
-    json: bool = False,
-    topic: str | None = None,
+    json: Switch = False,
+    topic: Unset[str] = None,
 ) -> None:
     """Time the extraction and compare it with the minimum work of the method.
 

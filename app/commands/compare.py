@@ -12,6 +12,7 @@ from tyro.conf import Positional, arg
 from lineseg.readers import TextOptions
 from lineseg.scan import Recording
 
+from .flag_types import Several, Unset
 from .progress import open_with_progress, progress_bar
 
 if TYPE_CHECKING:
@@ -21,14 +22,14 @@ SAMPLES = ("hallway", "laboratory")
 
 
 def compare(
-    files: Positional[tuple[str, ...]] = (),
+    files: Positional[Several[str]] = (),
     *,
-    methods: tuple[str, ...] = (),
+    methods: Several[str] = (),
     budget: int = 150,
     frames: int = 60,
-    out: Annotated[Path | None, arg(aliases=["-o"])] = None,
-    figures: Path | None = None,
-    topic: str | None = None,
+    out: Annotated[Unset[Path], arg(aliases=["-o"])] = None,
+    figures: Unset[Path] = None,
+    topic: Unset[str] = None,
 ) -> None:
     """Compare methods as in the paper's tables: TR, FR, completeness, endpoint errors, time.
 

@@ -12,6 +12,7 @@ from lineseg.covariance import Noise
 from lineseg.readers import TextOptions
 from lineseg.writers import SEGMENT_WRITERS, write_segments
 
+from .flag_types import Switch, Unset
 from .progress import counted, open_with_progress
 from .thresholds import Choice, suggested
 
@@ -21,11 +22,11 @@ def extract(
     choice: OmitArgPrefixes[Choice],
     text: OmitArgPrefixes[TextOptions],
     *,
-    out: Annotated[Path | None, arg(aliases=["-o"])] = None,
-    topic: str | None = None,
-    range_noise: float | None = None,
-    bearing_noise: float | None = None,
-    suggest: bool = False,
+    out: Annotated[Unset[Path], arg(aliases=["-o"])] = None,
+    topic: Unset[str] = None,
+    range_noise: Unset[float] = None,
+    bearing_noise: Unset[float] = None,
+    suggest: Switch = False,
 ) -> None:
     """Write the segments of a recording as JSON lines, CSV or GeoJSON.
 

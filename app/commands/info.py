@@ -13,10 +13,11 @@ from lineseg.readers import TextOptions
 from lineseg.scan import Recording
 from lineseg.tuning.proposal import propose
 
+from .flag_types import Unset
 from .progress import open_with_progress
 
 
-def info(file: Positional[Path], text: OmitArgPrefixes[TextOptions], *, topic: str | None = None) -> None:
+def info(file: Positional[Path], text: OmitArgPrefixes[TextOptions], *, topic: Unset[str] = None) -> None:
     """Describe a recording.
 
     Args:

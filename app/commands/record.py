@@ -9,6 +9,7 @@ from tyro.conf import OmitArgPrefixes, Positional, arg
 
 from lineseg.readers import TextOptions
 
+from .flag_types import Switch, Unset
 from .progress import open_with_progress, progress_bar
 from .thresholds import Choice
 
@@ -20,8 +21,8 @@ def record(
     *,
     out: Annotated[Path, arg(aliases=["-o"])],
     frames: str = ":",
-    steps: bool = False,
-    topic: str | None = None,
+    steps: Switch = False,
+    topic: Unset[str] = None,
 ) -> None:
     """Write a recording for rerun: points, segments, decisions and scores of every frame.
 

@@ -15,6 +15,7 @@ from lineseg.readers import TextOptions
 from lineseg.scan import Recording
 from lineseg.truth import Agreement
 
+from .flag_types import Switch, Unset
 from .progress import counted, open_with_progress
 from .thresholds import Choice
 
@@ -24,10 +25,10 @@ def score(
     choice: OmitArgPrefixes[Choice],
     text: OmitArgPrefixes[TextOptions],
     *,
-    truth: Path | None = None,
-    json: bool = False,
-    csv: bool = False,
-    topic: str | None = None,
+    truth: Unset[Path] = None,
+    json: Switch = False,
+    csv: Switch = False,
+    topic: Unset[str] = None,
 ) -> None:
     """Compare the segments of a recording with its true lines.
 

@@ -11,6 +11,7 @@ from tyro.conf import OmitArgPrefixes, Positional, arg
 from lineseg.params import Params
 from lineseg.writers import read_params
 
+from .flag_types import Several, Unset
 from .progress import progress_bar
 
 
@@ -26,15 +27,15 @@ Axes: type = make_dataclass(
 
 
 def sweep(
-    files: Positional[list[Path]],
+    files: Positional[Several[Path]],
     axes: OmitArgPrefixes[Axes],  # type: ignore[valid-type]
     *,
     out: Annotated[Path, arg(aliases=["-o"])],
-    plot: Path | None = None,
-    measure: str | None = None,
-    params: Path | None = None,
-    topic: str | None = None,
-    scheduler: str | None = None,
+    plot: Unset[Path] = None,
+    measure: Unset[str] = None,
+    params: Unset[Path] = None,
+    topic: Unset[str] = None,
+    scheduler: Unset[str] = None,
 ) -> None:
     """Try every combination of threshold values on whole recordings: coverage, segments, and, with truth, TR and FR.
 

@@ -14,6 +14,8 @@ from lineseg.scan import Recording
 from lineseg.tuning.proposal import propose
 from lineseg.writers import read_params
 
+from .flag_types import Unset
+
 T = TypeVar("T", bound=Thresholds)
 
 
@@ -38,15 +40,17 @@ Flags: type = make_dataclass(
 class Choice:
     """The method and its thresholds: with their own flags for region growing, with --set for every method.
 
-    method: region-growing, or another method listed in the README.
-    set: NAME=VALUE of a threshold of the method; may be repeated.
-    params: ROS 1 launch file, ROS 2 YAML or JSON with thresholds; flags override it.
+    Args:
+        flags: thresholds of region growing.
+        method: region-growing, or another method listed in the README.
+        set: NAME=VALUE of a threshold of the method.
+        params: ROS 1 launch file, ROS 2 YAML or JSON with thresholds; flags override it.
     """
 
     flags: OmitArgPrefixes[Flags] = field(default_factory=Flags)  # type: ignore[valid-type]
     method: str = "region-growing"
-    set: UseAppendAction[tuple[str, ...]] = field(default=())
-    params: Path | None = None
+    set: UseAppendAction[tuple[str, ...]] = ()
+    params: Unset[Path] = None
 
     @property
     def extractor(self) -> Extractor:

@@ -11,26 +11,27 @@ from tyro.conf import Positional, arg
 from lineseg.params import Params
 from lineseg.writers import params_text, read_params
 
+from .flag_types import Several, Unset
 from .progress import progress_bar
 
 
 def tune(
-    files: Positional[list[Path]],
+    files: Positional[Several[Path]],
     *,
     trials: int = 100,
-    objective: Literal["truth", "label-free"] | None = None,
-    thresholds: tuple[str, ...] | None = None,
+    objective: Unset[Literal["truth", "label-free"]] = None,
+    thresholds: Unset[tuple[str, ...]] = None,
     split: Literal["frames", "files"] = "frames",
-    frames: int | None = None,
+    frames: Unset[int] = None,
     recall: float = 1.0,
     completeness: float = 1.0,
     rms: float = 0.03,
-    study: Path | None = None,
-    out: Annotated[Path | None, arg(aliases=["-o"])] = None,
+    study: Unset[Path] = None,
+    out: Annotated[Unset[Path], arg(aliases=["-o"])] = None,
     to: Literal["ros2", "ros1", "python", "flags"] = "ros2",
-    params: Path | None = None,
-    topic: str | None = None,
-    scheduler: str | None = None,
+    params: Unset[Path] = None,
+    topic: Unset[str] = None,
+    scheduler: Unset[str] = None,
 ) -> None:
     """Search for thresholds with Optuna, and compare the best with the paper's defaults on held-back frames.
 

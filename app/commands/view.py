@@ -7,32 +7,34 @@ from pathlib import Path
 
 from tyro.conf import Positional
 
+from .flag_types import Switch, Unset
+
 MOST_KEPT = 20_000
 
 
 def view(
-    file: Positional[str | None] = None,
+    file: Positional[Unset[str]] = None,
     *,
-    topic: str | None = None,
+    topic: Unset[str] = None,
     keep: int = 3000,
     host: str = "127.0.0.1",
     port: int = 8765,
-    token: str | None = None,
-    no_browser: bool = False,
-    rerun: bool = False,
+    token: Unset[str] = None,
+    no_browser: Switch = False,
+    rerun: Switch = False,
 ) -> None:
     """Show the page in the browser.
 
     Args:
         file: recording to open: CARMEN log, ROS 1 or ROS 2 bag, MCAP, NPZ or text (default: a sample).
-                Or a robot to watch live: ws://robot:9090 (rosbridge), ws://robot:8765 (Foxglove).
-            topic: laser topic to use (default: the first).
-            keep: number of a robot's scans to keep; older ones are dropped.
-            host: address to listen on; any but the loopback requires a token.
-            port: TCP port; 0 picks a free one.
-            token: password that browsers must send (default: a random one if a token is required).
-            no_browser: do not open a browser.
-            rerun: also stream the view to rerun's viewer on port 9876; starts the viewer if none is running.
+            Or a robot to watch live: ws://robot:9090 (rosbridge), ws://robot:8765 (Foxglove).
+        topic: laser topic to use (default: the first).
+        keep: number of a robot's scans to keep; older ones are dropped.
+        host: address to listen on; any but the loopback requires a token.
+        port: TCP port; 0 picks a free one.
+        token: password that browsers must send (default: a random one if a token is required).
+        no_browser: do not open a browser.
+        rerun: also stream the view to rerun's viewer on port 9876; starts the viewer if none is running.
     """
     from ..live.address import Address, is_address
     from ..server import Settings, serve

@@ -14,6 +14,7 @@ import numpy as np
 import platformdirs
 import pytest
 from lineseg_app.__main__ import main
+from lineseg_app.commands import COMMANDS
 from lineseg_app.commands.progress import counted, interruptible
 from processes import lineseg
 
@@ -104,6 +105,17 @@ def test_every_threshold_is_a_flag_with_its_symbol_and_default(capsys):
     for name, _, knob in Params.knobs():
         assert re.search(rf"--{name.replace('_', '-')} \w+ {re.escape(knob.symbol)}", text), name
         assert f"(default: {getattr(Params(), name)})" in text
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_the_help_says_what_each_flag_does_and_nothing_that_only_python_knows(capsys, command):
+    with pytest.raises(SystemExit):
+        main([command, "--help"])
+    text = capsys.readouterr().out
+    flags = re.sub(r"(?m)^[^│]*$|│", "", text)
+    assert not re.search(r"\{None|--no-no-|type: ignore|default: \)", text)
+    for flag in re.split(r"(?m)^ +(?=-)", flags)[1:]:
+        assert len(re.sub(r"\([\w: .-]*\)", "", flag).split()) > 2, flag
 
 
 def test_info_says_what_a_recording_holds(run, hall):

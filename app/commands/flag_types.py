@@ -1,0 +1,13 @@
+"""Types of flags whose default the help does not print, because its text says what happens without them."""
+
+from __future__ import annotations
+
+from typing import Annotated, TypeVar
+
+from tyro.conf import arg
+
+T = TypeVar("T")
+
+Unset = Annotated[T | None, arg(help_behavior_hint="")]
+Switch = Annotated[bool, arg(help_behavior_hint="")]
+Several = Annotated[tuple[T, ...], arg(help_behavior_hint="")]
