@@ -259,7 +259,9 @@ class Session:
         if isinstance(recording, LiveRecording) and request.view.live:
             request = replace(request, view=replace(request.view, frame=len(recording) - 1))
         if not self._warm_up.done.is_set():
-            self._tell(Loading(recording=request.view.recording, label=self._warm_up.label, done=0, total=0))
+            view, note = request.view, self._warm_up.label
+            label = self._library.label(view.recording)
+            self._tell(Loading(recording=view.recording, label=label, done=0, total=0, note=note))
             self._warm_up.done.wait()
         begun = time.perf_counter()
         content = self._composer.compose(request.view, recording)
