@@ -6,7 +6,7 @@ import { fetchText } from "../fetch.js";
 /** @typedef {import("../wire.js").State} State */
 
 const REST_MS = 120;
-// As app/inspection.py answers at once.
+// As app/routes/inspection.py answers at once.
 const MOST = 60;
 const PARTS = /** @type {const} */ (["recording", "method", "params"]);
 

@@ -12,7 +12,7 @@ const SYMBOL = /** @type {Record<string, string>} */ ({
   min_points: "P_min",
   min_length: "L_min",
   max_dropout: "D_max",
-  max_gap: "gap_max",
+  max_gap: "G_max",
 });
 
 const LEAST = new Set(["min_points", "min_length"]);

@@ -12,8 +12,7 @@ const TONES = /** @type {Record<string, string>} */ ({
   "": "--accent",
   delta: "--failed",
   epsilon: "--trouble",
-  max_dropout: "--muted",
-  max_gap: "--muted",
+  other: "--muted",
 });
 
 export class Windows {
@@ -78,7 +77,7 @@ export class Windows {
   #say(index) {
     const { columns: c } = /** @type {Trace} */ (this.#trace);
     const { tones, window } = this.#text;
-    return window(c.first[index], c.last[index], tones[c.checks[c.check[index]]] ?? tones.max_dropout);
+    return window(c.first[index], c.last[index], tones[c.checks[c.check[index]]] ?? tones.other);
   }
 
   draw() {
@@ -95,9 +94,9 @@ export class Windows {
     pen.strokeStyle = colour("--ink");
     for (const index of this.#tried) {
       const check = c.checks[c.check[index]];
-      const lane = Math.max(0, lanes.indexOf(check === "max_gap" ? "max_dropout" : check));
+      const lane = lanes.includes(check) ? lanes.indexOf(check) : lanes.length - 1;
       counts.set(lanes[lane], (counts.get(lanes[lane]) ?? 0) + 1);
-      pen.fillStyle = colour(TONES[check] ?? "--muted");
+      pen.fillStyle = colour(TONES[check] ?? TONES.other);
       pen.globalAlpha = index === marked ? 1 : 0.55;
       const { from, wide } = placeOf(c.first[index], c.last[index], beams, width);
       pen.fillRect(from, lane * tall + 2, wide, tall - 4);

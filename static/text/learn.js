@@ -153,7 +153,7 @@ export const learnText = {
       "": "seed",
       delta: "refused by δ",
       epsilon: "by ε",
-      max_dropout: "by a gap",
+      other: "by a gap or another check",
     }),
     sweep: "over its range, beam by beam",
     sweepHelp:
