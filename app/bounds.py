@@ -1,4 +1,4 @@
-"""What every message from the network has: bounds, and one sentence that says what is wrong with it."""
+"""Limits for all messages from the network, and one sentence that says what is wrong with a bad one."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Work of which only the newest piece matters: newest wins."""
+"""Runs only the newest piece of work: newest wins."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ NICENESS = 10
 
 
 class Newest(Generic[T]):
-    """A thread that does one piece of work at a time. A newer piece replaces the one that waits; the last one is done.
+    """A thread that does one piece of work at a time. A newer piece replaces the waiting one; the last is always done.
 
     work: called in the thread for each piece; what it raises is not caught. behind: let other threads go first.
     The thread starts with the first piece.
@@ -45,7 +45,7 @@ class Newest(Generic[T]):
             self._waiting = []
 
     def close(self) -> None:
-        """Do nothing more; blocks until the piece under way is done, for ten seconds at most."""
+        """Stop. Waits up to ten seconds for the current piece."""
         with self._changed:
             self._waiting, self._closing = [], True
             self._changed.notify_all()
@@ -71,7 +71,7 @@ class Newest(Generic[T]):
 
 
 def step_back() -> None:
-    """Let other threads go first, also before the threads that this one starts, where threads have a priority."""
+    """Lower the priority of this thread and those that it starts, where threads have one."""
     if sys.platform == "linux":
         with contextlib.suppress(OSError):
             os.setpriority(os.PRIO_PROCESS, threading.get_native_id(), NICENESS)

@@ -13,7 +13,7 @@ from pydantic import BaseModel, TypeAdapter, create_model
 from .bounds import Message
 from .told.typescript import As
 
-# The key in a link of what has many: each of its values stands under its own name.
+# The link key of a field with several values: each value has its own name in the link.
 EACH = "*"
 
 Written = Literal["text", "whole", "choice", "thresholds", "pinned", "numbers", "switches"]

@@ -13,7 +13,7 @@ from .told.typescript import As
 from .view import View
 from .view_field import patch_of
 
-# What a link says of a View, which may be anything.
+# The View fields of a link, not yet checked.
 Said = Annotated[dict[str, JsonValue], As("Partial<View>")]
 
 
@@ -38,7 +38,7 @@ class Change(Message):
 
 
 class OpenLink(Message):
-    """Look at what a link says: at all of it that can be had."""
+    """Apply a link: all of its fields that are valid."""
 
     type: Literal["link"]
     rev: Count

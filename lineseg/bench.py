@@ -1,4 +1,4 @@
-"""How long extraction takes, beside the floor: what no implementation of the method can do without."""
+"""How long extraction takes, compared with the floor: the work that no implementation of the method can avoid."""
 
 from __future__ import annotations
 
@@ -21,20 +21,20 @@ from .scan import Recording, Scan
 from .survey import cores, survey
 
 FRAMES = 300
-# A survey of less is mostly the start of its threads.
+# A shorter survey would mostly measure the start of its threads.
 SURVEY_BEAMS = 4_000_000
 ROUNDS = 9
 
-# A pass over all frames, giving the time of each [ns]; that of a survey gives one, their mean.
+# A pass over all frames; returns the time of each [ns]. A survey returns one value, their mean.
 Pass = Callable[[], NDArray[np.float64]]
 
 
 @dataclass(frozen=True)
 class Timing:
-    """Time of one frame [µs]: median, 95 %, least, most; its ratio to the floor, and frames in a second of them.
+    """Time of one frame [µs]: median, 95 %, minimum, maximum; ratio to the floor; frames per second.
 
-    ratio: of the least time of each frame to the least time of the floor, which ran in turns with it: drift cancels,
-    and what else the machine does only ever adds. A survey uses all cores, the floor one.
+    ratio: minimum time of each frame over that of the floor. The two run in turns, so drift cancels, and other load
+    can only add time. A survey uses all cores, the floor one.
     """
 
     name: str
@@ -47,7 +47,7 @@ class Timing:
     cores: int
 
 
-# A yardstick of its own: what makes the kernels faster does not move it.
+# Written separately, so that faster kernels do not change this yardstick.
 @keep
 @njit(nogil=True, error_model="numpy", fastmath={"contract"})
 def floor_pass(x, y):
@@ -85,7 +85,7 @@ def bench(recording: Recording, params: Params | None = None, rounds: int = ROUN
 
 
 def table(timings: list[Timing]) -> str:
-    """The timings as text, a line each."""
+    """The timings as text, one per line."""
     lines = [f"{'µs a frame':<22}{'median':>9}{'p95':>9}{'min':>9}{'max':>9}{'× floor':>9}{'frames/s':>11}{'cores':>7}"]
     for t in timings:
         times = "".join(f"{value:9.2f}" for value in (t.median_us, t.p95_us, t.min_us, t.max_us, t.ratio))
@@ -101,7 +101,7 @@ def _timing(name: str, used: int, times: NDArray[np.float64], floor: NDArray[np.
 
 
 def _passes(scans: list[Scan], params: Params) -> Iterator[tuple[str, int, Pass]]:
-    """(name, cores, pass) of everything that is timed beside the floor."""
+    """(name, cores, pass) of everything that is timed besides the floor."""
     yield "kernel", 1, _kernel(scans, params)
     yield "extract", 1, _each(lambda scan: extract(scan, params), scans)
     yield "trace", 1, _each(lambda scan: trace(scan, params), scans)

@@ -1,4 +1,4 @@
-"""Colours that tell segments apart, also for colour-blind eyes."""
+"""Colours that distinguish segments, also for colour-blind readers."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def segment_hues(segments: Sequence[Segment]) -> list[int]:
     """Which of SEGMENTS each has: by direction and distance of the line, so that a wall keeps its colour from frame to
     frame.
 
-    A segment never has the colour of the two before it.
+    A segment never has the colour of either of the two before it.
     """
     chosen: list[int] = []
     for segment in segments:

@@ -1,4 +1,4 @@
-"""How sure a line is: the covariance of its (ρ, θ), from the noise of the beams that it was fitted to.
+"""The covariance of a line's (ρ, θ), from the noise of the beams that it was fitted to.
 
 Total least squares gives the line x·cos θ + y·sin θ = ρ through the points pᵢ = rᵢ·uᵢ, uᵢ the unit vector of bearing
 φᵢ. With its normal n = (cos θ, sin θ) and its direction t = (−sin θ, cos θ), let
@@ -23,7 +23,7 @@ ranges. Pfister, Roumeliotis, Burdick: *Weighted line fitting algorithms for mob
 data representation*, ICRA 2003, from both. Diosi, Kleeman: *Uncertainty of line segments extracted from static SICK PLS
 laser scans*, ACRA 2003, also from systematic errors, which are not independent and are left out here.
 
-It is of first order. Along a wall that the beams graze, noise also moves the points along the wall, which turns the
+This is a first-order result. At grazing incidence, noise also moves the points along the wall, which turns the
 line by √N·σ_r·sin ψ / (rms of sᵢ) standard deviations: little, as long as the noise is small beside the wall's length.
 """
 
@@ -62,8 +62,8 @@ def covariance(scan: Scan, segment: Segment, noise: Noise) -> NDArray[np.float64
 
     ρ is counted along the normal at θ. The line with −ρ and θ + π is the same one: through ρ = 0 nothing is singular
     and the covariance stays true, but `Segment.rho` is never negative, so that within a few σ_ρ of the laser θ may come
-    out turned by half a circle. Whoever compares two such lines takes the nearer of the two ways to write one.
-    NaN where the points have no direction: where they coincide, or scatter equally in all.
+    out turned by half a circle. To compare two such lines, use the closer of the two forms.
+    NaN if the points have no direction: they coincide, or scatter equally in all directions.
     """
     n = len(scan)
     span = np.arange(segment.first, segment.last + 1 + (n if segment.last < segment.first else 0)) % n
@@ -114,7 +114,7 @@ def covariance_of(x, y, range_sigma, bearing_sigma, first, last, line):
 
 @summing_kernel
 def scatter_along(x, y, first, last, line):
-    """m and S; S is NaN where rounding alone is left of it."""
+    """m and S; S is NaN if only rounding errors are left of it."""
     a, b, c = line
     middle = spread = size = 0.0
     for k in range(first, last + 1):

@@ -31,9 +31,9 @@ from .tracing.vocabulary import Vocabulary
 
 @dataclass(frozen=True)
 class Extractor:
-    """A method under its name; every method takes thresholds of a type of its own and gives the same `Extraction`.
+    """A method under its name; each method has its own type of thresholds, and all return an `Extraction`.
 
-    label: short, for a menu; citation: what it follows; begins: how a line of it begins, in a word.
+    label: short, for a menu; citation: what it follows; begins: how its lines begin, in one word.
     """
 
     name: str
@@ -47,9 +47,9 @@ class Extractor:
 
 
 def extract(scan: Scan, params: Thresholds | None = None) -> Extraction:
-    """The line segments of one scan, by the method whose thresholds these are; by seeded region growing without.
+    """The line segments of one scan, by the method that these thresholds belong to; default: seeded region growing.
 
-    Segments come in scan order: by their first beam. A scan with fewer valid beams than a seed needs gives none.
+    Segments come in scan order: by their first beam. A scan with fewer valid beams than a seed needs has no segments.
     Raises TypeError, which says what to pass, for an array instead of a Scan or a dict instead of thresholds.
     """
     if type(scan) is not Scan:
@@ -60,14 +60,14 @@ def extract(scan: Scan, params: Thresholds | None = None) -> Extraction:
 
 
 def trace(scan: Scan, params: Thresholds | None = None) -> Trace:
-    """The same run with every decision written down; `.extraction` is what `extract` returns. Raises what it raises."""
+    """Like `extract`, with every decision recorded; `.extraction` is what `extract` returns. Raises the same errors."""
     need_scan(scan)
     params = Params() if params is None else params
     return method_of(params).trace(scan, params)
 
 
 def method_of(params: Thresholds) -> Extractor:
-    """The method whose thresholds these are. Raises TypeError for anything else, and says what to pass."""
+    """The method that these thresholds belong to. Raises TypeError, which says what to pass, for anything else."""
     for method in EXTRACTORS.values():
         if method.params_type is type(params):
             return method

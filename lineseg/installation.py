@@ -1,4 +1,4 @@
-"""The command that adds optional packages, as it must be typed for the way in which this program was installed."""
+"""The command that installs optional packages, as needed for the way this program was installed."""
 
 from __future__ import annotations
 
@@ -16,22 +16,22 @@ from pathlib import Path
 from urllib.parse import urlsplit
 from urllib.request import url2pathname
 
-# On PyPI `lineseg` is another project; only the import name and the command are called that.
+# On PyPI `lineseg` is another project; here it is only the import name and the command.
 DISTRIBUTION = "laser-lineseg"
 
 
 def install_command(extra: str) -> str:
     """The shell command that installs what an extra brings (`rerun`, `tune`, …) where this program runs.
 
-    pipx and uv keep a tool in an environment of its own, and only they can add to it. A checkout that `make` set up has
-    its own versions pinned. A Python that belongs to the system takes no packages.
+    pipx and uv keep a tool in an environment of its own, and only they can add to it. A checkout set up by `make` pins
+    its own versions. A system Python accepts no packages.
     """
     wanted = f"{DISTRIBUTION}[{extra}]"
     prefix = Path(sys.prefix)
     if (prefix / "pipx_metadata.json").is_file():
         return _line("pipx", "inject", DISTRIBUTION, wanted)
     if (prefix / "uv-receipt.toml").is_file():
-        # uv removes what it is not told again.
+        # uv removes extras that are not listed again.
         extras = sorted({extra, *_extras_of_uv(prefix / "uv-receipt.toml")})
         return _line("uv", "tool", "install", f"{DISTRIBUTION}[{','.join(extras)}]")
     folder = _checkout()
@@ -66,7 +66,7 @@ def _belongs_to_the_system() -> bool:
 
 
 def _pip() -> list[str]:
-    """How pip of this environment is called; in short, if the shell finds that one."""
+    """The command for this environment's pip; just `pip` if the shell finds that one."""
     found = shutil.which("pip")
     active = found is not None and Path(found).parent == Path(sys.executable).parent
     return ["pip"] if active else [sys.executable, "-m", "pip"]

@@ -1,4 +1,4 @@
-"""The noise of a laser, from its scans alone: how far ranges scatter, and how far walls depart from straight.
+"""Estimates the noise of a laser from its scans: how much ranges scatter, and how much walls deviate from straight.
 
 Along a straight line 1/ρ = a·cos φ + b·sin φ, which is linear in the ray u of the beam. So for three beams with the
 rays u₁, u₂, u₃ on one wall, at whatever angle they meet it,
@@ -7,11 +7,11 @@ rays u₁, u₂, u₃ on one wall, at whatever angle they meet it,
 
 with [uv] the cross product. If ranges have the standard deviation σ, e has the variance σ²·Σ (wᵢ/ρᵢ²)², where w are the
 three cross products; so e divided by the root of that sum has the standard deviation σ. For neighbouring beams this is
-the white part of the noise, because a wall bends little within three beams. For beams that meet the wall some length
-apart it also holds how far the wall departs from straight over that length.
+the white part of the noise, because a wall bends little within three beams. For beams that hit the wall some length
+apart it also contains the wall's deviation from straight over that length.
 
-Walls are told from edges, corners and clutter by a mixture: what is measured on walls has a known distribution with one
-unknown scale, and everything else lies above that scale (Dempster, Laird, Rubin: *Maximum likelihood from incomplete
+A mixture model separates walls from edges, corners and clutter: measurements on walls have a known distribution with
+one unknown scale, and everything else lies above it (Dempster, Laird, Rubin: *Maximum likelihood from incomplete
 data via the EM algorithm*, J. Royal Statistical Society B 39(1), 1977).
 """
 
@@ -27,19 +27,19 @@ from .kernel import entry_kernel, kernel
 from .region_growing.points import is_valid
 from .scan import Floats, Recording
 
-# Successive triples that are averaged: fewer tell walls from clutter less well, more find no place on short walls.
+# Successive triples to average. Fewer separate walls from clutter less well; more do not fit on short walls.
 WINDOW = 8
 BINS = 8
 # Second differences of white noise have the correlations 1, −2/3 and 1/6. Their mean square varies as one of fewer
 # independent values would (Welch, Satterthwaite): these are its degrees of freedom.
 WINDOW_DOF = WINDOW**2 / (WINDOW + 2 * (WINDOW - 1) * 4 / 9 + 2 * (WINDOW - 2) / 36)
-# Windows in a bin: of fewer the scale is uncertain by more than a tenth.
+# Windows in a bin: with fewer, the scale is uncertain by more than 10 %.
 LEAST = 40
 # Share of a bin that must lie on walls for its scale to be believed.
 TRUSTED = 0.2
-# No laser scatters by more [m]: such a bin holds no walls.
+# No laser scatters by more [m]; a bin above this holds no walls.
 MOST = 0.3
-# Over these lengths walls are looked at [m], in so many scans, from every so-manyth beam.
+# Lengths over which walls are examined [m], the number of scans, and the step between starting beams.
 LENGTHS = (0.3, 0.6, 1.0)
 FRAMES = 300
 ROUGH_FRAMES = 30
@@ -47,7 +47,7 @@ ROUGH_STRIDE = 3
 ROUGH_TRUSTED = 0.4
 # Width of the cells in which values are counted: a twentieth of the scale.
 GRAIN = 0.05
-# What departs by more [m] is no wall.
+# What deviates by more [m] is not a wall.
 MOST_ROUGH = 0.05
 
 
@@ -82,14 +82,14 @@ class RangeNoise:
 
     @property
     def roughness(self) -> float:
-        """The greatest of `rough` [m], 0 where nothing is known of it."""
+        """The largest of `rough` [m]; 0 if unknown."""
         return float(np.nanmax(self.rough)) if np.isfinite(self.rough).any() else 0.0
 
 
 def noise(recording: Recording) -> RangeNoise:
     """The noise of a recording, from up to 300 of its scans, evenly spread.
 
-    Unknown (NaN) where there is too little to judge by: a scan of ten beams, no beam that returned, no straight wall.
+    Unknown (NaN) if there is too little data: a scan of ten beams, no return, no straight wall.
     """
     ranges, departures = _neighbouring(recording)
     edges, sigma, walls, windows = _by_range(ranges, departures)
@@ -111,7 +111,7 @@ def _neighbouring(recording: Recording) -> tuple[Floats, Floats]:
         used = windows_of(scan.ranges.astype(np.float64), scan.rays, scan.range_min, scan.range_max, out)
         found.append(out[:, :used])
     ranges, squares = np.hstack(found) if found else np.empty((2, 0))
-    # Equal ranges, as of a simulator, leave nothing to measure.
+    # Exactly equal ranges, as from a simulator, give nothing to measure.
     some = squares > 0.0
     return ranges[some], np.sqrt(squares[some])
 
@@ -150,7 +150,7 @@ def departure(ranges, rays, i, j, k):
 
 
 def _by_range(ranges: Floats, departures: Floats) -> tuple[Floats, Floats, Floats, NDArray[np.int64]]:
-    """edges, sigma, walls, windows: bins that hold equally much."""
+    """edges, sigma, walls, windows of bins with equally many windows each."""
     bins = min(BINS, len(ranges) // LEAST)
     if not bins:
         return np.empty(0), np.empty(0), np.empty(0), np.empty(0, np.int64)
@@ -206,7 +206,7 @@ def _law(edges: Floats, sigma: Floats, windows: NDArray[np.int64]) -> tuple[floa
 
 
 def _rough(recording: Recording, length: float, base: float, growth: float) -> float:
-    """How far walls depart from straight over a length [m], beyond the white noise."""
+    """How much walls deviate from straight over a length [m], beyond the white noise."""
     if not math.isfinite(base):
         return math.nan
     found = []
@@ -227,9 +227,9 @@ def _rough(recording: Recording, length: float, base: float, growth: float) -> f
 
 
 def _credible(rough: Floats) -> Floats:
-    """(lengths,) without what no wall does: over a greater length it departs by more, but at most in proportion.
+    """(lengths,) limited to what a wall can do: its deviation grows with length, at most in proportion.
 
-    What grows faster is clutter that lies within the white noise of a wall.
+    Anything that grows faster is clutter within the white noise of a wall.
     """
     kept = rough.copy()
     for k in range(len(kept)):

@@ -1,4 +1,4 @@
-"""Extractions in a recording of rerun (rerun.io), beside whatever else is in it: one line a frame.
+"""Logs extractions to a rerun recording (rerun.io), next to your other data, with one line of code per frame.
 
     import rerun as rr
     import lineseg, lineseg.rerun
@@ -31,7 +31,7 @@ except ModuleNotFoundError:
     raise ModuleNotFoundError(f"rerun is not installed; `{install_command('rerun')}` installs it") from None
 
 NO_LINE = (140, 145, 152)
-# Negative radii are in pixels of the screen, not in metres.
+# Negative radii are in screen pixels, not in metres.
 POINT, LINE, THIN = -1.5, -1.5, -0.75
 
 
@@ -40,7 +40,7 @@ def log(
 ) -> None:
     """Log the segments of a frame at `entity`/segments, and with its scan the points and the dropped candidates.
 
-    recording: the one that rerun takes without.
+    recording: rerun's current recording by default.
     """
     rr.log(f"{entity}/segments", segments(extraction), recording=recording)
     if scan is not None:
@@ -49,7 +49,7 @@ def log(
 
 
 def segments(extraction: Extraction) -> rr.LineStrips3D:
-    """The segments, each in the colour that it has in the page."""
+    """The segments, in the same colours as in the page."""
     found = extraction.segments
     colours = SEGMENTS[segment_hues(found)]
     labels = [f"beams {segment.first}–{segment.last}, {segment.length:.2f} m" for segment in found]
@@ -57,7 +57,7 @@ def segments(extraction: Extraction) -> rr.LineStrips3D:
 
 
 def points(scan: Scan, extraction: Extraction) -> rr.Points3D:
-    """Every valid point, in the colour of its segment, grey where it has none."""
+    """Every valid point, in the colour of its segment, grey if it has none."""
     hues = hue_of_beams(extraction)[scan.valid]
     colours = np.concatenate((np.array([NO_LINE], dtype=np.uint8), SEGMENTS))[hues]
     return rr.Points3D(raised(scan.xy[scan.valid]), colors=colours, radii=POINT)
@@ -86,7 +86,7 @@ def segment_strips(found: Sequence[Segment]) -> NDArray[np.float32]:
 
 
 def dropped_strips(scan: Scan, candidates: Sequence[Dropped]) -> NDArray[np.float32]:
-    """Those between two beams with a return: other methods may begin at one that has none."""
+    """Candidates whose outermost beams have a return; some methods start at a beam without one."""
     beams = np.array([(candidate.first, candidate.last) for candidate in candidates], dtype=int).reshape(-1, 2)
     found = raised(scan.xy[beams])
     return found[np.isfinite(found).all(axis=(1, 2))]

@@ -14,7 +14,7 @@ Floats = NDArray[np.floating]
 
 
 class Fan(NamedTuple):
-    """Where the beams of a scan point; many scans of a recording share one.
+    """Where the beams of a scan point; scans of a recording often share one.
 
     bearings: (n,) [rad]; rays: (2, n), see `Scan.rays`; full_circle: see `Scan.full_circle`.
     """
@@ -32,7 +32,7 @@ class Scan:
     bearings: (n,) [rad], counter-clockwise from the x axis; they may fall from beam to beam.
     range_min, range_max: [m]; a beam is valid if its range is finite, > 0, ≥ range_min and < range_max.
     wall: (n,) int, the true wall of each beam, −1 for none; None where the truth is unknown.
-    known: what has been computed of these bearings already, by another scan that shares them.
+    known: values already computed from these bearings by another scan that shares them.
     """
 
     ranges: Floats
@@ -93,11 +93,11 @@ class Scan:
 
     @property
     def full_circle(self) -> bool:
-        """Whether the last beam is as near to the first as beams are to each other: such a scan has no first beam."""
+        """Whether the last and the first beam are as close as neighbours: such a scan has no first beam."""
         return self.fan.full_circle
 
     def opened(self) -> Scan:
-        """The same scan; of a full circle too, its first beam is the first and its last the last."""
+        """The same scan treated as open, even on a full circle: nothing crosses from the last beam to the first."""
         return replace(self, known=self.fan._replace(full_circle=False))
 
 
@@ -111,7 +111,7 @@ class Topic:
 
 @dataclass(frozen=True)
 class PackAbout:
-    """Where the frame of a failure pack came from, how it was extracted, and what was said of it."""
+    """Where the frame of a failure pack came from, how it was extracted, and its labels."""
 
     recording: str
     frame: int
@@ -128,10 +128,10 @@ class Recording:
     angle_min, angle_increment [rad], range_min, range_max [m], stamps [s]: (frames,) each.
     frame_ids: the name of the laser's frame, scan by scan.
     bearings: (total,) [rad], only for scans whose beams are not evenly spaced.
-    wall: (total,) int, only where the truth is known. poses: (frames, 3) of x, y [m] and heading [rad] and
+    wall: (total,) int, only if the truth is known. poses: (frames, 3) of x, y [m] and heading [rad] and
     walls: (walls, 4) of x1, y1, x2, y2 [m] in the world's frame, for simulated recordings.
     topic, topics: the stream these scans come from, and all that the file offers.
-    pack: of a failure pack, what it says of itself.
+    pack: origin of a failure pack; None for other recordings.
     """
 
     name: str
@@ -190,7 +190,7 @@ class Recording:
         if self.bearings is not None:
             bearings, known = self.bearings[beams], None
         else:
-            # Most scans of a recording share their geometry: its sines and cosines are computed once.
+            # Most scans of a recording share their geometry, so its sines and cosines are computed once.
             known = self._fan(frame)
             bearings = known.bearings
         return Scan(

@@ -1,4 +1,4 @@
-"""What an extractor gives back: `Segment`, what it dropped, and both together as `Extraction`."""
+"""What an extractor returns: `Segment`, what it dropped, and both together as `Extraction`."""
 
 from __future__ import annotations
 
@@ -46,10 +46,10 @@ class Segment(NamedTuple):
 
 
 class Dropped(NamedTuple):
-    """A line that was grown and not kept.
+    """A line that was grown but not kept.
 
     check: "min_points", "min_length", or "nearer" where an overlapping line is the nearer one for every shared point;
-    value: what was measured; limit: what was asked for, for "nearer" the distance to the other line. length: between
+    value: what was measured; limit: what was required, for "nearer" the distance to the other line. length: between
     its outermost points [m].
     """
 

@@ -12,12 +12,12 @@ from .kernel import fma, inlined_kernel, kernel, summing_kernel
 
 @kernel
 def at(values, k):
-    """values[k], k ≥ 0: whether an index counts from the end need not be asked, which in short loops takes long."""
+    """values[k] for k ≥ 0: skips numba's check for negative indices, which is slow in short loops."""
     return values[np.uintp(k)]
 
 
 class Moments(NamedTuple):
-    """Sums over points relative to a point of their own: far from the laser a line is fitted as well as near it."""
+    """Sums over points relative to a nearby origin, so that a fit is as accurate far from the laser as near it."""
 
     x0: float
     y0: float
@@ -46,11 +46,11 @@ def add(m, x, y):
 def moments_of(x, y, first, last):
     """Moments of the points first..last, about the first of them."""
     x0, y0 = x[first], y[first]
-    # Of a slice it is known that no index counts from its end: several points are then taken at a time.
+    # In a slice no index can be negative, so the compiler can process several points at a time.
     x, y = x[first : last + 1], y[first : last + 1]
     sx = sy = sxx = sxy = syy = 0.0
     for k in range(len(x)):
-        # Not by `add`, which is compiled to sum in its order.
+        # Not with `add`, which is compiled to sum in a fixed order.
         dx, dy = x[k] - x0, y[k] - y0
         sx, sy = sx + dx, sy + dy
         sxx, sxy, syy = sxx + dx * dx, sxy + dx * dy, syy + dy * dy
@@ -59,10 +59,10 @@ def moments_of(x, y, first, last):
 
 @kernel
 def halved(cosine, sine, x, y):
-    """A vector with half the angle of (cosine, sine); of its two forms the one without cancellation is taken.
+    """A vector with half the angle of (cosine, sine), in the one of its two forms that avoids cancellation.
 
-    Where all points coincide or scatter equally both are 0 and any direction fits: the one across the beam to (x, y) is
-    taken.
+    If all points coincide or scatter equally, both are 0 and any direction fits: then it is the one across the beam to
+    (x, y).
     """
     if cosine == 0.0 and sine == 0.0:
         return -y, x
@@ -87,7 +87,7 @@ def line_of(m):
 
 
 class Scatter(NamedTuple):
-    """What a line that grows needs of its n points: their mean and their scatter about it.
+    """What a growing line needs to know of its n points: their mean and their scatter about it.
 
     cosine, sine: Σ(dx² − dy²) and 2·Σdx·dy, with dx and dy the distances of a point from the mean. As a vector they
     have twice the angle of the fitted line.
@@ -105,18 +105,18 @@ NO_SCATTER = Scatter(0.0, 0.0, 0, 0.0, 0.0)
 
 @kernel
 def scatter_of(m):
-    """The same of n ≥ 1 points of which the moments are known."""
+    """The scatter of n ≥ 1 points with known moments."""
     return about_mean(m.x0, m.y0, int(m.n), 1.0 / m.n, m.sx, m.sy, m.sxx - m.syy, m.sxy)
 
 
 @kernel
 def about_mean(x0, y0, n, share, sx, sy, difference, product):
-    """The same from sums over n points, relative to (x0, y0), of dx, dy, dx² − dy² and dx·dy; share: 1/n."""
+    """The scatter from sums over n points, relative to (x0, y0), of dx, dy, dx² − dy² and dx·dy; share: 1/n."""
     cosine, sine = difference - (sx * sx - sy * sy) * share, 2.0 * (product - sx * sy * share)
     return Scatter(x0 + sx * share, y0 + sy * share, n, cosine, sine)
 
 
-# Asked for at every point that a line takes; a division would take longer than all the rest.
+# Needed for every point added to a line; a division would take longer than everything else.
 RECIPROCALS = 1.0 / np.maximum(np.arange(4096), 1)
 
 
@@ -128,7 +128,7 @@ def reciprocal(n):
 
 @inlined_kernel
 def scatter_of_few(x, y, first, last):
-    """The same of the points first..last, so few that adding them one by one is the fastest."""
+    """The scatter of the points first..last, for so few points that adding them one by one is fastest."""
     x0, y0 = at(x, first), at(y, first)
     sx = sy = difference = product = 0.0
     for k in range(first + 1, last + 1):
@@ -167,13 +167,13 @@ def is_nearer(s, x, y, limit):
 
     With p the point relative to the mean and φ the direction of the line, its distance d has
     2·d² = |p|² − (px² − py²)·cos 2φ − 2·px·py·sin 2φ. Both sides are compared by their squares, with their signs. This
-    is asked once for every point that a line takes.
+    runs once for every point added to a line.
     """
     px, py = x - s.x, y - s.y
     norm = fma(s.cosine, s.cosine, s.sine * s.sine)
     along = fma(px * px - py * py, s.cosine, 2.0 * (px * py) * s.sine)
     beyond = px * px + py * py - 2.0 * limit * limit
-    # Points that all coincide have no direction; what lies next to them joins.
+    # Coinciding points have no direction; a point close to them joins.
     return along * abs(along) > norm * (beyond * abs(beyond)) or (norm == 0.0 and beyond < 0.0)
 
 
@@ -186,7 +186,7 @@ def signed_distance(line, x, y):
 
 @kernel
 def squared_distance(line, x, y):
-    """Its square. Not by `** 2`, which numba compiles once for all, with the options of the first that asks for it."""
+    """The squared distance. Not with `** 2`, which numba compiles only once, with the options of its first caller."""
     d = signed_distance(line, x, y)
     return d * d
 
@@ -194,7 +194,7 @@ def squared_distance(line, x, y):
 @summing_kernel
 def squares_of(x, y, first, last, line):
     """Sum of the squared distances of the points first..last to a line with unit normal (Eq. 2)."""
-    # Of a slice it is known that no index counts from its end: several points are then taken at a time.
+    # In a slice no index can be negative, so the compiler can process several points at a time.
     x, y = x[first : last + 1], y[first : last + 1]
     total = 0.0
     for k in range(len(x)):

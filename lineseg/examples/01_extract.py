@@ -14,7 +14,7 @@ for segment in found.segments:
     print(
         f"({x1:6.2f}, {y1:6.2f}) to ({x2:6.2f}, {y2:6.2f}) m, {segment.points} points, rms {1000 * segment.rms:.1f} mm"
     )
-print(f"{found.covered} beams are in a segment")
+print(f"{found.covered} beams belong to a segment")
 
 # A laser with less noise allows a smaller distance between a point and its line.
 stricter = extract(scan, Params(epsilon=0.015))

@@ -1,4 +1,4 @@
-"""How a result came about: each decision with its numbers, and why a beam is in its segment or in none."""
+"""How a result came about: each decision with its numbers, and why a beam does or does not belong to a segment."""
 
 import sys
 from itertools import islice
@@ -16,7 +16,7 @@ for decision in islice(traced, 3):
 beam = int((scan.valid & (traced.extraction.labels < 0)).argmax())
 print(f"beam {beam} is the first without a segment: {traced.explain(beam).text}")
 
-print("One threshold alone would have to change so:")
+print("Changing any one of these thresholds would be enough:")
 for answer in what_if(scan, beam):
     if answer.value is not None:
         print(f"  {answer.text}")

@@ -1,4 +1,4 @@
-"""A whole recording at once, on all cores: scores of every frame, and what looks wrong in the worst one."""
+"""Process a whole recording on all cores: scores for every frame, and what looks wrong in the worst one."""
 
 import sys
 
@@ -11,7 +11,7 @@ for name in ("coverage", "rms", "change"):
     values = surveyed.score(name)
     print(f"  {SCORES[name].label}: {values.min():.3f} to {values.max():.3f} {SCORES[name].unit}")
 
-assert surveyed.scores is not None  # with survey(recording, scores=False) there are none, and it is faster
+assert surveyed.scores is not None  # survey(recording, scores=False) is faster but gives no scores
 frame = int(worst_first(surveyed.scores)[0])
 print(f"Frame {frame} is the most suspicious:")
 for remark in why(recording, frame, scores=surveyed.scores)[:3]:

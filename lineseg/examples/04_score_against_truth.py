@@ -1,4 +1,4 @@
-"""How good are the lines? In a recording whose walls are known, segments are matched with the true lines."""
+"""How good are the lines? If the walls are known, segments are matched with the true lines."""
 
 import sys
 

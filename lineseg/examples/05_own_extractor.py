@@ -1,6 +1,6 @@
-"""A method of one's own: cut where neighbouring points are far apart, keep what is long. Everything else is there.
+"""Write your own method: cut where neighbouring points are far apart, and keep the long pieces.
 
-In the table EXTRACTORS it can be traced, surveyed and scored, and a server started from here offers it in its menu.
+Once it is in the table EXTRACTORS, it can be traced, surveyed and scored, and a server started from here lists it.
 """
 
 import sys
@@ -24,7 +24,7 @@ class JumpParams(Thresholds):
 def find(points: Sequence, params: JumpParams, found: Found) -> None:
     gaps = np.hypot(np.diff(points.x), np.diff(points.y))
     for run in np.split(np.arange(len(points.x)), np.flatnonzero(gaps > params.jump) + 1):
-        found.keep(run)  # or drops it, for too few points or too short a line
+        found.keep(run)  # or drops it: too few points, or too short
 
 
 METHOD = Method("jumps", vocabulary("pieces", ()), find)

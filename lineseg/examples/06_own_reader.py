@@ -1,4 +1,4 @@
-"""A reader of one's own: a format that lineseg does not know, here JSON with a sweep a line, in millimetres."""
+"""Write your own reader for a format that lineseg does not know: here one JSON object per sweep, in millimetres."""
 
 import json
 import tempfile
@@ -28,7 +28,7 @@ class Millimetres(Reader):
         return sweeps.recording(source, format=Millimetres.format)
 
 
-readers.READERS = (Millimetres, *readers.READERS)  # in front: the last one takes any text
+readers.READERS = (Millimetres, *readers.READERS)  # first in the list, because the last reader accepts any text
 
 bearings = np.linspace(-np.pi / 2, np.pi / 2, 181)
 wall = [round(2000 / ahead) if ahead > 0.5 else 0 for ahead in np.cos(bearings)]  # 2 m away

@@ -1,4 +1,4 @@
-"""What a SLAM front end takes: lines as (ρ, θ) with their covariance, found again in the next frame."""
+"""Input for a SLAM front end: lines as (ρ, θ) with covariance, matched with those of the next frame."""
 
 import sys
 
@@ -7,7 +7,7 @@ import numpy as np
 from lineseg import Noise, covariances, extract, open_recording
 
 NOISE = Noise(range=0.01)  # standard deviation of a range [m], from the laser's data sheet
-GATE = 9.21  # 99 % of the true pairs have a smaller squared Mahalanobis distance (χ², two numbers)
+GATE = 9.21  # 99 % of true pairs have a smaller squared Mahalanobis distance (χ², 2 degrees of freedom)
 
 recording = open_recording(sys.argv[1] if sys.argv[1:] else "sample_scans/hallway.npz")
 
@@ -24,7 +24,10 @@ def lines_of(frame):
 poses = np.zeros((2, 3)) if recording.poses is None else recording.poses[:2]  # or the robot's odometry
 (x, y, turn), heading = poses[1] - poses[0], poses[0, 2]
 for (rho, theta), spread in zip(before, spread_before, strict=True):
-    ahead = rho - x * np.cos(theta + heading) - y * np.sin(theta + heading), theta - turn  # as the moved robot sees it
+    ahead = (
+        rho - x * np.cos(theta + heading) - y * np.sin(theta + heading),
+        theta - turn,
+    )  # seen from the new pose
     apart = now - ahead
     apart[:, 1] = (apart[:, 1] + np.pi) % (2 * np.pi) - np.pi
     distances = np.einsum("ni,nij,nj->n", apart, np.linalg.inv(spread_now + spread), apart)

@@ -1,4 +1,4 @@
-"""Lines in a recording of rerun (rerun.io), beside whatever else is logged; needs the extra `rerun`."""
+"""Add lines to a rerun recording (rerun.io), next to your other data. Needs the extra `rerun`."""
 
 import sys
 
@@ -15,7 +15,7 @@ rr.save(target)
 for frame in range(0, len(recording), 10):
     scan = recording[frame]
     rr.set_time("frame", sequence=frame)
-    # Where the laser is: the entity's own transform moves points and lines along.
+    # The pose of the laser: this transform applies to points and lines alike.
     if recording.poses is not None:
         x, y, heading = recording.poses[frame]
         rr.log(

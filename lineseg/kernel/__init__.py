@@ -10,12 +10,12 @@ from numba.extending import intrinsic
 
 from .kept import KeptKernel
 
-# A kernel works on memory that its caller gives it: it allocates nothing, so it counts no references, which in loops as
-# short as these would cost more than the arithmetic. It needs no interpreter lock and divides as numpy does. Products
-# and sums are rounded one by one: a trace then decides as the extraction does, to the last bit. Were fastmath not
-# forbidden, a kernel would take it from the first that calls it.
+# A kernel works on memory from its caller and allocates nothing. So it counts no references, which in such short loops
+# would cost more than the arithmetic. It releases the interpreter lock and divides as numpy does. Every product and sum
+# is rounded by itself, so that a trace decides exactly as the extraction does. fastmath must be turned off explicitly:
+# otherwise a kernel takes it over from its first caller.
 _OPTIONS: dict[str, Any] = {"nogil": True, "error_model": "numpy", "_nrt": False, "fastmath": False}
-# Only what Python calls is kept on disk: the rest is compiled into it.
+# Only kernels that Python calls are kept on disk; the others are compiled into them.
 _INNER: dict[str, Any] = {**_OPTIONS, "no_cfunc_wrapper": True}
 
 
@@ -25,8 +25,8 @@ def entry_kernel(function: Callable) -> Any:
 
 
 def keep(compiled: Any) -> Any:
-    """Keep what numba compiles of a function that Python calls for the next program."""
-    if hasattr(compiled, "_cache"):  # with NUMBA_DISABLE_JIT it is the function itself
+    """Keep the machine code of a function that Python calls, for the next program."""
+    if hasattr(compiled, "_cache"):  # with NUMBA_DISABLE_JIT this is the plain function
         compiled._cache = KeptKernel(compiled)
     return compiled
 
@@ -39,14 +39,14 @@ def kernel(function: Callable) -> Any:
 def summing_kernel(function: Callable) -> Any:
     """The same, but sums may be taken in any order, several numbers at a time.
 
-    Not all of fastmath: it would allow the compiler to assume that NaN and infinity never occur.
+    This is not all of fastmath, which would let the compiler assume that NaN and infinity never occur.
     """
     options: dict[str, Any] = {**_INNER, "fastmath": {"contract", "reassoc"}}
     return njit(**options)(function)
 
 
 def inlined_kernel(function: Callable) -> Any:
-    """The same, put into its callers: a call hands over some fifty numbers, which takes longer than a refused point."""
+    """The same, inlined into its callers: passing about fifty numbers takes longer than refusing a point."""
     return njit(**_INNER, inline="always")(function)
 
 

@@ -1,4 +1,4 @@
-"""What a kernel is compiled from, as one number: its own code and all that it reaches."""
+"""A fingerprint of what a kernel is compiled from: its own code and everything that it uses."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ _PLAIN = (bool, int, float, complex, str, bytes, type(None), np.generic, np.dtyp
 
 
 def fingerprint(kernel: Any) -> str:
-    """A number that stays when a file is touched, moved or commented, and changes when the machine code may.
+    """A number that changes when the machine code may change, but not when a file is touched, moved or commented.
 
-    It takes in the bytecode and the constants of the kernel and of those that it calls, how each is compiled, and the
+    It covers the bytecode and constants of the kernel and of those that it calls, their compiler options, and the
     values of the globals that they use. Raises TypeError if a kernel uses something that has no value to compare.
     """
     digest = hashlib.sha256()
     reached = [kernel]
-    for each in reached:  # which grows meanwhile
+    for each in reached:  # the list grows during the loop
         text, used = _told(each)
         digest.update(text.encode())
         reached += [other for other in used if other not in reached]
@@ -32,7 +32,7 @@ def fingerprint(kernel: Any) -> str:
 
 @cache
 def _told(function: Any) -> tuple[str, list[Any]]:
-    """What a function is itself, and the functions that it uses."""
+    """The function's own content, and the functions that it uses."""
     if isinstance(function, Dispatcher):
         options, function = function.targetoptions, function.py_func
     elif isinstance(function, _Intrinsic):
@@ -48,7 +48,7 @@ def _told(function: Any) -> tuple[str, list[Any]]:
         _value(cells, used),
         _code(function.__code__, function.__doc__),
     ]
-    # Names of attributes are among them too: more is taken in than needed, never less.
+    # Attribute names are included too: this covers more than needed, never less.
     told += [
         _value(function.__globals__[name], used) for name in _names(function.__code__) if name in function.__globals__
     ]
@@ -68,7 +68,7 @@ def _names(code: CodeType) -> list[str]:
 
 
 def _value(value: Any, used: list[Any]) -> str:
-    """A value, told so that no other is told alike; functions are put into `used` and named only."""
+    """A text that is unique to this value. Functions are only named, and added to `used`."""
     if isinstance(value, _PLAIN):
         return repr(value)
     if isinstance(value, tuple | list):
@@ -87,4 +87,4 @@ def _value(value: Any, used: list[Any]) -> str:
     if isinstance(value, FunctionType | Dispatcher | _Intrinsic):
         used.append(value)
         return f"{value.__module__}.{value.__qualname__}"
-    raise TypeError(f"a kernel uses {value!r}; whether that has changed since it was compiled cannot be told")
+    raise TypeError(f"a kernel uses {value!r}; lineseg cannot tell whether that has changed since it was compiled")

@@ -1,7 +1,7 @@
-"""Compiled kernels are kept on disk, and found again by what they were compiled from.
+"""Keeps compiled kernels on disk and finds them by what they were compiled from.
 
-numba's own cache looks at the one file that holds a kernel: it misses changes of what the kernel calls from elsewhere,
-and compiles anew after any other change of the file.
+numba's own cache checks only the file that holds a kernel. So it misses changes in other files that the kernel calls,
+and recompiles after any unrelated change in its own file.
 """
 
 from __future__ import annotations
@@ -31,12 +31,12 @@ except ImportError:  # on Windows two programs may compile the same kernel at th
 
 _DAYS_UNUSED = 60
 _PATIENCE = 120.0  # [s]
-# numba fills it in when it is imported.
+# numba sets this at import.
 _config: Any = config
 
 
 def folder() -> Path:
-    """Where compiled kernels are: under $NUMBA_CACHE_DIR if that is set, else among the user's caches."""
+    """The folder of compiled kernels: in $NUMBA_CACHE_DIR if set, otherwise in the user's cache folder."""
     if _config.CACHE_DIR:
         return Path(_config.CACHE_DIR) / "lineseg"
     import platformdirs
@@ -45,10 +45,10 @@ def folder() -> Path:
 
 
 class KeptKernel:
-    """What numba asks for a kernel compiled before, and hands one to that it has compiled.
+    """The cache that numba loads compiled kernels from and saves them to.
 
-    A file holds one kernel for one choice of argument types, and its name says what it was compiled from. So it is
-    never out of date and never rewritten with something else, and any number of programs and versions share the folder.
+    Each file holds one kernel for one choice of argument types, and its name says what it was compiled from. So a file
+    is never out of date or overwritten with other code, and any number of programs and versions share the folder.
     """
 
     def __init__(self, kernel: Any) -> None:
@@ -61,7 +61,7 @@ class KeptKernel:
 
     @cached_property
     def _fingerprint(self) -> str:
-        # Asked for at the first call: when a kernel is declared, those that it calls may not be.
+        # Computed at the first call: the kernels that this one calls may be declared after it.
         return fingerprint(self._kernel)
 
     def _path(self, signature: Any, codegen: Any) -> Path:
@@ -70,7 +70,7 @@ class KeptKernel:
         return folder() / f"{self._kernel.py_func.__name__}.{sys.implementation.cache_tag}.{key}.pickle"
 
     def load_overload(self, signature: Any, target_context: Any) -> CompileResult | None:
-        """The kernel for arguments of these types, or None: then numba compiles it, and others wait for it."""
+        """The kernel for these argument types. None: numba compiles it while other processes wait."""
         target_context.refresh()
         path = self._path(signature, target_context.codegen())
         data = _read(path)
@@ -86,7 +86,7 @@ class KeptKernel:
         return CompileResult._rebuild(target_context, *data)
 
     def save_overload(self, signature: Any, compiled: CompileResult) -> None:
-        """Keep a kernel; where the folder cannot be written, every program compiles for itself."""
+        """Save a kernel. If the folder is not writable, every program compiles for itself."""
         path = self._path(signature, compiled.codegen)
         unfinished = path.with_suffix(f".{uuid.uuid4().hex}")
         with contextlib.suppress(OSError):
@@ -103,7 +103,7 @@ class KeptKernel:
 
 
 def _read(path: Path) -> Any:
-    """What a file holds; None if there is none, or if it was cut short."""
+    """The content of a file; None if it is missing or truncated."""
     try:
         return pickle.loads(path.read_bytes())
     except (OSError, EOFError, pickle.UnpicklingError):
@@ -111,7 +111,7 @@ def _read(path: Path) -> Any:
 
 
 def _locked(path: Path) -> TextIO:
-    """A file that one process at a time holds, at the latest until it ends; or one that another holds for too long."""
+    """Lock a file, at most until this process ends. Continues without it if another process holds it too long."""
     path.parent.mkdir(parents=True, exist_ok=True)
     file = path.open("w")
     late = time.monotonic() + _PATIENCE
@@ -125,10 +125,10 @@ def _locked(path: Path) -> TextIO:
 
 
 def forget_the_unused(folder: Path) -> None:
-    """Delete what no program has loaded for a long time. One that needs it after all compiles it again."""
+    """Delete kernels that no program has loaded for a long time. A program that needs one compiles it again."""
     oldest = time.time() - _DAYS_UNUSED * 86400
     for file in folder.iterdir():
-        # Another process may have been faster.
+        # Another process may have deleted it first.
         with contextlib.suppress(OSError):
             if file.stat().st_mtime < oldest:
                 file.unlink()

@@ -1,4 +1,4 @@
-"""`python -m lineseg.simulate [folder]` writes the samples; the folder is the repository's sample_scans by default."""
+"""`python -m lineseg.simulate [folder]` writes the samples, by default into the repository's sample_scans."""
 
 from __future__ import annotations
 

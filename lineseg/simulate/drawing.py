@@ -23,10 +23,10 @@ SHORTEST = 0.01
 
 @dataclass(frozen=True)
 class Drawing:
-    """Walls (x1, y1, x2, y2) and circles (x, y, radius) [m], and the laser among them.
+    """Walls (x1, y1, x2, y2) and circles (x, y, radius) [m], and the laser that sees them.
 
     pose: x, y [m] and heading_deg. beams: first_deg, last_deg and step_deg of the bearings, range_max [m] and sigma,
-    the standard deviation of a range [m]. seed: of its noise.
+    the standard deviation of a range [m]. seed: for the noise.
     """
 
     walls: tuple[Numbers, ...] = ()
@@ -37,9 +37,9 @@ class Drawing:
 
     @classmethod
     def parse(cls, text: str) -> Drawing:
-        """From parts between semicolons: l laser, b beams, s seed, and any number of w walls and c circles.
+        """Parse parts separated by semicolons: l laser, b beams, s seed, any number of w walls and c circles.
 
-        A part that cannot be is a ValueError that names it.
+        Raises ValueError that quotes an invalid part.
         """
         walls: list[Numbers] = []
         circles: list[Numbers] = []
@@ -60,16 +60,17 @@ class Drawing:
                 raise ValueError(f"the drawing has a part {part[:40]!r}; parts begin with l, b, s, w or c")
         if len(walls) > MOST_WALLS or len(circles) > MOST_CIRCLES:
             raise ValueError(
-                f"the drawing has {len(walls)} walls and {len(circles)} circles; {MOST_WALLS} and {MOST_CIRCLES} may be"
+                f"the drawing has {len(walls)} walls and {len(circles)} circles; "
+                f"at most {MOST_WALLS} and {MOST_CIRCLES} are allowed"
             )
         seed = int(fields.pop("seed", (0,))[0])
         return cls(tuple(walls), tuple(circles), seed=seed, **fields)
 
     def recording(self) -> Recording:
-        """One scan of it, with its truth."""
+        """One scan of the drawing, with its truth."""
         first, last, step, range_max, sigma = self.beams
         count = int((last - first) / step + 1e-9) + 1
-        # A full circle has its last beam one step before the first.
+        # On a full circle the last beam is one step before the first.
         count -= last - first >= 360 and abs(first + (count - 1) * step - last) < 1e-6
         laser = Laser(
             "drawn", radians(first), radians(step), count, 0.05, range_max, sigma=sigma, sigma_far=sigma, resolution=0.0
@@ -95,19 +96,19 @@ def _numbers(part: str) -> Numbers:
     try:
         return tuple(float(number) for number in part[1:].split(","))
     except ValueError:
-        raise ValueError(f"the drawing has a part {part[:40]!r}; after its letter numbers are expected") from None
+        raise ValueError(f"the drawing has a part {part[:40]!r}; write numbers after the letter") from None
 
 
 def _checked(part: str, numbers: Numbers, count: int, allowed: Callable[..., bool], angles: bool = False) -> Numbers:
     farthest = 1e6 if angles else FARTHEST
     possible = len(numbers) == count and all(isfinite(number) and abs(number) <= farthest for number in numbers)
     if not possible or not allowed(*numbers):
-        raise ValueError(f"the drawing has a part {part[:60]!r} that cannot be: {_EXPECTED[part[0]]}")
+        raise ValueError(f"the drawing has a part {part[:60]!r} that is not valid: {_EXPECTED[part[0]]}")
     return numbers
 
 
 _EXPECTED = {
-    "w": f"a wall needs x1,y1,x2,y2 within ±{FARTHEST:g} m, and a length",
+    "w": f"a wall needs x1,y1,x2,y2 within ±{FARTHEST:g} m, and a length above 0",
     "c": f"a circle needs x,y,radius within ±{FARTHEST:g} m, and a radius above 0",
     "l": "the laser needs x,y [m] and its heading [°]",
     "b": f"beams need first,last,step [°] (3 to {MOST_BEAMS} beams, at most one turn), range [m] and noise (0 to 1 m)",

@@ -32,8 +32,8 @@ SIDE_WEST, SIDE_EAST, SIDE_END = 24.0, 26.0, 15.0
 
 
 def hallway() -> World:
-    """40 m by 2.4 m, x along it. In the east one half of a glass double door is open to nothing; to the north are a
-    room with its door open and a side corridor; to the south a door stands ajar."""
+    """40 m by 2.4 m along x. In the east, one half of a glass double door is open, with nothing behind it. To the north
+    are a room with an open door and a side corridor. To the south a door stands ajar."""
     south = [
         door(3.2), fire_cabinet(6.6), door(9.0), opening(14.2, 0.95, 0.12), door(16.4, depth=0.25), fire_cabinet(19.0),
         door(22.0), Feature(25.0, 1.2, 0.35), door(28.4), door(31.0), fire_cabinet(33.5), door(36.0),
@@ -58,7 +58,7 @@ def _side_corridor() -> World:
 
 
 def _open_room() -> World:
-    """The office behind the open door at x = 11, its door turned against the wall."""
+    """The office behind the open door at x = 11; the door is folded back against the wall."""
     y = WIDTH + 0.2
     world = room([(8.6, y), (13.4, y), (13.4, y + 4.2), (8.6, y + 4.2)], {0: [opening(2.4, 0.95, 0.0)]})
     world += box((13.15, y + 2.2), 0.42, 1.6, material=METAL) + desk((10.2, y + 3.2), heading=radians(4))
@@ -74,7 +74,7 @@ def _pillar(at: float) -> Feature:
 
 
 def _mirrored(features: list[Feature], start: float) -> list[Feature]:
-    """Features given by their x, for a wall that runs from x = `start` to the west."""
+    """Features placed by their x, for a wall that runs west from x = `start`."""
     return [Feature(start - each.at, each.width, each.depth, each.material, each.open) for each in features]
 
 
@@ -86,7 +86,7 @@ def hallway_drive(stamps: np.ndarray) -> np.ndarray:
 
 
 def hallway_recording(frames: int = 300, laser: Laser = UTM_30LX, every: int = 5, seed: int = 2018) -> Recording:
-    """The drive; of the laser's sweeps each `every`-th is kept, so that 300 frames see 37 s and 20 m of it."""
+    """The drive. Only every `every`-th sweep is kept, so that 300 frames cover 37 s and 20 m."""
     stamps = every / laser.rate * np.arange(frames)
     world = hallway()
     return record(lambda _: world, hallway_drive(stamps), stamps, laser, np.random.default_rng(seed), "hallway")

@@ -33,7 +33,7 @@ WALK = [(1.0, 5.9), (6.6, 6.9), (6.8, 5.7), (2.2, 5.7)]
 
 
 def laboratory() -> World:
-    """An L-shaped room of 10.4 m by 8.2 m without the people; its west door is open to nothing."""
+    """An L-shaped room, 10.4 m by 8.2 m, without people. Its west door is open, with nothing behind it."""
     features = {
         0: [window(2.0), window(4.2), window(6.4), window(8.6)],
         1: [door(4.6)],
@@ -54,7 +54,7 @@ def _desks() -> World:
 
 
 def _along_the_walls() -> World:
-    """Cabinets in the north and east, one of them black; a radiator that is no straight line to a laser."""
+    """Cabinets in the north and east, one of them black; a radiator that a laser does not see as a straight line."""
     world = box((3.2, 7.95), 0.9, 0.45) + box((4.15, 7.95), 0.9, 0.45, radians(1.5))
     world += box((5.6, 7.93), 1.2, 0.45, material=DARK) + box((10.15, 1.6), 0.45, 1.8, material=METAL)
     return world + box((9.6, 5.35), 0.9, 0.45) + polyline([(0.09, 2.2), (0.09, 3.6)], ROUGH)
@@ -68,7 +68,7 @@ def _clutter() -> World:
 
 
 def walker(time: float, speed: float = 0.8) -> World:
-    """Someone who walks round WALK, a step of 0.6 m at a time."""
+    """A person who walks around WALK in steps of 0.6 m."""
     corners = [*WALK, WALK[0]]
     lengths = [hypot(b[0] - a[0], b[1] - a[1]) for a, b in pairwise(corners)]
     gone = (speed * time) % sum(lengths)
@@ -88,7 +88,7 @@ def laboratory_drive(stamps: np.ndarray) -> np.ndarray:
 
 
 def laboratory_recording(frames: int = 300, laser: Laser = UTM_30LX, every: int = 5, seed: int = 1881) -> Recording:
-    """The drive; of the laser's sweeps each `every`-th is kept, so that 300 frames see 37 s and 16 m of it."""
+    """The drive. Only every `every`-th sweep is kept, so that 300 frames cover 37 s and 16 m."""
     stamps = every / laser.rate * np.arange(frames)
     world = laboratory()
     poses, rng = laboratory_drive(stamps), np.random.default_rng(seed)

@@ -20,10 +20,10 @@ _NOTHING = Material(returns=0.0)
 class Laser:
     """A range finder; angles and standard deviations in radians and metres.
 
-    sigma: of a range up to `far`; sigma_far: of one beyond. resolution: step of the ranges, 0 for none.
-    beam_width: where its two edges meet different surfaces further apart than 0.1 m, a beam is a mixed pixel with
-    probability `mixed`: it measures something between the two.
-    rate: sweeps a second.
+    sigma: for ranges up to `far`; sigma_far: for longer ones. resolution: step of the ranges, 0 for none.
+    beam_width: if the two edges of a beam hit different surfaces more than 0.1 m apart, it is a mixed pixel with
+    probability `mixed`: it measures a range between the two.
+    rate: sweeps per second.
     """
 
     name: str
@@ -106,7 +106,7 @@ def _to_circles(circles: Floats, origin: Floats, directions: Floats) -> Floats:
 
 
 def _normals(world: World, origin: Floats, directions: Floats, ranges: Floats, targets: NDArray) -> Floats:
-    """(n, 2) unit normals of the surfaces where the beams end; of any direction where they end nowhere."""
+    """(n, 2) unit normals of the surfaces where the beams end; arbitrary for a beam that hits nothing."""
     along = world.walls[:, 2:] - world.walls[:, :2]
     of_walls = np.column_stack((-along[:, 1], along[:, 0])) / np.hypot(along[:, 0], along[:, 1])[:, None]
     if not len(world.circles):
@@ -123,11 +123,11 @@ def _normals(world: World, origin: Floats, directions: Floats, ranges: Floats, t
 def scan(
     world: World, pose: ArrayLike, laser: Laser, rng: np.random.Generator, stamp: float = 0.0, frame_id: str = "laser"
 ) -> Scan:
-    """One sweep from `pose` (x, y, heading), taken in an instant, with the exact truth.
+    """One sweep from `pose` (x, y, heading), taken at one instant, with the exact truth.
 
-    Ranges are float32, inf where nothing comes back: nothing in reach, a dropout on dark, glossy or transparent
-    material. `wall` is the index into `world.walls`, −1 for those, for mixed pixels, circles and rough surfaces.
-    The generator gives the same number of values whatever the beams meet.
+    Ranges are float32, inf for no return: nothing in reach, or a dropout on dark, glossy or transparent material.
+    `wall` is the index into `world.walls`, or −1 for no return, mixed pixels, circles and rough surfaces.
+    The number of random values drawn does not depend on what the beams hit.
     """
     x, y, heading = np.asarray(pose, dtype=np.float64)
     angles = heading + laser.bearings
@@ -164,7 +164,7 @@ def scan(
 
 
 def _footprint(world: World, origin: tuple[float, float], angles: Floats, laser: Laser) -> tuple[Floats, Floats]:
-    """The nearer and the farther surface under each beam; equal where it lies on one."""
+    """Ranges of the nearer and the farther surface that each beam hits; equal if it hits only one."""
     if not laser.beam_width:
         return np.zeros(len(angles)), np.zeros(len(angles))
     right = cast(world, origin, angles - laser.beam_width / 2)
@@ -178,16 +178,16 @@ def _footprint(world: World, origin: tuple[float, float], angles: Floats, laser:
 
 
 def _joined(world: World, one: NDArray, other: NDArray) -> NDArray[np.bool_]:
-    """Whether two targets are walls that meet: across a corner a surface is unbroken, however steep it looks."""
+    """Whether two targets are walls that meet. Across a corner the surface is continuous, however steep it looks."""
     walls = np.vstack((world.walls, np.full((len(world.circles), 4), np.nan)))
     ends, others = walls[one].reshape(-1, 2, 1, 2), walls[other].reshape(-1, 1, 2, 2)
     return (np.abs(ends - others).max(axis=3) < 1e-6).any(axis=(1, 2))
 
 
 def drive(start: Sequence[float], legs: Iterable[Sequence[float]], stamps: Floats) -> Floats:
-    """Poses (frames, 3) of a robot that starts at (x, y, heading) and keeps to (seconds, speed, yaw rate) leg by leg.
+    """Poses (frames, 3) of a robot that starts at (x, y, heading) and drives (seconds, speed, yaw rate) leg by leg.
 
-    Speed and yaw rate change over 0.8 s, as a robot's do. After the last leg it stands.
+    Speed and yaw rate change over 0.8 s, as a robot's do. After the last leg it stands still.
     """
     step = 0.005
     rates = np.vstack([np.tile(leg[1:], (round(leg[0] / step), 1)) for leg in legs] + [np.zeros((1, 2))])
@@ -212,6 +212,6 @@ def record(
     rng: np.random.Generator,
     name: str = "",
 ) -> Recording:
-    """A recording with truth: a scan from each pose at its stamp. Walls stay; only circles may come, go and move."""
+    """A recording with truth: a scan from each pose at its stamp. Walls must not change; circles may."""
     scans = [scan(world_at(stamp), pose, laser, rng, stamp) for pose, stamp in zip(poses, stamps.tolist(), strict=True)]
     return Recording.from_scans(scans, name, poses=poses, walls=world_at(0.0).walls)

@@ -1,4 +1,4 @@
-"""Eight scans of one frame, each of which shows one thing about region growing with the thresholds of the paper."""
+"""Eight one-frame recordings. Each shows one thing about region growing with the thresholds of the paper."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ POSE = (0.0, 0.0, 0.0)
 
 @dataclass(frozen=True, eq=False)
 class Lesson:
-    """One scan of `world` from the origin, looking along x; `seed` gives the noise that shows what is to be shown."""
+    """One scan of `world` from the origin, looking along x; `seed` selects noise that makes the point visible."""
 
     name: str
     title: str

@@ -1,4 +1,4 @@
-"""Writes sample_scans/: two long recordings, the lessons, and the hallway once more in each other format."""
+"""Writes sample_scans/: two long recordings, the lessons, and the hallway again in every other format."""
 
 from __future__ import annotations
 
@@ -14,15 +14,15 @@ from .laboratory import laboratory_recording
 from .laser import LMS_200, RPLIDAR_A2, UTM_30LX
 from .lessons import LESSONS
 
-# Simulated time begins with the year of the paper: stamps of 0 would look like a clock that was not set.
+# Simulated time starts in the year of the paper: stamps of 0 would look like a clock that was never set.
 EPOCH = 1_514_764_800
 TOPIC = "/scan"
-# What a SICK writes where nothing comes back.
+# What a SICK writes for no return.
 SICK_NOTHING = 81.91
 
 
 def write_samples(folder: Path) -> None:
-    """Everything of sample_scans/, the same arrays every time; files that are there are replaced."""
+    """Write all of sample_scans/, with the same arrays every time. Replaces existing files."""
     (folder / "lessons").mkdir(parents=True, exist_ok=True)
     save(folder / "hallway.npz", hallway_recording(), "A hallway with doors, fire cabinets and a side corridor")
     save(folder / "laboratory.npz", laboratory_recording(), "A laboratory with desks, chairs, cabinets and a walker")
@@ -34,7 +34,7 @@ def write_samples(folder: Path) -> None:
 
 
 def save(path: Path, recording: Recording, title: str) -> None:
-    """A simulated recording, whose scans are all alike, as NPZ with its truth and a title."""
+    """Write a simulated recording as NPZ with its truth and a title. All scans have the same beams."""
     frames = len(recording)
     arrays: dict[str, Any] = {
         "ranges": recording.ranges.reshape(frames, -1),
@@ -74,7 +74,7 @@ def _robotlaser(scan: Scan, pose: list[float]) -> str:
 
 
 def write_csv(path: Path, recording: Recording) -> None:
-    """One scan a row; the comments say what a reader must know about the beams."""
+    """One scan per row; the comments describe the beams."""
     scan = recording[0]
     lines = [
         "# A simulated hallway, one scan a row; inf where nothing came back.",

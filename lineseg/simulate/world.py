@@ -17,8 +17,8 @@ Point = tuple[float, float]
 class Material:
     """How a surface answers a beam.
 
-    returns: share of the beams that come back; widest: greatest angle of incidence at which any do [rad].
-    roughness: standard deviation of the surface about its wall [m]. What is rough is no wall in the truth.
+    returns: share of the beams that come back; widest: largest angle of incidence with a return [rad].
+    roughness: standard deviation of the surface about its wall [m]. Rough surfaces do not count as walls in the truth.
     """
 
     returns: float = 1.0
@@ -62,7 +62,7 @@ class World:
         return cls(wall_rows, circle_rows, (material,) * len(wall_rows), (material,) * len(circle_rows))
 
     def __add__(self, other: World) -> World:
-        """Both; the walls of `self` keep their indices."""
+        """The two worlds together; the walls of `self` keep their indices."""
         return World(
             np.vstack((self.walls, other.walls)),
             np.vstack((self.circles, other.circles)),
@@ -72,7 +72,7 @@ class World:
 
     @property
     def materials(self) -> tuple[Material, ...]:
-        """Of the walls, then of the circles: the order in which `cast` counts its targets."""
+        """Materials of the walls, then of the circles: the order in which `cast` numbers its targets."""
         return self.wall_materials + self.circle_materials
 
 
@@ -81,7 +81,7 @@ NOTHING = World.of()
 
 @dataclass(frozen=True)
 class Feature:
-    """Something in a wall: centre `at` [m] from the wall's start, set back by `depth` [m], or standing out if negative.
+    """Something in a wall, centred `at` [m] from its start and set back by `depth` [m]; negative: it stands out.
 
     An open feature has jambs of that depth and nothing between them.
     """
@@ -99,12 +99,12 @@ def door(at: float, width: float = 0.95, depth: float = 0.12) -> Feature:
 
 
 def opening(at: float, width: float = 0.95, depth: float = 0.2) -> Feature:
-    """An open doorway in a wall of that thickness."""
+    """An open doorway in a wall of the given thickness."""
     return Feature(at, width, depth, open=True)
 
 
 def window(at: float, width: float = 1.6) -> Feature:
-    """A pane down to the floor: it answers only beams that meet it almost at a right angle."""
+    """A pane down to the floor: it returns only beams that hit it almost at a right angle."""
     return Feature(at, width, 0.06, GLASS)
 
 
@@ -125,8 +125,8 @@ def facade(start: Point, end: Point, features: Iterable[Feature] = (), material:
         left, right = feature.at - feature.width / 2, feature.at + feature.width / 2
         if left < done or right > length:
             raise ValueError(
-                f"a feature from {left:g} to {right:g} m has no room in the wall from {start} to {end}; "
-                f"free is {done:g} to {length:g} m"
+                f"a feature from {left:g} to {right:g} m does not fit into the wall from {start} to {end}; "
+                f"{done:g} to {length:g} m is free"
             )
         corners = [origin + along * left, origin + along * right]
         backs = [corner + into * feature.depth for corner in corners]
@@ -149,7 +149,7 @@ def room(corners: Sequence[Point], features: Mapping[int, Iterable[Feature]] | N
 
 
 def polyline(points: Sequence, material: Material = PAINT) -> World:
-    """Walls from point to point; none where two points are one."""
+    """Walls from point to point; none between two equal points."""
     pairs = pairwise(points)
     return World.of(((*a, *b) for a, b in pairs if not np.allclose(a, b, rtol=0, atol=1e-9)), material=material)
 
@@ -189,7 +189,7 @@ def swivel_chair(centre: Point, heading: float = 0.0) -> World:
 
 
 def person(position: Point, heading: float, stride: float) -> World:
-    """Two legs; `stride` [m] is how far the left one is ahead of the body, and the right one behind it."""
+    """Two legs; `stride` [m] is how far the left leg is in front of the body, and the right one behind it."""
     left, right = _placed(position, heading, [(stride, 0.1), (-stride, -0.1)])
     return circle(left, 0.065) + circle(right, 0.065)
 

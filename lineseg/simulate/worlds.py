@@ -1,4 +1,4 @@
-"""Further worlds with truth, made when they are asked for: no file holds them, `WORLDS` names them."""
+"""More worlds with truth, listed in `WORLDS`. They are simulated on request, not stored in files."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ SECONDS = 30.0
 
 @dataclass(frozen=True)
 class Drive:
-    """A laser driven through a world that stands still. legs: (seconds, speed [m/s], yaw rate [rad/s]) one by one."""
+    """A laser driven through a static world. legs: (seconds, speed [m/s], yaw rate [rad/s]) in order."""
 
     about: str
     world: Callable[[], World]
@@ -119,7 +119,7 @@ def yard() -> World:
     return world + box((-4.6, 7.6), 1.6, 0.5, radians(40)) + circle((5.6, 3.6), 0.06, METAL)
 
 
-# Straight on and gently round again, inside what is free.
+# Straight ahead, then a gentle turn back, all within free space.
 _UP_AND_DOWN = [(11.0, 0.5, 0.01), (5.0, 0.15, 0.628), (14.0, 0.35, 0.005)]
 
 WORLDS = {

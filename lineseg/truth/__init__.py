@@ -1,4 +1,4 @@
-"""Scores against the truth: one-to-one matches by beam sets, TR and FR (Eqs. 9, 10), splits, merges, endpoint error."""
+"""Scores against the truth: one-to-one matches of beam sets, TR and FR (Eqs. 9, 10), splits, merges, endpoint error."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ OCCLUSION = 0.3
 
 
 def true_lines(scan: Scan, params: Params | None = None, occlusion: float = OCCLUSION) -> NDArray[np.int32]:
-    """For each beam its true line, or −1, of a scan whose walls are known; lines are numbered from 0.
+    """For each beam its true line, or −1, for a scan with known walls. Lines are numbered from 0.
 
     A true line is a visible run of one wall with at least P_min valid beams and at least L_min between its outermost
     points. A run is cut between two of its beams if other beams, of another wall or without a return, lie between them
-    and their points are more than `occlusion` apart [m]; a thinner chair leg, or a few lost beams, leave it whole.
-    On a full circle a run may cross the seam. Raises ValueError where the walls are not known.
+    and their points are more than `occlusion` apart [m]; a thinner chair leg or a few lost beams do not cut it.
+    On a full circle a run may cross the seam. Raises ValueError if the walls are not known.
     """
     need_scan(scan)
     if scan.wall is None:
@@ -47,7 +47,7 @@ def true_lines(scan: Scan, params: Params | None = None, occlusion: float = OCCL
 
 
 def demands_of(params: Thresholds) -> Params:
-    """P_min and L_min of true lines: those of the method, the usual ones where it has none."""
+    """P_min and L_min for true lines: those of the method, or the defaults if it has none."""
     asked = {name: value for name, value in params.numbers().items() if name in ("min_points", "min_length")}
     return Params().but(**asked)
 
@@ -65,9 +65,9 @@ def _visible_runs(scan: Scan, beams: NDArray[np.intp], occlusion: float) -> list
 
 
 def true_ends(scan: Scan, truth: NDArray[np.integer]) -> NDArray[np.float64]:
-    """(lines, 2, 2) [m]: of each true line the outermost points, projected on the line fitted to all its points.
+    """(lines, 2, 2) [m]: for each true line its outermost points, projected on the line fitted to all its points.
 
-    Where many beams see a wall this is nearer to it than any one measured point; NaN for a line without a return.
+    With many beams on a wall this is more accurate than any single measured point. NaN for a line without a return.
     """
     ends = np.full((int(truth.max(initial=-1)) + 1, 2, 2), np.nan)
     for line in range(len(ends)):
@@ -78,7 +78,7 @@ def true_ends(scan: Scan, truth: NDArray[np.integer]) -> NDArray[np.float64]:
 
 
 def _along(scan: Scan, beams: NDArray[np.intp]) -> NDArray[np.intp]:
-    """The beams of one line in order; on a full circle, where they may cross the seam, from behind the widest step."""
+    """The beams of one line in order. On a full circle they may cross the seam: they start after the widest step."""
     if not scan.full_circle:
         return beams
     return np.roll(beams, -int(np.argmax((beams - np.roll(beams, 1)) % len(scan))))
@@ -95,9 +95,9 @@ def _projected_ends(xy: NDArray[np.float64]) -> NDArray[np.float64]:
 
 @dataclass(frozen=True)
 class Agreement:
-    """How far segments agree with true lines, of one frame, or by `+` or `of_all` of many.
+    """How well segments agree with true lines, in one frame, or in many by `+` or `of_all`.
 
-    true_lines, segments, matches, splits, merges: their numbers; shared: Σ of the intersections over union of the
+    true_lines, segments, matches, splits, merges: counts; shared: sum of the intersections over union of the
     matches. endpoint_errors: two for each match [m].
     """
 
@@ -114,7 +114,7 @@ class Agreement:
 
     @classmethod
     def of_all(cls, parts: Iterable[Agreement]) -> Agreement:
-        """All of them together."""
+        """The sum of all."""
         parts = list(parts)
         numbers = ("true_lines", "segments", "matches", "shared", "splits", "merges")
         errors = tuple(chain.from_iterable(part.endpoint_errors for part in parts))
@@ -122,30 +122,30 @@ class Agreement:
 
     @property
     def true_rate(self) -> float:
-        """TR = matches / true lines (Eq. 9); NaN where there is no true line."""
+        """TR = matches / true lines (Eq. 9); NaN if there is no true line."""
         return self.matches / self.true_lines if self.true_lines else math.nan
 
     @property
     def false_rate(self) -> float:
-        """FR = (segments − matches) / segments (Eq. 10); NaN where there is no segment."""
+        """FR = (segments − matches) / segments (Eq. 10); NaN if there is no segment."""
         return (self.segments - self.matches) / self.segments if self.segments else math.nan
 
     @property
     def completeness(self) -> float:
-        """Mean intersection over union of the matches; NaN where there is none."""
+        """Mean intersection over union of the matches; NaN if there is none."""
         return self.shared / self.matches if self.matches else math.nan
 
     def endpoint_error(self, percent: float = 50.0) -> float:
-        """The error [m] that this share of the endpoints of the matches does not exceed; NaN where there is none."""
+        """This quantile of the endpoint errors of the matches [m]; NaN if there is no match."""
         return float(np.percentile(self.endpoint_errors, percent)) if self.endpoint_errors else math.nan
 
 
 @dataclass(frozen=True, eq=False)
 class Matching:
-    """Which segment of a frame is which true line.
+    """Matches the segments of a frame with its true lines.
 
     shared: (lines, segments) number of beams in common; line_beams, segment_beams: number of beams of each.
-    endpoint_errors: (lines, 2) [m] from the ends of a true line to those of its match; NaN where it has none.
+    endpoint_errors: (lines, 2) [m] from the ends of a true line to those of its match; NaN without a match.
     """
 
     shared: NDArray[np.int64]
@@ -170,7 +170,7 @@ class Matching:
 
     @cached_property
     def split(self) -> NDArray[np.bool_]:
-        """(lines,) whether two or more segments lie on this line with more than half of their beams."""
+        """(lines,) whether two or more segments have more than half of their beams on this line."""
         return (2 * self.shared > self.segment_beams).sum(axis=1) > 1
 
     @cached_property
@@ -197,7 +197,7 @@ def match(extraction: Extraction, truth: NDArray[np.integer], ends: NDArray[np.f
 
     A segment matches a true line if the intersection over union of their beams is more than one half. Two segments
     share no beam, nor do two true lines, so no other can match either of them.
-    ends: (lines, 2, 2) [m] the endpoints of the true lines, see `true_ends`; without, there are no endpoint errors.
+    ends: (lines, 2, 2) [m] the endpoints of the true lines, see `true_ends`; None: no endpoint errors.
     """
     lines, segments = int(truth.max(initial=-1)) + 1, len(extraction.segments)
     both = (truth >= 0) & (extraction.labels >= 0)
@@ -214,7 +214,7 @@ def match(extraction: Extraction, truth: NDArray[np.integer], ends: NDArray[np.f
 
 
 def agreement(extraction: Extraction, truth: NDArray[np.integer], ends: NDArray[np.float64] | None = None) -> Agreement:
-    """How far the segments of one scan agree with its true lines: the numbers of `match`, which says more.
+    """How well the segments of one scan agree with its true lines. See `match` for which segment matches which.
 
     truth: (n,) int, the true line of each beam or −1; ends: (lines, 2, 2) [m], see `true_ends`.
     """
@@ -228,10 +228,10 @@ def agreements(
     truth: Callable[[int], NDArray[np.integer] | None] | None = None,
     ends: Callable[[int], NDArray[np.float64]] | None = None,
 ) -> Iterator[Agreement | None]:
-    """How far a method agrees with the truth, frame by frame.
+    """How well a method agrees with the truth, frame by frame.
 
-    truth: the true line of each beam of a frame, or None where nobody has said; without, `true_lines` of P_min and
-    L_min as the method has them. ends: the endpoints of a frame's true lines; without, `true_ends`.
+    truth: the true line of each beam of a frame, or None for a frame without labels; default: `true_lines` with
+    the method's P_min and L_min. ends: the endpoints of a frame's true lines; default: `true_ends`.
     """
     extractor = EXTRACTORS[method]
     need_recording(recording)
@@ -252,6 +252,6 @@ def _index_where(table: NDArray[np.bool_], axis: int) -> NDArray[np.intp]:
 
 
 def _end_errors(found: NDArray[np.float64], true: NDArray[np.float64]) -> NDArray[np.float64]:
-    """(2,) distances of the two ends, paired so that they are least: labels may be drawn from either end."""
+    """(2,) distances of the two ends in the better pairing, because labels may be drawn from either end."""
     pairings = [np.hypot(*(ends - true).T) for ends in (found, found[::-1])]
     return min(pairings, key=np.sum)

@@ -1,4 +1,4 @@
-"""Labels in a file beside their recording, NAME.lineseg.json, which several writers may change at once."""
+"""Labels in NAME.lineseg.json next to the recording; several writers may change it at the same time."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ FORMAT, VERSION = "lineseg labels", 1
 SUFFIX = ".lineseg.json"
 MOST_BYTES = 256 << 20
 
-# Between the threads of this process; between processes the folder is locked.
+# For the threads of this process; other processes are kept out by locking the folder.
 _writing = threading.Lock()
 
 
@@ -33,9 +33,9 @@ class ConflictError(ValueError):
 
 
 def label_file(recording: str | Path, user_folder: Path | None = None) -> Path:
-    """Where the labels of a recording's file are kept: beside it, or in the user's folder if that cannot be written.
+    """Path of the labels for a recording's file: next to it, or in the user's folder if that is not writable.
 
-    Labels that are beside it already are found there in any case.
+    Labels that already exist next to it are always found.
     """
     path = Path(recording).absolute()
     beside = path.with_name(path.name + SUFFIX)
@@ -45,7 +45,7 @@ def label_file(recording: str | Path, user_folder: Path | None = None) -> Path:
 
 
 def users_label_file(name: str, identity: str, user_folder: Path | None = None) -> Path:
-    """Where the labels of a recording that is no file of the user's are kept. identity: what tells it from others."""
+    """Path of the labels for a recording that is not a user's file. identity: distinguishes it from others."""
     if user_folder is None:
         import platformdirs
 
@@ -55,39 +55,39 @@ def users_label_file(name: str, identity: str, user_folder: Path | None = None) 
 
 
 def read_labels(path: str | Path, recording: Recording) -> Labels:
-    """The labels of each frame of which something was said; none where there is no file.
+    """The labels of each labelled frame; empty if there is no file.
 
-    A file that is broken, of a newer version, or of a recording with other frames or beams is a ValueError.
+    Raises ValueError for a damaged file, a newer version, or a recording with other frames or beams.
     """
     path = Path(path)
     try:
         if path.stat().st_size > MOST_BYTES:
-            raise ValueError(f"{path.name} has {path.stat().st_size} bytes; labels have at most {MOST_BYTES}.")
+            raise ValueError(f"{path.name} has {path.stat().st_size} bytes; label files have at most {MOST_BYTES}.")
         text = path.read_text(encoding="utf-8")
     except FileNotFoundError:
         return {}
     except UnicodeDecodeError:
-        raise ValueError(f"{path.name} holds no text; labels are JSON. Move it away to begin anew.") from None
+        raise ValueError(f"{path.name} is not a text file; labels are JSON. Move it away to start again.") from None
     try:
         tree = json.loads(text)
     except (json.JSONDecodeError, RecursionError) as error:
         where = f":{error.lineno}" if isinstance(error, json.JSONDecodeError) else ""
-        raise ValueError(f"{path.name}{where}: this is no JSON ({error}). Repair it, or move it away.") from None
+        raise ValueError(f"{path.name}{where}: this is not JSON ({error}). Repair the file or move it away.") from None
     try:
         return _labels_in(tree, recording)
     except (KeyError, TypeError, AttributeError) as error:
         missing = f"{error} is missing" if isinstance(error, KeyError) else str(error)
-        raise ValueError(f"{path.name} does not hold labels as it should: {missing}.") from None
+        raise ValueError(f"{path.name} is not a valid label file: {missing}.") from None
     except ValueError as error:
         raise ValueError(f"{path.name}: {error}.") from None
 
 
 def save_labels(path: str | Path, recording: Recording, frame: int, labels: FrameLabels) -> FrameLabels:
-    """Save what is said of one frame, on top of what others have saved of other frames; returns it as saved.
+    """Save the labels of one frame and keep those of all other frames. Returns them as saved.
 
-    `labels.revision` is the one that was read or last saved. Where the file has a newer one of this frame, nothing is
-    written and it is a ConflictError. Nothing is written either where the file cannot be read, see `read_labels`, or
-    the labels are not of this frame. The file is whole at every moment: it is replaced once it is on the disk.
+    `labels.revision` is the revision that was read or last saved. Raises ConflictError if the file has a newer one, and
+    ValueError if the file is not valid (see `read_labels`) or the labels do not fit this frame; then nothing is
+    written. The file is replaced atomically, after the new one is on disk.
     """
     path = Path(path)
     check_labels(labels, recording, frame)
@@ -97,8 +97,8 @@ def save_labels(path: str | Path, recording: Recording, frame: int, labels: Fram
         theirs = known.get(frame, FrameLabels())
         if theirs.revision != labels.revision:
             raise ConflictError(
-                f"frame {frame} was changed elsewhere: it has the revision {theirs.revision}, you saw "
-                f"{labels.revision}. Nothing was saved; take theirs, or save again on top of it.",
+                f"frame {frame} was changed elsewhere: it is at revision {theirs.revision}, you have "
+                f"{labels.revision}. Nothing was saved. Load the newer labels, or save again to overwrite them.",
                 theirs,
             )
         saved = replace(labels, revision=labels.revision + 1)
@@ -108,12 +108,12 @@ def save_labels(path: str | Path, recording: Recording, frame: int, labels: Fram
 
 @contextmanager
 def _alone_in(folder: Path) -> Iterator[None]:
-    """Keep other writers out. A process that is killed leaves no lock behind."""
+    """Keep other writers out. The lock ends with the process, even a killed one."""
     with _writing:
         try:
             import fcntl
         except ImportError:
-            # Windows locks no folder.
+            # Windows cannot lock a folder.
             yield
             return
         handle = os.open(folder, os.O_RDONLY)
@@ -131,7 +131,7 @@ def _replace(path: Path, text: str) -> None:
             file.write(text)
             file.flush()
             os.fsync(file.fileno())
-        # mkstemp lets nobody else read.
+        # mkstemp creates files that only the owner can read.
         Path(unfinished).chmod(path.stat().st_mode if path.exists() else 0o644)
         os.replace(unfinished, path)  # noqa: PTH105
     except BaseException:
@@ -147,13 +147,13 @@ def _replace(path: Path, text: str) -> None:
 
 def _labels_in(tree: Any, recording: Recording) -> Labels:
     if not isinstance(tree, dict) or tree.get("format") != FORMAT:
-        raise ValueError(f'this is another kind of file; labels begin with "format": "{FORMAT}"')
+        raise ValueError(f'this is not a label file; label files begin with "format": "{FORMAT}"')
     if tree["version"] != VERSION:
-        raise ValueError(f"the labels are of version {tree['version']}, this lineseg reads {VERSION}; update lineseg")
+        raise ValueError(f"the labels have version {tree['version']}, but this lineseg reads {VERSION}; update lineseg")
     about = tree["recording"]
     if about["frames"] != len(recording):
         raise ValueError(
-            f"the labels are of {about['name']} with {about['frames']} frames; {recording.name} has {len(recording)}"
+            f"the labels belong to {about['name']} with {about['frames']} frames; {recording.name} has {len(recording)}"
         )
     found = {}
     for key, entry in tree["frames"].items():
@@ -167,7 +167,7 @@ def _labels_in(tree: Any, recording: Recording) -> Labels:
         )
         beams = len(recording[frame]) if 0 <= frame < len(recording) else entry["beams"]
         if entry["beams"] != beams:
-            raise ValueError(f"the labels of frame {frame} are of {entry['beams']} beams; the scan has {beams}")
+            raise ValueError(f"the labels of frame {frame} are for {entry['beams']} beams; the scan has {beams}")
         check_labels(labels, recording, frame)
         found[frame] = labels
     return found
@@ -179,7 +179,7 @@ def _line(entry: dict[str, Any]) -> TrueLine:
 
 
 def _text_of(labels: Labels, recording: Recording) -> str:
-    """JSON that a person can read: an entry a frame, a true line a line of text."""
+    """Readable JSON: one entry per frame, one line of text per true line."""
     about = {"name": recording.name, "frames": len(recording)}
     lines = ["{", f'  "format": "{FORMAT}",', f'  "version": {VERSION},', f'  "recording": {_json(about)},']
     entries = [_entry(frame, each, recording) for frame, each in sorted(labels.items())]

@@ -1,4 +1,4 @@
-"""What people say of the frames of a recording: true lines, tags, notes. They live in a file, see label_file.py."""
+"""Labels of the frames of a recording: true lines, tags, notes. label_file.py reads and writes them."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ Point = tuple[float, float]
 
 @dataclass(frozen=True)
 class TrueLine:
-    """A line that is there: its beams, first..last inclusive, last < first across the seam of a full circle; its
+    """A true line: its beams first..last, inclusive (last < first across the seam of a full circle), and its
     endpoints [m]."""
 
     first: int
@@ -28,9 +28,9 @@ class TrueLine:
 
     @classmethod
     def over(cls, scan: Scan, first: int, last: int) -> TrueLine:
-        """The line of these beams; its endpoints are the outermost points on the fitted line, NaN without points.
+        """The line of these beams; its endpoints are the outermost points projected on the fitted line, or NaN.
 
-        Points of thin things before the line are none of its own. Beams that are not there are left to `check_labels`.
+        Points of thin objects in front of the line are left out. `check_labels` checks the beam numbers.
         """
         truth = np.full(len(scan), -1)
         if first < len(scan) and last < len(scan):
@@ -43,7 +43,7 @@ class TrueLine:
 
 @dataclass(frozen=True)
 class FrameLabels:
-    """What was said of one frame. lines: None where nobody has said which lines are true, () where none is.
+    """The labels of one frame. lines: None if its true lines are not labelled, () if it has none.
 
     revision: how often this frame was saved; 0 for never.
     """
@@ -55,7 +55,7 @@ class FrameLabels:
 
     @classmethod
     def of(cls, extraction: Extraction) -> FrameLabels:
-        """The segments as true lines, to begin with."""
+        """The segments as true lines, as a first draft."""
         return cls(tuple(TrueLine(each.first, each.last, each.start, each.end) for each in extraction.segments))
 
     @property
@@ -64,9 +64,9 @@ class FrameLabels:
         return np.array([(line.start, line.end) for line in self.lines or ()], np.float64).reshape(-1, 2, 2)
 
     def truth(self, scan: Scan) -> NDArray[np.int32] | None:
-        """(n,) for each beam its true line or −1, as `true_lines` gives it; None where nobody has said.
+        """(n,) for each beam its true line or −1, as `true_lines` gives it; None if not labelled.
 
-        What stands before a line and is thin, such as a chair's leg, does not belong to it.
+        Thin objects in front of a line, such as a chair leg, do not belong to it.
         """
         if self.lines is None:
             return None
@@ -82,12 +82,12 @@ Labels = dict[int, FrameLabels]
 
 
 def beams_between(first: int, last: int, beams: int) -> NDArray[np.intp]:
-    """first..last, both inclusive; past the last beam the first follows."""
+    """first..last, both inclusive; the first beam follows the last."""
     return (first + np.arange((last - first) % beams + 1)) % beams
 
 
 def check_labels(labels: FrameLabels, recording: Recording, frame: int) -> None:
-    """ValueError if these cannot be the labels of this frame: a beam that is not there, or on two lines."""
+    """Raises ValueError if the labels do not fit this frame, for a missing beam or one on two lines."""
     if not 0 <= frame < len(recording):
         raise ValueError(f"frame {frame}: {recording.name} has the frames 0 to {len(recording) - 1}")
     scan = recording[frame]
@@ -97,11 +97,11 @@ def check_labels(labels: FrameLabels, recording: Recording, frame: int) -> None:
         if not (0 <= line.first < len(scan) and 0 <= line.last < len(scan)):
             raise ValueError(f"{where}; the scan has the beams 0 to {len(scan) - 1}")
         if line.last < line.first and not scan.full_circle:
-            raise ValueError(f"{where}; only a full circle goes on behind its last beam")
+            raise ValueError(f"{where}; only a line on a full circle may continue past the last beam")
         if not np.isfinite((line.start, line.end)).all():
-            raise ValueError(f"{where}: its endpoints {line.start} and {line.end} are no points")
+            raise ValueError(f"{where}: its endpoints {line.start} and {line.end} are not finite")
         beams = beams_between(line.first, line.last, len(scan))
         if (taken[beams] >= 0).any():
             beam = int(beams[taken[beams] >= 0][0])
-            raise ValueError(f"{where}; beam {beam} belongs to line {taken[beam]} already")
+            raise ValueError(f"{where}; beam {beam} already belongs to line {taken[beam]}")
         taken[beams] = number

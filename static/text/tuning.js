@@ -62,7 +62,7 @@ export const tuningText = {
     history:
       "Score of each trial on the training half. The solid line is the best so far, the dashed line the paper's defaults.",
     importance: "What matters",
-    importanceHelp: "How much each threshold decides whether a trial is good (PED-ANOVA)",
+    importanceHelp: "Importance: how much each threshold affects whether a trial is good (PED-ANOVA)",
     parallel: "Each line is one trial, drawn across its thresholds. Stronger lines are better trials.",
     progress: (/** @type {number} */ n) => `${n.toLocaleString("en")} ${n === 1 ? "trial" : "trials"}`,
     best: (/** @type {string} */ score) => `best ${score} on the training half`,

@@ -261,7 +261,7 @@ def test_a_saved_edit_survives_a_kill_of_the_server_and_an_unsaved_one_is_saved_
 @pytest.mark.parametrize(
     ("content", "sentence"),
     [
-        ("{", "this is no JSON"),
+        ("{", "this is not JSON"),
         ('{"format": "lineseg labels", "version": 9}', "of version 9, this lineseg reads 1; update lineseg"),
     ],
 )

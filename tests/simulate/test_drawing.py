@@ -50,7 +50,7 @@ def test_noise_depends_on_the_seed_only():
         ("x1,2", "parts begin with l, b, s, w or c"),
         ("w1,2,3", "a wall needs x1,y1,x2,y2"),
         ("w1,2,1,2", "and a length"),
-        ("w1,2,1,two", "numbers are expected"),
+        ("w1,2,1,two", "write numbers after the letter"),
         ("w0,0,nan,1", "a wall needs"),
         ("w0,0,1e9,1", "within ±100 m"),
         ("c0,0,-1", "a radius above 0"),

@@ -89,7 +89,7 @@ def test_an_edit_of_an_old_revision_does_not_overwrite_a_frame(walls, file):
     seen = save_labels(file, walls, 0, FrameLabels(note="first"))
     theirs = save_labels(file, walls, 0, replace(seen, note="theirs"))
     before = file.read_bytes()
-    with pytest.raises(ConflictError, match="frame 0 was changed elsewhere: it has the revision 2, you saw 1") as told:
+    with pytest.raises(ConflictError, match="frame 0 was changed elsewhere: it is at revision 2, you have 1") as told:
         save_labels(file, walls, 0, replace(seen, note="mine"))
     assert told.value.theirs == theirs
     assert file.read_bytes() == before
@@ -157,14 +157,17 @@ ENTRY = {"revision": 1, "beams": 180, "lines": []}
 @pytest.mark.parametrize(
     ("changes", "sentence"),
     [
-        ({"version": 2}, "walls.npz.lineseg.json: the labels are of version 2, this lineseg reads 1; update lineseg."),
-        ({"format": "other"}, "this is another kind of file"),
-        ({"recording": {"name": "hall.bag", "frames": 7}}, "are of hall.bag with 7 frames; walls.npz has 5"),
-        ({"frames": {"1": ENTRY | {"beams": 360}}}, "the labels of frame 1 are of 360 beams; the scan has 180"),
+        (
+            {"version": 2},
+            "walls.npz.lineseg.json: the labels have version 2, but this lineseg reads 1; update",
+        ),
+        ({"format": "other"}, "this is not a label file"),
+        ({"recording": {"name": "hall.bag", "frames": 7}}, "belong to hall.bag with 7 frames; walls.npz has 5"),
+        ({"frames": {"1": ENTRY | {"beams": 360}}}, "the labels of frame 1 are for 360 beams; the scan has 180"),
         ({"frames": {"9": ENTRY}}, "frame 9: walls.npz has the frames 0 to 4"),
-        ({"frames": {"1": {"beams": 180}}}, "does not hold labels as it should: 'revision' is missing"),
-        ({"frames": [1]}, "does not hold labels as it should"),
-        ({"recording": None}, "does not hold labels as it should"),
+        ({"frames": {"1": {"beams": 180}}}, "is not a valid label file: 'revision' is missing"),
+        ({"frames": [1]}, "is not a valid label file"),
+        ({"recording": None}, "is not a valid label file"),
     ],
 )
 def test_a_file_that_does_not_fit_is_refused_and_stays_as_it_is(walls, file, changes, sentence):
@@ -193,8 +196,8 @@ def test_a_broken_file_is_refused_and_stays_as_it_is(walls, file, content):
     [
         ([(10, 180)], "beams 10 to 180; the scan has the beams 0 to 179"),
         ([(-1, 10)], "beams -1 to 10; the scan has"),
-        ([(80, 10)], "only a full circle goes on behind its last beam"),
-        ([(10, 80), (80, 90)], "true line 1: beams 80 to 90; beam 80 belongs to line 0 already"),
+        ([(80, 10)], "only a line on a full circle may continue past the last beam"),
+        ([(10, 80), (80, 90)], "true line 1: beams 80 to 90; beam 80 already belongs to line 0"),
     ],
 )
 def test_impossible_lines_are_refused(walls, file, lines, sentence):
@@ -205,7 +208,7 @@ def test_impossible_lines_are_refused(walls, file, lines, sentence):
 
 
 def test_endpoints_must_be_points_and_frames_must_be_there(walls, file):
-    with pytest.raises(ValueError, match="are no points"):
+    with pytest.raises(ValueError, match="are not finite"):
         save_labels(file, walls, 0, FrameLabels((replace(LINE, end=(np.nan, 0.0)),)))
     with pytest.raises(ValueError, match=r"frame 5: walls\.npz has the frames 0 to 4"):
         save_labels(file, walls, 5, FrameLabels(()))

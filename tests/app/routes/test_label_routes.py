@@ -119,11 +119,11 @@ def test_an_edit_of_an_old_revision_is_refused_and_overwrites_nothing(own, page,
 @pytest.mark.parametrize(
     ("content", "sentence"),
     [
-        ('{"format": "lineseg labels",', "this is no JSON"),
+        ('{"format": "lineseg labels",', "this is not JSON"),
         ('{"format": "lineseg labels", "version": 2}', "of version 2, this lineseg reads 1; update lineseg"),
         (
             '{"format": "lineseg labels", "version": 1, "recording": {"name": "hall", "frames": 7}, "frames": {}}',
-            "the labels are of hall with 7 frames; walls.npz has 5",
+            "the labels belong to hall with 7 frames; walls.npz has 5",
         ),
         (
             '{"format": "lineseg labels", "version": 1, "recording": {"name": "walls", "frames": 5}, '
@@ -181,7 +181,7 @@ def test_labels_of_the_same_bytes_are_found_again(own, page, file):
     [
         ({"frame": 5}, 400, "has the frames 0 to 4"),
         ({"lines": [{"first": 10, "last": 200}]}, 400, "the scan has the beams 0 to 179"),
-        ({"lines": [{"first": 10, "last": 30}, {"first": 30, "last": 60}]}, 400, "beam 30 belongs to line 0 already"),
+        ({"lines": [{"first": 10, "last": 30}, {"first": 30, "last": 60}]}, 400, "beam 30 already belongs to line 0"),
         ({"lines": [{"first": -1, "last": 30}]}, 422, "lines.0.first is -1"),
         ({"tags": ["x" * 61]}, 422, "tags.0"),
         ({"words": 1}, 422, "words is 1"),
