@@ -58,7 +58,7 @@ def test_noise_depends_on_the_seed_only():
         ("b0,360,0.01,30,0", "3 to 4000 beams"),
         ("b0,720,1,30,0", "at most one turn"),
         ("s1.5", "a whole number"),
-        (";".join(["w0,0,1,0"] * 81), "81 walls and 0 circles; 80 and 40 may be"),
+        (";".join(["w0,0,1,0"] * 81), "81 walls and 0 circles; at most 80 and 40 are allowed"),
     ],
 )
 def test_an_impossible_drawing_is_named(text, complaint):
