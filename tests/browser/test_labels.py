@@ -262,7 +262,7 @@ def test_a_saved_edit_survives_a_kill_of_the_server_and_an_unsaved_one_is_saved_
     ("content", "sentence"),
     [
         ("{", "this is not JSON"),
-        ('{"format": "lineseg labels", "version": 9}', "of version 9, this lineseg reads 1; update lineseg"),
+        ('{"format": "lineseg labels", "version": 9}', "have version 9, but this lineseg reads 1; update lineseg"),
     ],
 )
 def test_unreadable_labels_are_reported_with_their_path_and_kept(label, sidecar, content, sentence):

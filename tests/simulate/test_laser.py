@@ -152,7 +152,7 @@ def test_a_facade_sets_doors_back_and_leaves_openings_open():
 
 
 def test_a_feature_without_room_in_its_wall_is_refused():
-    with pytest.raises(ValueError, match=r"1\.5 to 2\.5 m has no room .* free is 0 to 2 m"):
+    with pytest.raises(ValueError, match=r"1\.5 to 2\.5 m does not fit .* 0 to 2 m is free"):
         facade((0, 0), (2, 0), [Feature(2.0, 1.0, 0.1)])
 
 

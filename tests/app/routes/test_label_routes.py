@@ -120,7 +120,7 @@ def test_an_edit_of_an_old_revision_is_refused_and_overwrites_nothing(own, page,
     ("content", "sentence"),
     [
         ('{"format": "lineseg labels",', "this is not JSON"),
-        ('{"format": "lineseg labels", "version": 2}', "of version 2, this lineseg reads 1; update lineseg"),
+        ('{"format": "lineseg labels", "version": 2}', "have version 2, but this lineseg reads 1; update lineseg"),
         (
             '{"format": "lineseg labels", "version": 1, "recording": {"name": "hall", "frames": 7}, "frames": {}}',
             "the labels belong to hall with 7 frames; walls.npz has 5",
@@ -128,7 +128,7 @@ def test_an_edit_of_an_old_revision_is_refused_and_overwrites_nothing(own, page,
         (
             '{"format": "lineseg labels", "version": 1, "recording": {"name": "walls", "frames": 5}, '
             '"frames": {"0": {"revision": 1, "beams": 99}}}',
-            "of 99 beams; the scan has 180",
+            "for 99 beams; the scan has 180",
         ),
     ],
 )
