@@ -89,7 +89,7 @@ export interface Change {
   patch: ViewPatch;
 }
 
-/** Look at what a link says: at all of it that can be had. */
+/** Apply a link: all of its fields that are valid. */
 export interface OpenLink {
   type: "link";
   rev: number;
