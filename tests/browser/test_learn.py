@@ -151,7 +151,7 @@ def test_a_refused_merge_says_how_badly_it_fits(new_tab):
     tab = learn(new_tab, "lesson:5_shallow_corner", step=apart)
     tab.eventually(lambda: f"{value:.3f}>{limit:.3f}" in text_of(tab, ".formulas"), "no formula")
     assert text_of(tab, "#stepper .decision") == traced[apart].text
-    assert f"rms of {value:.3f} m, more than {limit:.3f} m" in traced[apart].text
+    assert f"rms would be {value:.3f} m, more than {limit:.3f} m" in traced[apart].text
     assert "γmerge" in text_of(tab, ".code-line.lit")
 
 

@@ -93,7 +93,7 @@ def test_weights_choose_what_counts():
 
 @pytest.mark.parametrize("weights", [{"gap": -1.0}, {"gap": np.nan}, {"misery": 1.0}])
 def test_other_weights_are_refused(weights):
-    with pytest.raises(ValueError, match=r"a weight is a number|there is no score 'misery'"):
+    with pytest.raises(ValueError, match=r"a weight must be a number|there is no score 'misery'"):
         suspicion(column("gap", [0, 1]), weights)
 
 
