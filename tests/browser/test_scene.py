@@ -165,8 +165,10 @@ def test_every_control_has_a_name(tab):
 
 
 def test_a_link_is_shown_in_the_colours_of_the_page(tab):
-    tab.page.emulate_media(color_scheme="dark")
-    tab.page.goto("about:blank")
-    tab.page.goto(f"{tab.address}#recording=sample:hallway&frame=3")
-    tab.until("s.view.frame === 3")
-    assert tab.page.evaluate("lineseg.state.view.dark") is True
+    # A page of its own: a session that is resumed is told the whole View once more.
+    fresh = tab.page.context.new_page()
+    fresh.emulate_media(color_scheme="dark")
+    fresh.goto(f"{tab.address}#recording=sample:hallway&frame=3")
+    fresh.wait_for_function("window.lineseg?.state?.view.frame === 3 && lineseg.settled")
+    assert fresh.evaluate("lineseg.state.view.dark") is True
+    fresh.close()
