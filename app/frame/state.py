@@ -33,7 +33,12 @@ def state_of(
     scan, trace = found.scan, found.trace
     chosen = trace[view.step] if view.step is not None else None
     return {
-        "view": view.as_json() | {"topic": recording.topic if len(recording.topics) > 1 else None},
+        "view": view.as_json()
+        | {
+            "topic": recording.topic if len(recording.topics) > 1 else None,
+            # Of a recording that does not grow there is no newest frame to leave.
+            "live": view.live or not isinstance(recording, LiveRecording),
+        },
         "mode": view.mode,
         "recording": view.recording,
         "label": label,

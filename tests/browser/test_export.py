@@ -151,7 +151,7 @@ def test_a_link_to_a_missing_file_says_so_and_applies_once_the_file_is_opened(ne
     assert tab.state["recording"] == "sample:hallway"
     alert = tab.page.locator(".notice.error")
     assert "does not know the file of this link" in alert.inner_text()
-    assert "Open hallway.npz here" in alert.inner_text()
+    assert "Open hallway.npz or drop it here" in alert.inner_text()
     assert tab.page.evaluate("location.hash") == link
     with tab.page.expect_file_chooser() as chooser:
         alert.get_by_role("button", name="Open file").click()
@@ -167,4 +167,4 @@ def test_opening_something_else_replaces_the_link(new_tab):
     assert "no longer on the server" in tab.page.locator(".notice.error").inner_text()
     tab.page.keyboard.press("ArrowRight")
     tab.page.wait_for_function("location.hash === '#recording=sample:hallway&frame=1'")
-    assert re.match("Open the file here", tab.page.locator(".notice.error .muted").inner_text())
+    assert re.match("Open the file or drop it here", tab.page.locator(".notice.error .muted").inner_text())

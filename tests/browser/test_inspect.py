@@ -194,7 +194,7 @@ def test_another_method_is_compared_explained_and_asked_what_would_change_it(new
     assert state["against"]["method"] == "region-growing"
     assert state["explanation"]["text"] in tab.page.get_by_role("region", name="Why").inner_text()
     tab.eventually(
-        lambda: re.search("Another answer with|No threshold alone", tab.page.locator(".what-if").inner_text()),
+        lambda: re.search("The answer changes with|Changing one threshold", tab.page.locator(".what-if").inner_text()),
         "nothing says what would change the answer",
     )
     row = tab.page.locator(".frames-row").first
