@@ -14,11 +14,15 @@ from lineseg import Decision, Scan, Trace, open_recording, trace
 # hold what is expected there, and then notes what the page says.
 WALK = """async ([from, to, expected]) => {
     const nodes = document.querySelector("iframe.scene").contentWindow.__viserMutable.nodeRefFromName;
+    // What viser has not made yet is equal to nothing, so that the walk waits for it.
+    const notYet = [NaN];
     const drawn = (name) => {
         const node = nodes[`/${name}`];
+        if (!node) return notYet;
         if (!node.visible) return [];
         let found = null;
         node.traverse((part) => (found = part.geometry?.attributes ?? found));
+        if (!found) return notYet;
         const flat = [...(found.instanceStart ? found.instanceStart.data : found.position).array];
         return flat.filter((_, k) => k % 3 < 2);
     };
