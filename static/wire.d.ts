@@ -737,7 +737,6 @@ export interface Tuned {
   text?: string;
   caution?: string;
   thresholds?: string[];
-  study?: string;
   trials?: Trial[];
   importance?: Record<string, number>;
   verdict?: Verdict;

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
-import hashlib
 import json
 import logging
 import math
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Annotated, Any, Literal, NamedTuple
 
@@ -29,6 +28,7 @@ from ..newest import Newest
 from ..session.sessions import Sessions
 from ..told.answers import Trial as TrialTold
 from ..told.answers import Tuned
+from ..tuning.kept_trials import KeptTrials
 from ..tuning.sensitivity import Subject, curves, relief
 
 # Frames per recording; more would slow down the trials and add little information.
@@ -183,33 +183,43 @@ def _work_of(wish: CurvesWish | MapWish | AutoWish, subject: Subject, folder: Pa
 def search(subject: Subject, workers: Pool, wish: AutoWish, folder: Path) -> Iterator[Tuned]:
     """Yield trials as they finish, and now and then the importances and the gain; a stop ends with a verdict too."""
     objective = Objective(wish.objective)
-    blocks = RecordingBlocks(subject.recording, workers, objective.kind == "label-free", MOST_FRAMES)
-    path = study_path(folder, blocks, wish)
+    blind = objective.kind == "label-free"
+    # Without truth, true lines are not computed, which would take longer than the trials.
+    recording = replace(subject.recording, wall=None) if blind else subject.recording
+    blocks = RecordingBlocks(recording, workers, blind, MOST_FRAMES)
+    tuning = Tuning(blocks, objective, None, wish.thresholds, subject.params)
+    kept = KeptTrials(folder, _about(blocks, objective, wish))
     if wish.anew:
-        path.unlink(missing_ok=True)
-    tuning = Tuning(blocks, objective, path, wish.thresholds, subject.params)
+        kept.forget()
+    tuning.recall(kept.read())
     yield {
         "text": objective.text,
         "caution": objective.caution,
         "thresholds": wish.thresholds,
-        "study": str(path),
         "trials": [_trial(trial) for trial in tuning.trials()],
     }
+    judged = None
     for tried in range(1, wish.trials + 1):
         if subject.stop[0]:
             break
-        yield {"trials": [_trial(tuning.step())]}
-        if tried % JUDGE_EVERY == 0:
+        trial = tuning.step()
+        kept.add(trial)
+        yield {"trials": [_trial(trial)]}
+        if tried % JUDGE_EVERY == 0 and judged != (judged := tuning.best().number):
             yield _judged(tuning)
     yield _judged(tuning)
 
 
-def study_path(folder: Path, blocks: RecordingBlocks, wish: AutoWish) -> Path:
-    """A separate file for each recording, objective, set of tuned thresholds, and values of the others."""
+def _about(blocks: RecordingBlocks, objective: Objective, wish: AutoWish) -> dict[str, object]:
+    """What distinguishes this study from others: recording, objective, tuned thresholds, and values of the rest."""
     fixed = {name: value for name, value in wish.params.items() if name not in wish.thresholds}
-    about = json.dumps([blocks.name, list(blocks.frames), wish.objective, wish.thresholds, fixed], sort_keys=True)
-    folder.mkdir(parents=True, exist_ok=True)
-    return folder / f"{hashlib.sha256(about.encode()).hexdigest()[:16]}.db"
+    return {
+        "recording": blocks.name,
+        "frames": list(blocks.frames),
+        "objective": [asdict(objective), objective.text],
+        "thresholds": wish.thresholds,
+        "fixed": fixed,
+    }
 
 
 def _trial(trial: Trial) -> TrialTold:

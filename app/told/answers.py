@@ -145,7 +145,6 @@ class Tuned(TypedDict, total=False):
     text: str
     caution: str
     thresholds: list[str]
-    study: str
     trials: list[Trial]
     importance: dict[str, float]
     verdict: Verdict

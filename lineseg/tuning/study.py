@@ -22,6 +22,7 @@ STUDY = "lineseg"
 SEED = 2018
 # With fewer trials, importances are noise.
 LEAST_FOR_IMPORTANCE = 12
+LEAST_SEED = int(knob_of("seed_points")[1].least)
 
 
 @dataclass(frozen=True)
@@ -97,7 +98,23 @@ class Tuning:
         if not self._study.trials:
             # The defaults first, so that nothing worse on the training half is ever proposed.
             for start in dict.fromkeys((Params(), self._base)):
-                self._study.enqueue_trial({name: getattr(start, name) for name in thresholds})
+                self._study.enqueue_trial(self._values(start))
+
+    def recall(self, trials: Sequence[Trial]) -> None:
+        """Continue from the trials of an earlier run, of the same objective on the same frames, instead of anew."""
+        if not trials:
+            return
+        self._study = self._opened(None, self._study.user_attrs["about"])
+        states = self._optuna.trial.TrialState
+        for trial in trials:
+            unknown = math.isnan(trial.score)
+            made = self._optuna.trial.create_trial(
+                state=states.FAIL if unknown else states.COMPLETE,
+                value=None if unknown else trial.score,
+                params=self._values(trial.params),
+                distributions=self._distributions,
+            )
+            self._study.add_trial(made)
 
     def _opened(self, path: Path | None, about: str) -> Any:
         optuna = self._optuna
@@ -121,10 +138,13 @@ class Tuning:
         return study
 
     def _distribution(self, name: str) -> Any:
+        """The range of the slider, and what the settings that are tried first need beyond it."""
         kind, knob = knob_of(name)
+        starts = [getattr(start, name) for start in (Params(), self._base)]
+        low, high = min(knob.low, *starts), max(knob.high, *starts)
         if kind is int:
-            return self._optuna.distributions.IntDistribution(int(knob.low), int(knob.high))
-        return self._optuna.distributions.FloatDistribution(knob.low, knob.high, log=knob.log)
+            return self._optuna.distributions.IntDistribution(int(low), int(high))
+        return self._optuna.distributions.FloatDistribution(low, high, log=knob.log and low > 0)
 
     def step(self) -> Trial:
         """Try one more setting."""
@@ -191,8 +211,13 @@ class Tuning:
             return 0.0
         return self.objective.score(_sum(tuned)) - self.objective.score(_sum(default))
 
+    def _values(self, params: Params) -> dict[str, float]:
+        return {name: getattr(params, name) for name in self._distributions}
+
     def _params(self, values: dict[str, float]) -> Params:
-        return self._base.but(**{name: _rounded(name, value) for name, value in values.items()})
+        """The setting that is tried for these values. A seed is never longer than the shortest line."""
+        params = self._base.but(**{name: _rounded(name, value) for name, value in values.items()})
+        return params.but(seed_points=min(params.seed_points, max(params.min_points, LEAST_SEED)))
 
 
 def _rounded(name: str, value: float) -> float:

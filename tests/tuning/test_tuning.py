@@ -93,6 +93,30 @@ def test_a_study_on_disk_continues_where_it_stopped(hallway: Recording, workers:
     assert again.best() == max(again.trials(), key=lambda trial: trial.score)
 
 
+def test_earlier_trials_are_recalled_and_the_search_goes_on_from_them(hallway: Recording, workers: Pool):
+    blocks = RecordingBlocks(hallway, workers, scored=False)
+    first = list(Tuning(blocks, Objective("truth")).run(12))
+    again = Tuning(blocks, Objective("truth"))
+    again.recall(first)
+    assert again.trials() == first
+    assert again.step().number == 12
+
+
+def test_a_seed_never_has_more_points_than_a_line_needs(hallway: Recording, workers: Pool):
+    blocks = RecordingBlocks(hallway, workers, scored=False)
+    for thresholds in (["seed_points", "min_points"], ["seed_points"]):
+        tuning = Tuning(blocks, Objective("truth"), None, thresholds, Params(min_points=5))
+        trials = list(tuning.run(15))
+        assert all(trial.params.seed_points <= trial.params.min_points for trial in trials)
+        assert tuning.trials() == trials
+
+
+def test_a_present_value_beyond_its_slider_is_tried_too(hallway: Recording, workers: Pool):
+    blocks = RecordingBlocks(hallway, workers, scored=False)
+    trials = list(Tuning(blocks, Objective("truth"), None, ["epsilon"], Params(epsilon=0.9)).run(2))
+    assert [trial.params.epsilon for trial in trials] == [Params().epsilon, 0.9]
+
+
 def test_a_study_of_something_else_is_refused_and_left_unchanged(hallway: Recording, workers: Pool, tmp_path: Path):
     blocks = RecordingBlocks(hallway, workers, scored=True)
     file = tmp_path / "study.db"

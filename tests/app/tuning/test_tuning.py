@@ -128,7 +128,11 @@ def test_auto_tuning_sends_trials_and_a_verdict_and_continues_later(tab, hall: P
     assert again["trials"] == trials
     anew, *_ = bench.answers(bench.tune(trials=1, anew=True))
     assert anew["trials"] == []
-    assert list((hall.parent / "studies").glob("*.db"))
+    (kept,) = (hall.parent / "studies").glob("*.jsonl")
+    with kept.open("a") as file:
+        file.write('[{"epsilon": 0.0')
+    after, *_ = bench.answers(bench.tune(trials=1))
+    assert len(after["trials"]) == 1
 
 
 def test_auto_tuning_stops_when_told_and_judges_what_it_has(tab):
