@@ -120,7 +120,7 @@ def _kernel(scans: list[Scan], params: Params) -> Pass:
     """One call of the compiled code from Python, with memory at hand; preparing the points is part of it."""
     memory = Memory(max(map(len, scans)), any(scan.full_circle for scan in scans))
     scenes = [
-        (scan.ranges.astype(np.float64), scan.rays, scan.range_min, scan.range_max, scan.full_circle) for scan in scans
+        (scan.ranges.astype(np.float64), scan.rays, scan.range_min, scan.range_max, scan.around) for scan in scans
     ]
     limits = limits_of(params)
     return _each(lambda scene: extract_lines(*scene, limits, *memory.arguments, None), scenes)

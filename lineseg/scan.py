@@ -12,16 +12,20 @@ from numpy.typing import NDArray
 
 Floats = NDArray[np.floating]
 
+# The ends of a full circle are at most this far apart [rad], and at most this many beams are missing between them.
+SEAM = np.pi / 5
+MOST_MISSING = 10
+
 
 class Fan(NamedTuple):
     """Where the beams of a scan point; scans of a recording often share one.
 
-    bearings: (n,) [rad]; rays: (2, n), see `Scan.rays`; full_circle: see `Scan.full_circle`.
+    bearings: (n,) [rad]; rays: (2, n), see `Scan.rays`; around: see `Scan.around`.
     """
 
     bearings: Floats
     rays: NDArray[np.float64]
-    full_circle: bool
+    around: int
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,7 +82,7 @@ class Scan:
             return self.known
         rays = np.array((np.cos(self.bearings), np.sin(self.bearings)))
         rays.flags.writeable = False
-        return Fan(self.bearings, rays, _is_full_circle(self.bearings))
+        return Fan(self.bearings, rays, beams_around(self.bearings))
 
     @property
     def rays(self) -> NDArray[np.float64]:
@@ -93,12 +97,20 @@ class Scan:
 
     @property
     def full_circle(self) -> bool:
-        """Whether the last and the first beam are as close as neighbours: such a scan has no first beam."""
-        return self.fan.full_circle
+        """Whether the last beam is next to the first, or only a few are missing between: it has no first beam."""
+        return self.around > 0
+
+    @property
+    def around(self) -> int:
+        """The number of beams in a whole turn, with those missing at the seam; 0 if the scan is not a full circle.
+
+        The missing ones are a dropout: past the seam, beam numbers continue at `around`.
+        """
+        return self.fan.around
 
     def opened(self) -> Scan:
         """The same scan treated as open, even on a full circle: nothing crosses from the last beam to the first."""
-        return replace(self, known=self.fan._replace(full_circle=False))
+        return replace(self, known=self.fan._replace(around=0))
 
 
 @dataclass(frozen=True)
@@ -245,11 +257,16 @@ def regular_fan(angle_min: float, angle_increment: float, beams: int) -> Fan:
     return fan
 
 
-def _is_full_circle(bearings: Floats) -> bool:
+def beams_around(bearings: Floats) -> int:
+    """See `Scan.around`; the median step tells how many beams fit between the ends."""
     if len(bearings) < 3:
-        return False
+        return 0
     steps = np.abs(np.diff(bearings))
-    return bool(2 * np.pi - steps.sum() < 1.5 * np.median(steps))
+    seam, step = 2 * np.pi - steps.sum(), np.median(steps)
+    for missing in range(MOST_MISSING + 1 if seam <= SEAM else 1):
+        if seam < (missing + 1.5) * step:
+            return len(bearings) + missing
+    return 0
 
 
 def _increment(bearings: Floats) -> float:

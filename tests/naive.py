@@ -22,7 +22,7 @@ class RegionGrowing:
         self.points = [
             scan.ranges[k] * np.array([np.cos(scan.bearings[k]), np.sin(scan.bearings[k])]) for k in self.beams
         ]
-        self.n, self.width, self.params = len(self.beams), len(scan), params
+        self.n, self.width, self.params = len(self.beams), max(scan.around, len(scan)), params
         # A line may have crossed these steps, whatever was lost there: positions of the points before them.
         self.passed = set()
         self.circle = scan.full_circle and self.n >= 3

@@ -53,6 +53,12 @@ def room(width=6.0, depth=4.0, **options) -> Scan:
     )
 
 
+def chipped(scan: Scan, missing: int) -> Scan:
+    """The scan without its last beams, as some drivers leave a full circle."""
+    wall = None if scan.wall is None else scan.wall[:-missing]
+    return Scan(scan.ranges[:-missing], scan.bearings[:-missing], wall=wall)
+
+
 @st.composite
 def scans(draw, full_circle=None) -> Scan:
     """Rooms with furniture, noise and lost beams, seen in part or all round."""

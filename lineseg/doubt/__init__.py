@@ -250,7 +250,7 @@ def probable_misses(lines, count, points, limits, dropped):
     looser = loosened(limits, LOOSER)
     found = 0
     start, stop = points.start, points.start + points.period
-    if points.circle and count > 0:
+    if points.around > 0 and count > 0:
         # The run that contains the opening comes after the last segment.
         start, stop = lines[0].first, lines[0].first + points.period
     for i in range(count + 1):
@@ -272,7 +272,7 @@ def lines_in(points, start, end, limits, lines, dropped):
         points.breaks[start:end],
         0,
         end - start,
-        False,
+        0,
         end - start,
     )
     dropped.used[0] = 0
@@ -282,14 +282,14 @@ def lines_in(points, start, end, limits, lines, dropped):
 @kernel
 def spans_of(lines, count, points, bearings, spans):
     """Store the bearings (n,) [rad] where segments start and end; past the seam of a full circle they keep rising."""
-    n = len(bearings)
+    n, around = len(bearings), max(points.around, len(bearings))
     falling = n > 1 and bearings[n - 1] < bearings[0]
     turn = -2.0 * math.pi if falling else 2.0 * math.pi
     spans.used[0] = count
     for i in range(count):
         first, last = points.beam[lines[i].first], points.beam[lines[i].last]
-        one = bearings[first % n] + first // n * turn
-        other = bearings[last % n] + last // n * turn
+        one = bearings[first % around] + first // around * turn
+        other = bearings[last % around] + last // around * turn
         k = count - 1 - i if falling else i
         spans.low[k], spans.high[k] = min(one, other), max(one, other)
 
@@ -347,8 +347,8 @@ def score_frame(lines, count, points, beams, limits, dropped, now, before, score
     scores[1] = coverage_of(lines, count, points)
     scores[2] = invalid_share(points, beams)
     scores[3] = largest_rms(lines, count)
-    scores[4] = over_split(lines, count, points.circle, limits.epsilon, points.beam[:0])
+    scores[4] = over_split(lines, count, points.around > 0, limits.epsilon, points.beam[:0])
     scores[5] = widest_gap(lines, count, points)
     scores[6] = probable_misses(lines, count, points, limits, dropped)
-    scores[7] = change_of(now, before, points.circle)
+    scores[7] = change_of(now, before, points.around > 0)
     scores[8] = fits_near_epsilon(lines, count, limits)

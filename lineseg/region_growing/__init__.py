@@ -31,8 +31,7 @@ from .seed import NOWHERE, find_seed
 class Run(NamedTuple):
     """The output of one run. first and last are positions; beam: (m,) int32 maps positions to beams.
 
-    On a full circle beam numbers keep rising past the seam. points: number of valid beams, without those on
-    ignored objects.
+    points: number of valid beams, without those on ignored objects.
     """
 
     lines: NDArray
@@ -43,15 +42,15 @@ class Run(NamedTuple):
 
 
 @entry_kernel
-def extract_lines(ranges, rays, range_min, range_max, circle, limits, xy, numbers, lines, dropped, log):
+def extract_lines(ranges, rays, range_min, range_max, around, limits, xy, numbers, lines, dropped, log):
     """Run the four procedures: (number of lines, of dropped candidates, of points, of valid beams).
 
-    ranges, rays, circle: of a `Scan`; limits: see `limits_of`; the rest is `Memory`.
+    ranges, rays, around: of a `Scan`; limits: see `limits_of`; the rest is `Memory`.
     """
     limits = unpacked(limits)
     lines, dropped = lines.view(LINE), Dropping(dropped.view(DROPPED), numbers[3])
     dropped.used[0] = 0
-    points = points_of(ranges, rays, range_min, range_max, circle, limits, xy, numbers)
+    points = points_of(ranges, rays, range_min, range_max, around, limits, xy, numbers)
     count = grow_lines(points, limits, lines, dropped, log)
     count = resolve_overlaps(points, lines, count, dropped, limits, log)
     place_endpoints(points, lines, count, log)
@@ -64,7 +63,7 @@ def grow_lines(points, limits, lines, dropped, log):
     count = candidate = 0
     start = points.start
     stop = start + points.period
-    if not points.circle:
+    if points.around == 0:
         stop -= max(limits.min_points, limits.seed_points) - 1
     elif points.period < 2 * limits.seed_points:
         stop = start
@@ -109,19 +108,19 @@ def run(scan: Scan, params: Params, logged: bool = False) -> Run:
     """Extract the lines of one scan; log every decision if `logged`."""
     memory = Memory(len(scan), scan.full_circle)
     ranges, nearest, farthest = scan.ranges.astype(np.float64), float(scan.range_min), float(scan.range_max)
-    scene = (ranges, scan.rays, nearest, farthest, scan.full_circle, limits_of(params))
+    scene = (ranges, scan.rays, nearest, farthest, scan.around, limits_of(params))
     rows = None
     if logged:
         run_once = partial(extract_lines, *scene, *memory.arguments)
         (count, drops, points, _), rows = written(run_once, 4 * len(scan) + 64)
     else:
         count, drops, points, _ = extract_lines(*scene, *memory.arguments, None)
-    beams = 4 * points if scan.full_circle else points
-    return Run(memory.lines[:count], memory.dropped[:drops], memory.numbers[0, :beams], points, rows)
+    beam = memory.numbers[0, : 4 * points] % scan.around if scan.full_circle else memory.numbers[0, :points]
+    return Run(memory.lines[:count], memory.dropped[:drops], beam, points, rows)
 
 
 def thin_things(scan: Scan, params: Params | None = None) -> NDArray[np.bool_]:
     """(n,) which valid beams end at objects that lines pass behind, see `look_past`."""
     kept = np.zeros(len(scan), np.bool_)
-    kept[run(scan, params or Params()).beam % len(scan)] = True
+    kept[run(scan, params or Params()).beam] = True
     return scan.valid & ~kept

@@ -17,16 +17,13 @@ def extraction_of(
     params: Thresholds,
     lines: NDArray[np.void],
     dropped: NDArray[np.void],
-    positions: NDArray[np.integer],
+    beams: NDArray[np.integer],
 ) -> Extraction:
     """The output of the kernels as segments in scan order.
 
-    lines, dropped: arrays of LINE and DROPPED, with first and last as positions; positions: (m,) int maps these to
-    beams, whose numbers may keep rising past the seam of a full circle.
+    lines, dropped: arrays of LINE and DROPPED, with first and last as positions; beams: (m,) int maps these to beams.
     """
-    n = len(scan)
-    beams = positions % max(n, 1)
-    labels = np.full(n, -1, dtype=np.int32)
+    labels = np.full(len(scan), -1, dtype=np.int32)
     segments = []
     lines = lines[np.argsort(beams[lines["first"]], kind="stable")] if len(lines) else lines
     for label, (first, last, _, a, b, c, x1, y1, x2, y2, length, rms) in enumerate(lines.tolist()):

@@ -48,7 +48,7 @@ def merge_collinear(points, lines, count, limits, log):
             count = remove(lines, count, i + 1)
         else:
             i += 1
-    if points.circle and count > 1 and merged(points, lines, count - 1, 0, points.period, limits, log):
+    if points.around > 0 and count > 1 and merged(points, lines, count - 1, 0, points.period, limits, log):
         count = remove(lines, count, 0)
     return count
 
@@ -105,7 +105,7 @@ def cut_overlaps(points, lines, count, dropped, log):
             i = max(i - 1, 0)
         else:
             i += 1
-    while points.circle and count > 1:
+    while points.around > 0 and count > 1:
         swallowed = cut(points, lines, count - 1, 0, points.period, dropped, log)
         if swallowed < 0:
             break

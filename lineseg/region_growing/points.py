@@ -20,11 +20,12 @@ class Points(NamedTuple):
     """The valid points in scan order. Kernels count in positions; `beam` maps these to beams.
 
     A full circle has no first beam. It is opened at its widest gap and stored four times in a row with rising beam
-    numbers, so that a line may cross the seam in both directions.
+    numbers, so that a line may cross the seam in both directions. Beams missing at the seam are counted.
 
     x, y: (m,) [m]; beam: (m,) int32, rising; start: the position of the first point; period: number of points.
     breaks: (m,) int32, rising by 1 at each step that no seed or line may cross; two positions without a break between
-    them have equal values. returns: number of valid beams, including those on ignored objects.
+    them have equal values. around: see `Scan.around`. returns: number of valid beams, including those on ignored
+    objects.
     """
 
     x: NDArray[np.float64]
@@ -33,18 +34,19 @@ class Points(NamedTuple):
     breaks: NDArray[np.int32]
     start: int
     period: int
-    circle: bool
+    around: int
     returns: int
 
 
 @kernel
-def points_of(ranges, rays, range_min, range_max, circle, limits, xy, numbers):
+def points_of(ranges, rays, range_min, range_max, around, limits, xy, numbers):
     """Points from ranges (n,) [m] and unit vectors along the beams (2, n); `Scan` defines which are valid.
 
     Leaves out the points of ignored objects, see `look_past`.
     xy (6, capacity) float64 and numbers (6, capacity) int32 are memory for them, with at least n + 1 places; on a full
     circle with 4·n + 1.
     """
+    circle = around > 0
     x, y, rho, beam, breaks = xy[0], xy[1], xy[2], numbers[0], numbers[1]
     if circle:
         x, y, rho, beam = xy[3], xy[4], xy[5], numbers[2]
@@ -55,16 +57,16 @@ def points_of(ranges, rays, range_min, range_max, circle, limits, xy, numbers):
     returns, start, m = n, 0, 0
     looking = limits.max_occluder > 0.0 and n > 2
     if looking and circle:
-        n = look_past_all_round(x, y, rho, beam, n, len(ranges), xy, numbers[0], numbers[4], numbers[5], limits)
+        n = look_past_all_round(x, y, rho, beam, n, around, xy, numbers[0], numbers[4], numbers[5], limits)
     elif looking:
         n = look_past(x, y, rho, beam, breaks, numbers[5], n, limits)
     if circle:
         start, m = n, 4 * n
-        lay_round(x, y, beam, numbers[4], n, len(ranges), xy, numbers[0], breaks, looking, limits)
+        lay_round(x, y, beam, numbers[4], n, around, xy, numbers[0], breaks, looking, limits)
     else:
         m = n
         find_breaks(xy[0], xy[1], numbers[0], breaks, m, looking, limits)
-    return Points(xy[0, :m], xy[1, :m], numbers[0, :m], breaks[:m], start, n, circle, returns)
+    return Points(xy[0, :m], xy[1, :m], numbers[0, :m], breaks[:m], start, n, around, returns)
 
 
 @kernel
@@ -104,7 +106,7 @@ def take_valid(ranges, rays, range_min, range_max, x, y, rho, beam):
 
 
 @kernel
-def look_past_all_round(x, y, rho, beam, n, beams, to, to_beam, passed, steps, limits):
+def look_past_all_round(x, y, rho, beam, n, around, to, to_beam, passed, steps, limits):
     """`look_past` on a full circle, starting at the farthest point, which cannot be on an object."""
     farthest, most = 0, 0.0
     for k in range(n):
@@ -113,8 +115,8 @@ def look_past_all_round(x, y, rho, beam, n, beams, to, to_beam, passed, steps, l
     for values, target in ((x, to[0]), (y, to[1]), (rho, to[2])):
         turn(values, n, farthest, 0, target)
         target[n] = target[0]
-    turn(beam, n, farthest, beams, to_beam)
-    to_beam[n] = to_beam[0] + beams
+    turn(beam, n, farthest, around, to_beam)
+    to_beam[n] = to_beam[0] + around
     left = look_past(to[0], to[1], to[2], to_beam, passed, steps, n + 1, limits) - 1
     passed[0] = passed[left]
     for values, target in ((to[0], x), (to[1], y)):
@@ -124,7 +126,7 @@ def look_past_all_round(x, y, rho, beam, n, beams, to, to_beam, passed, steps, l
 
 
 @kernel
-def lay_round(x, y, beam, passed, n, beams, to, to_beam, breaks, looked, limits):
+def lay_round(x, y, beam, passed, n, around, to, to_beam, breaks, looked, limits):
     """Open a full circle of n points at its widest gap, and store it four times."""
     opening, widest = 0, -1.0
     for k in range(1, n):
@@ -136,12 +138,12 @@ def lay_round(x, y, beam, passed, n, beams, to, to_beam, breaks, looked, limits)
     for values, target in ((x, to[0]), (y, to[1])):
         turn(values, n, opening, 0, target)
         repeat(target, n, 0)
-    turn(beam, n, opening, beams, to_beam)
+    turn(beam, n, opening, around, to_beam)
     # Whatever the rotation so far, the first beam belongs to the first turn.
-    past = to_beam[0] // beams * beams
+    past = to_beam[0] // around * around
     for k in range(n):
         to_beam[k] -= past
-    repeat(to_beam, n, beams)
+    repeat(to_beam, n, around)
     turn(passed, n, opening, 0, breaks)
     breaks[n] = breaks[0]
     find_breaks(to[0], to[1], to_beam, breaks, min(n + 1, 4 * n), looked, limits)

@@ -76,7 +76,7 @@ def _score(
 ) -> None:
     score_segments(
         scan.ranges.astype(np.float64), scan.rays, np.asarray(scan.bearings, np.float64), float(scan.range_min),
-        float(scan.range_max), scan.full_circle, rows, limits, *memory.arguments, *memory.spans, turn, scores,
+        float(scan.range_max), scan.around, rows, limits, *memory.arguments, *memory.spans, turn, scores,
     )  # fmt: skip
     # The kernel counts all beams from first to last, but some methods leave out beams in between.
     scores[COVERAGE] = extraction.covered / max(int(np.count_nonzero(scan.valid)), 1)
@@ -84,17 +84,17 @@ def _score(
 
 @entry_kernel
 def score_segments(
-    ranges, rays, bearings, range_min, range_max, circle, segments, limits, xy, numbers, lines, dropped, low, high,
+    ranges, rays, bearings, range_min, range_max, around, segments, limits, xy, numbers, lines, dropped, low, high,
     shown, turn, scores,
 ):  # fmt: skip
     """Score the segments of one frame; turn: alternately 0 and 1, to compare each frame with the previous one."""
     rows, drops = lines.view(LINE), Dropping(dropped.view(DROPPED), numbers[3])
     fields = unpacked(limits)
-    points = points_of(ranges, rays, range_min, range_max, circle, fields, xy, numbers)
+    points = points_of(ranges, rays, range_min, range_max, around, fields, xy, numbers)
     count = 0
     if points.period > 0:
         for i in range(len(segments)):
-            count = put_in_order(points, len(ranges), segments[i], rows, count)
+            count = put_in_order(points, segments[i], rows, count)
     now = Spans(low[turn], high[turn], shown[turn : turn + 1])
     before = Spans(low[1 - turn], high[1 - turn], shown[1 - turn : 2 - turn])
     spans_of(rows, count, points, bearings, now)
@@ -102,10 +102,10 @@ def score_segments(
 
 
 @kernel
-def put_in_order(points, beams, segment, lines, count):
+def put_in_order(points, segment, lines, count):
     """Number of lines after inserting the segment, ordered by first position."""
-    first = position_of(points, segment.first, points.start, beams)
-    last = position_of(points, segment.last, first, beams)
+    first = position_of(points, segment.first, points.start)
+    last = position_of(points, segment.last, first)
     k = count
     while k > 0 and lines[k - 1].first > first:
         lines[k] = lines[k - 1]
@@ -118,11 +118,11 @@ def put_in_order(points, beams, segment, lines, count):
 
 
 @kernel
-def position_of(points, beam, start, beams):
+def position_of(points, beam, start):
     """The first position from `start` on whose beam is at least `beam`; on a circle beam numbers keep rising."""
     wanted = beam
-    while points.circle and wanted < points.beam[start]:
-        wanted += beams
+    while points.around > 0 and wanted < points.beam[start]:
+        wanted += points.around
     low, high = start, min(start + points.period, len(points.beam)) - 1
     while low < high:
         middle = (low + high) // 2

@@ -9,20 +9,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..kernel import entry_kernel, kernel
-from ..scan import Recording, regular_fan
+from ..scan import MOST_MISSING, SEAM, Recording, regular_fan
 
 
 class Geometry(NamedTuple):
     """The geometry of consecutive frames, with the same numbers as `Scan` computes.
 
     bearings: (total,) [rad], one geometry after another; rays: (2·total,) cosines, then sines, of each geometry.
-    place: (frames,) where the geometry of a frame starts in `bearings`; circle: (frames,) whether it is a full circle.
+    place: (frames,) where the geometry of a frame starts in `bearings`; around: (frames,) see `Scan.around`.
     """
 
     bearings: NDArray[np.float64]
     rays: NDArray[np.float64]
     place: NDArray[np.int64]
-    circle: NDArray[np.bool_]
+    around: NDArray[np.int64]
 
 
 def geometry_of(recording: Recording, start: int, stop: int) -> Geometry:
@@ -34,18 +34,18 @@ def geometry_of(recording: Recording, start: int, stop: int) -> Geometry:
     places = np.concatenate(([0], np.cumsum(lengths[new])))
     if recording.bearings is None and len(frames) == 1:
         numbers = float(recording.angle_min[start]), float(recording.angle_increment[start]), int(lengths[0])
-        bearings, rays, circle = regular_fan(*numbers)
-        circles = np.full(stop - start, circle)
-        return Geometry(bearings.astype(np.float64), rays.flatten().astype(np.float64), places[which], circles)
+        bearings, rays, around = regular_fan(*numbers)
+        turns = np.full(stop - start, around)
+        return Geometry(bearings.astype(np.float64), rays.flatten().astype(np.float64), places[which], turns)
     bearings = _bearings(recording, frames, places)
     along = np.arange(places[-1]) + np.repeat(places[:-1], np.diff(places))
     rays = np.empty(2 * places[-1])
     rays[along] = np.cos(bearings)
     rays[along + np.repeat(np.diff(places), np.diff(places))] = np.sin(bearings)
     bearings = bearings.astype(np.float64)
-    circle = np.empty(len(frames), np.bool_)
-    find_full_circles(bearings, places, circle)
-    return Geometry(bearings, rays, places[which], circle[which])
+    around = np.zeros(len(frames), np.int64)
+    find_full_circles(bearings, places, around)
+    return Geometry(bearings, rays, places[which], around[which])
 
 
 def _differs_from_the_one_before(recording: Recording, start: int, stop: int, lengths: NDArray) -> NDArray[np.bool_]:
@@ -83,15 +83,18 @@ def find_new(bearings, offsets, new):
 
 
 @entry_kernel
-def find_full_circles(bearings, places, circle):
-    """`Scan.full_circle` of each geometry: 2π − Σ|steps| < 1.5·median(|steps|), the median without sorting."""
-    for i in range(len(circle)):
+def find_full_circles(bearings, places, around):
+    """`Scan.around` of each geometry, with the median of the steps found without sorting; around: zeros."""
+    for i in range(len(around)):
         first, last = places[i], places[i + 1] - 1
-        total = 0.0
+        seam = 2.0 * math.pi
         for k in range(first, last):
-            total += abs(bearings[k + 1] - bearings[k])
-        limit = (2.0 * math.pi - total) / 1.5
-        circle[i] = last - first >= 2 and median_exceeds(bearings, first, last, limit)
+            seam -= abs(bearings[k + 1] - bearings[k])
+        most, missing = MOST_MISSING if seam <= SEAM else 0, 0
+        while missing <= most and not median_exceeds(bearings, first, last, seam / (missing + 1.5)):
+            missing += 1
+        if missing <= most and last - first >= 2:
+            around[i] = last - first + 1 + missing
 
 
 @kernel

@@ -84,7 +84,7 @@ class Workspace(Memory):
 
 
 class Scans(NamedTuple):
-    """A recording as the kernel takes it; place and circle start with the frame `lead`."""
+    """A recording as the kernel takes it; place and around start with the frame `lead`."""
 
     ranges: NDArray[np.floating]
     offsets: NDArray[np.int64]
@@ -94,7 +94,7 @@ class Scans(NamedTuple):
     bearings: NDArray[np.float64]
     rays: NDArray[np.float64]
     place: NDArray[np.int64]
-    circle: NDArray[np.bool_]
+    around: NDArray[np.int64]
 
 
 @entry_kernel
@@ -110,19 +110,19 @@ def survey_frames(
     fields = unpacked(limits)
     while frame < stop and not cancelled[0]:
         first, beams = scans.offsets[frame], scans.offsets[frame + 1] - scans.offsets[frame]
-        place, circle = scans.place[frame - scans.lead], scans.circle[frame - scans.lead]
+        place, around = scans.place[frame - scans.lead], scans.around[frame - scans.lead]
         rays = scans.rays[2 * place : 2 * (place + beams)].reshape((2, beams))
         count, _, n, returns = extract_lines(
-            scans.ranges[first : first + beams], rays, scans.range_min[frame], scans.range_max[frame], circle,
+            scans.ranges[first : first + beams], rays, scans.range_min[frame], scans.range_max[frame], around,
             limits, xy, numbers, lines, dropped, None,
         )  # fmt: skip
         if used + count > len(segments):
             return frame, used
-        m = 4 * n if circle else n
-        points = Points(xy[0, :m], xy[1, :m], numbers[0, :m], numbers[1, :m], n if circle else 0, n, circle, returns)
+        start_at, m = (n, 4 * n) if around > 0 else (0, n)
+        points = Points(xy[0, :m], xy[1, :m], numbers[0, :m], numbers[1, :m], start_at, n, around, returns)
         if frame >= start:
             counts[frame] = count
-            write_segments(rows, count, points, beams, segments, used)
+            write_segments(rows, count, points, max(around, beams), segments, used)
             used += count
         if len(scores) > 0:
             this, other = frame % 2, 1 - frame % 2
@@ -136,15 +136,15 @@ def survey_frames(
 
 
 @kernel
-def write_segments(lines, count, points, beams, segments, used):
+def write_segments(lines, count, points, around, segments, used):
     """Write lines as segments, ordered by first beam: those that start past the seam of a full circle come first."""
     past = 0
-    while past < count and points.beam[lines[past].first] // beams == points.beam[lines[0].first] // beams:
+    while past < count and points.beam[lines[past].first] // around == points.beam[lines[0].first] // around:
         past += 1
     for i in range(count):
         line = lines[(past + i) % count]
         row = segments[used + i]
         row.a, row.b, row.c, row.rms = line.a, line.b, line.c, line.rms
         row.x1, row.y1, row.x2, row.y2, row.length = line.x1, line.y1, line.x2, line.y2, line.length
-        row.first, row.last = points.beam[line.first] % beams, points.beam[line.last] % beams
+        row.first, row.last = points.beam[line.first] % around, points.beam[line.last] % around
         row.points = line.last - line.first + 1

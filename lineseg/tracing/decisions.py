@@ -76,8 +76,7 @@ class Trace:
     """The decisions of one run; a sequence of `Decision`.
 
     log: (decisions,) structured array, one row each (see log.py), with first, last and beam as positions. positions:
-    (m,) int maps these to beams, whose numbers may keep rising past the seam of a full circle. total: number of points
-    (default: number of positions).
+    (m,) int maps these to beams. total: number of points (default: number of positions).
     """
 
     def __init__(
@@ -96,7 +95,7 @@ class Trace:
         self.vocabulary = vocabulary
         self.log = log
         self.total = len(positions) if total is None else total
-        self._beams = positions % max(len(scan), 1)
+        self._beams = positions
 
     def __len__(self) -> int:
         return len(self.log)

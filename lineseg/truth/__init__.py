@@ -28,7 +28,7 @@ def true_lines(scan: Scan, params: Params | None = None, occlusion: float = OCCL
     A true line is a visible run of one wall with at least P_min valid beams and at least L_min between its outermost
     points. A run is cut between two of its beams if other beams, of another wall or without a return, lie between them
     and their points are more than `occlusion` apart [m]; a thinner chair leg or a few lost beams do not cut it.
-    On a full circle a run may cross the seam. Raises ValueError if the walls are not known.
+    On a full circle a run may cross the seam, where beams may be missing. Raises ValueError if the walls are not known.
     """
     need_scan(scan)
     if scan.wall is None:
@@ -54,7 +54,7 @@ def demands_of(params: Thresholds) -> Params:
 
 def _visible_runs(scan: Scan, beams: NDArray[np.intp], occlusion: float) -> list[NDArray[np.intp]]:
     ahead = np.roll(beams, -1)
-    steps = (ahead - beams) % len(scan)
+    steps = (ahead - beams) % (scan.around or len(scan))
     cut = (steps > 1) & (np.hypot(*(scan.xy[ahead] - scan.xy[beams]).T) > occlusion)
     if not scan.full_circle:
         cut[-1] = True
@@ -81,7 +81,7 @@ def _along(scan: Scan, beams: NDArray[np.intp]) -> NDArray[np.intp]:
     """The beams of one line in order. On a full circle they may cross the seam: they start after the widest step."""
     if not scan.full_circle:
         return beams
-    return np.roll(beams, -int(np.argmax((beams - np.roll(beams, 1)) % len(scan))))
+    return np.roll(beams, -int(np.argmax((beams - np.roll(beams, 1)) % scan.around)))
 
 
 def _projected_ends(xy: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -35,9 +35,7 @@ def test_floor(benchmark, scans):
 
 def test_kernel(benchmark, scans):
     memory, limits = Memory(len(scans[0]), scans[0].full_circle), limits_of(Params())
-    scenes = [
-        (scan.ranges.astype(float), scan.rays, scan.range_min, scan.range_max, scan.full_circle) for scan in scans
-    ]
+    scenes = [(scan.ranges.astype(float), scan.rays, scan.range_min, scan.range_max, scan.around) for scan in scans]
     benchmark(each, lambda scene: extract_lines(*scene, limits, *memory.arguments, None), scenes)
 
 

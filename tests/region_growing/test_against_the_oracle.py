@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from scenes import scans
+from scenes import chipped, scans
 
 from lineseg import Params, Scan, extract, trace
 
@@ -74,6 +74,20 @@ def test_moving_the_seam_of_a_full_circle_moves_the_beams_and_nothing_else(scan,
     turned = Scan(turned.ranges, np.unwrap(turned.bearings))
     expected = sorted(((first + turn) % n, (last + turn) % n) for first, last in spans(scan, params))
     assert spans(turned, params) == expected
+
+
+@lively
+@given(scans(full_circle=True), thresholds(), st.integers(1, 3))
+def test_beams_missing_at_the_seam_are_a_dropout_like_any_other(scan, params, missing):
+    lost = Scan(np.where(np.arange(len(scan)) < len(scan) - missing, scan.ranges, np.nan), scan.bearings)
+    chip = chipped(scan, missing)
+    assert (chip.full_circle, chip.around) == (True, len(scan))
+    assert spans(chip, params) == spans(lost, params) == naive.extract(chip, params)
+    assert [line[1:] for line in lines(trace(chip, params))] == [line[1:] for line in lines(trace(lost, params))]
+
+
+def lines(traced):
+    return [(decision.points, decision.kind, decision.first, decision.last, decision.beam) for decision in traced]
 
 
 @lively

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from scenes import corner, room, scan_of, scans, wall_ahead
+from scenes import chipped, corner, room, scan_of, scans, wall_ahead
 
 from lineseg import Cancelled, Params, Recording, Scan, extract, open_recording, trace
 from lineseg.doubt import SCORES
@@ -69,6 +69,19 @@ def test_beams_may_be_unevenly_spaced(sweeps, seed):
     rng = np.random.default_rng(seed)
     uneven = [Scan(scan.ranges, scan.bearings + rng.uniform(0, 1e-3, len(scan))) for scan in sweeps]
     assert_agrees(Recording.from_scans(uneven * 2))
+
+
+@settings(max_examples=20, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@given(st.lists(scans(full_circle=True), min_size=1, max_size=3), st.integers(1, 3))
+def test_beams_may_be_missing_at_the_seam(sweeps, missing):
+    chips = [chipped(scan, missing) for scan in sweeps]
+    result = assert_agrees(Recording.from_scans(chips))
+    lost = [scan.ranges.copy() for scan in sweeps]
+    for ranges in lost:
+        ranges[-missing:] = np.nan
+    lost = survey(Recording.from_scans(Scan(*beams) for beams in zip(lost, (s.bearings for s in sweeps), strict=True)))
+    assert np.array_equal(result.segments["first"], lost.segments["first"])
+    assert np.allclose(result.score("change"), lost.score("change"), atol=1e-6)
 
 
 def test_beams_may_be_announced_in_single_precision():

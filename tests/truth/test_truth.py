@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from hypothesis import given
-from scenes import corner, room, scan_of, scans, wall_ahead
+from scenes import chipped, corner, room, scan_of, scans, wall_ahead
 
 from lineseg import Extraction, Params, Recording, Scan, Segment, extract, open_recording
 from lineseg.truth import Agreement, agreement, agreements, match, true_ends, true_lines
@@ -52,6 +52,19 @@ def test_a_true_line_may_cross_the_seam():
     wall[:40] = wall[320:] = 0
     labels = true_lines(walled(scan, wall))
     assert len(set(labels[wall == 0].tolist())) == 1
+
+
+def test_beams_missing_at_the_seam_cut_a_wall_only_where_a_dropout_does():
+    scan = room(width=6.0, beams=720)
+    wall = np.where(np.abs(scan.bearings) > 2.7, 0, -1)
+    for missing, lines in ((2, 1), (9, 2)):
+        chip = chipped(walled(scan, wall), missing)
+        assert true_lines(chip, occlusion=0.15).max() + 1 == lines
+
+
+def test_scans_of_a_real_room_are_full_circles_although_beams_are_missing_at_the_seam(data_dir):
+    scan = open_recording(data_dir.parent / "truth" / "lroom_a.npz")[0]
+    assert (len(scan), scan.around) == (897, 898)
 
 
 def test_scoring_requires_truth():
