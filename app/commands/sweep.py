@@ -91,7 +91,7 @@ def _summary(result: Any) -> str:
     said = f"{len(result.grid):,} settings on {frames:,} frames"
     scores = totals.measure("f_score")
     if not np.isfinite(scores).any():
-        return f"{said}; without truth there is no single best setting; `lineseg tune` uses label-free scores."
+        return f"{said}; without truth there is no single best setting; `lineseg tune` finds one that fits the noise."
     best = int(np.nanargmax(scores))
     params = asdict(next(p for k, p in enumerate(result.grid) if k == best))
     values = ", ".join(f"{name} {params[name]:g}" for name in result.grid.axes) or "the given thresholds"

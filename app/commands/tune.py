@@ -25,7 +25,6 @@ def tune(
     frames: Unset[int] = None,
     recall: float = 1.0,
     completeness: float = 1.0,
-    rms: float = 0.03,
     study: Unset[Path] = None,
     out: Annotated[Unset[Path], arg(aliases=["-o"])] = None,
     to: Literal["ros2", "ros1", "python", "flags"] = "ros2",
@@ -33,7 +32,8 @@ def tune(
     topic: Unset[str] = None,
     scheduler: Unset[str] = None,
 ) -> None:
-    """Search for thresholds with Optuna, and compare the best with the paper's defaults on held-back frames.
+    """Search for thresholds with Optuna, and compare the best with the present ones and with the paper's defaults, on
+    held-back frames.
 
     Ctrl-C stops the search and judges the best setting so far. With --study the trials are kept, and the next call
     continues them.
@@ -41,18 +41,19 @@ def tune(
     Args:
         files: recordings to read.
         trials: number of settings to try in this call.
-        objective: compare with the truth, or judge by the scans alone (default: truth if all files have it).
+        objective: compare with the truth, or with lines that fit the noise of the laser (default: truth if all files
+            have it).
         thresholds: names of the thresholds to tune (default: the paper's five with truth; epsilon, delta and
             seed_points without it, because label-free scores cannot know which lines you want).
         split: what to hold back: every other stretch of frames, or every other file.
         frames: total number of frames to use, spread over the files (default: all).
-        recall: with truth: weight of TR relative to 1 - FR.
-        completeness: with truth: exponent of the completeness.
-        rms: label-free: root mean square distance [m] at which the score is halved.
+        recall: weight of TR relative to 1 - FR.
+        completeness: exponent of the completeness.
         study: SQLite file to keep the trials in.
         out: file for the best thresholds (default: standard output).
         to: format of the thresholds.
-        params: values of the thresholds that are not tuned: ROS 1 launch file, ROS 2 YAML, JSON, Python or flags.
+        params: the present thresholds, kept where they are not tuned (default: the paper's defaults): ROS 1 launch
+            file, ROS 2 YAML, JSON, Python or flags.
         topic: laser topic to use (default: the first).
         scheduler: address of a Dask scheduler, such as tcp://host:8786 (default: threads of this machine).
     """
@@ -65,9 +66,10 @@ def tune(
         raise FileNotFoundError(f"{out}: the folder {out.parent} does not exist.")
     base = Params() if params is None else read_params(params.read_text(encoding="utf-8-sig"))
     with pool(scheduler) as workers:
-        blocks = FileBlocks(files, workers, objective != "truth", split, topic, frames)
+        blind = None if objective is None else objective == "label-free"
+        blocks = FileBlocks(files, workers, blind, split, topic, frames, base)
         kind = objective or ("truth" if blocks.truth else "label-free")
-        aim = Objective(kind, recall, completeness, rms)
+        aim = Objective(kind, recall, completeness)
         tuning = Tuning(blocks, aim, study, thresholds, base)
         print(f"{aim.text}\n{aim.caution}", file=sys.stderr)
         _search(tuning, trials)

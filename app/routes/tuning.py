@@ -8,7 +8,7 @@ import json
 import logging
 import math
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import asdict, replace
+from dataclasses import asdict
 from pathlib import Path
 from typing import Annotated, Any, Literal, NamedTuple
 
@@ -184,9 +184,7 @@ def search(subject: Subject, workers: Pool, wish: AutoWish, folder: Path) -> Ite
     """Yield trials as they finish, and now and then the importances and the gain; a stop ends with a verdict too."""
     objective = Objective(wish.objective)
     blind = objective.kind == "label-free"
-    # Without truth, true lines are not computed, which would take longer than the trials.
-    recording = replace(subject.recording, wall=None) if blind else subject.recording
-    blocks = RecordingBlocks(recording, workers, blind, MOST_FRAMES)
+    blocks = RecordingBlocks(subject.recording, workers, blind, MOST_FRAMES, subject.params)
     tuning = Tuning(blocks, objective, None, wish.thresholds, subject.params)
     kept = KeptTrials(folder, _about(blocks, objective, wish))
     if wish.anew:

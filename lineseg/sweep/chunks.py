@@ -55,11 +55,12 @@ class Chunk:
 
 @dataclass(frozen=True)
 class Task:
-    """A chunk and some settings; scored: see `Batch`."""
+    """A chunk and some settings; scored, judges: see `Batch`."""
 
     chunk: Chunk
     settings: tuple[Params, ...]
     scored: bool
+    judges: tuple[Params, ...] = ()
 
 
 def describe(place: tuple[str, str | None]) -> Source:
@@ -79,16 +80,20 @@ def measure_task(task: Task) -> NDArray[np.float64]:
     if (status.st_mtime_ns, status.st_size) != (source.changed, source.size):
         raise ValueError(f"{source.file} has changed since the sweep began, or differs on this machine; start again")
     with _reading:
-        batch = _batch(task.chunk, task.scored)
+        batch = _batch(task.chunk, task.scored, task.judges)
     return batch.measure(task.settings).sums
 
 
 @lru_cache(maxsize=BATCHES_KEPT)
-def _batch(chunk: Chunk, scored: bool) -> Batch:
+def _batch(chunk: Chunk, scored: bool, judges: tuple[Params, ...]) -> Batch:
     source = chunk.source
     lead = scored and chunk.start > 0
-    recording = _opened(source.file, source.topic, source.changed, source.size)
-    return Batch(recording.only(np.arange(chunk.start - lead, chunk.stop)), scored, lead)
+    return Batch(opened(source).only(np.arange(chunk.start - lead, chunk.stop)), scored, lead, judges)
+
+
+def opened(source: Source) -> Recording:
+    """The recording of a source."""
+    return _opened(source.file, source.topic, source.changed, source.size)
 
 
 @lru_cache(maxsize=2)

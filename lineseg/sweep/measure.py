@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..doubt import SCORES
+from ..extractors import extract
 from ..kernel import entry_kernel
 from ..params import Params
 from ..readers.source import Cancelled
@@ -17,6 +17,8 @@ from ..scan import Recording
 from ..survey.stretch import Stretch, Workspace, flattened
 from ..truth import true_lines
 from .totals import COLUMNS, COUNTS, MEAN_COLUMNS, Totals
+
+LINES = slice(COUNTS.index("true_lines"), COUNTS.index("shared") + 1)
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,11 +41,15 @@ class Truth:
         """
         if recording.wall is None:
             return None
-        labels = [true_lines(scan, Params()) for scan in recording]
+        return cls.of_lines([true_lines(scan, Params()) for scan in recording])
+
+    @classmethod
+    def of_lines(cls, labels: Sequence[NDArray[np.integer]]) -> Truth:
+        """The lines of each frame as the truth: for each beam its line, or −1."""
         sizes = [np.bincount(frame[frame >= 0]) for frame in labels]
         counts = np.array([len(frame) for frame in sizes], dtype=np.int64)
         return cls(
-            np.concatenate(labels) if labels else np.empty(0, np.int32),
+            np.concatenate(labels).astype(np.int32) if labels else np.empty(0, np.int32),
             np.concatenate(sizes).astype(np.int64) if labels else np.empty(0, np.int64),
             np.concatenate(([0], np.cumsum(counts))),
         )
@@ -54,14 +60,17 @@ class Batch:
 
     scored: whether to compute the label-free scores that cost more than the extraction (totals.MEANS).
     lead: whether the first frame is only used for comparison and not counted.
+    judges: settings whose lines stand in for the truth: each counts as one, and the totals are their mean.
     """
 
-    def __init__(self, recording: Recording, scored: bool, lead: bool = False) -> None:
+    def __init__(self, recording: Recording, scored: bool, lead: bool = False, judges: Sequence[Params] = ()) -> None:
         self._first = int(lead)
         self._frames, self._beams = len(recording), recording.beams[1]
         self._scored = scored
         self._flat = flattened(recording)
-        self._truth = Truth.of(recording)
+        known = None if judges else Truth.of(recording)
+        self._truths = [] if known is None else [known]
+        self._truths += [Truth.of_lines([extract(scan, judge).labels for scan in recording]) for judge in judges]
         self._stretch = Stretch(recording, self._flat, self._first, self._frames, compared=scored)
         counted = slice(self._flat.offsets[self._first], self._flat.offsets[-1])
         near, far = (
@@ -95,20 +104,17 @@ class Batch:
                 row[len(COUNTS) :] = scores[self._first :, MEAN_COLUMNS].sum(axis=0, dtype=np.float64)
             else:
                 row[len(COUNTS) :] = np.nan
-            if self._truth is not None:
-                row[COUNTS.index("true_lines")] = self._truth.offsets[-1] - self._truth.offsets[self._first]
-                truth = self._truth.labels, self._truth.sizes, self._truth.offsets
-                found = count_matches(segments, counts, self._first, self._flat.offsets, *truth, tally)
-                row[COUNTS.index("matches") : COUNTS.index("matches") + 2] = found
+            if self._truths:
+                row[LINES] = np.mean([self._agreement(each, segments, counts, tally) for each in self._truths], axis=0)
         return Totals(sums)
 
-    def _agreement(self, segments: NDArray[np.void], counts: NDArray[np.int64], tally: NDArray[np.int64]) -> Any:
+    def _agreement(
+        self, truth: Truth, segments: NDArray[np.void], counts: NDArray[np.int64], tally: NDArray[np.int64]
+    ) -> tuple[float, float, float]:
         """(true lines, matches, Σ of their intersections over union)."""
-        if self._truth is None:
-            return 0, 0, 0.0
-        labels, sizes, places = self._truth.labels, self._truth.sizes, self._truth.offsets
-        found = count_matches(segments, counts, self._first, self._flat.offsets, labels, sizes, places, tally)
-        return int(places[-1] - places[self._first]), *found
+        lines = truth.labels, truth.sizes, truth.offsets
+        found = count_matches(segments, counts, self._first, self._flat.offsets, *lines, tally)
+        return float(truth.offsets[-1] - truth.offsets[self._first]), *found
 
 
 @entry_kernel

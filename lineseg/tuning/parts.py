@@ -1,4 +1,4 @@
-"""The split of frames into those for tuning and those held back for judging."""
+"""The split of frames into those for tuning and those held back for judging, and the lines they are compared with."""
 
 from __future__ import annotations
 
@@ -11,10 +11,11 @@ import numpy as np
 
 from ..params import Params
 from ..scan import Recording
-from ..sweep.chunks import Chunk, Task, describe, measure_task
+from ..sweep.chunks import Chunk, Source, Task, describe, measure_task, opened
 from ..sweep.measure import Batch
 from ..sweep.totals import Totals
 from ..sweep.workers import Pool
+from .judges import judges
 
 # Blocks per recording; every other one is held back. A block is a stretch of time, since neighbouring frames are alike.
 BLOCKS = 20
@@ -22,7 +23,10 @@ Split = Literal["frames", "files"]
 
 
 class Blocks(Protocol):
-    """Stretches of frames that can be measured with a setting."""
+    """Stretches of frames that can be measured with a setting.
+
+    truth: whether they are compared with true lines; otherwise they are with those of `judges`.
+    """
 
     @property
     def train(self) -> Sequence[int]: ...
@@ -49,27 +53,30 @@ def stretches(frames: int, blocks: int, most: int | None) -> list[tuple[int, int
 
 
 class RecordingBlocks:
-    """Blocks of a recording in memory."""
+    """Blocks of a recording in memory.
 
-    def __init__(self, recording: Recording, workers: Pool, scored: bool, most: int | None = None) -> None:
+    blind: compare with the lines of `judges`, even if the truth is known; base: thresholds with their P_min and L_min.
+    """
+
+    def __init__(
+        self, recording: Recording, workers: Pool, blind: bool, most: int | None = None, base: Params | None = None
+    ) -> None:
         spans = stretches(len(recording), BLOCKS, most)
         if len(spans) < 2:
             raise ValueError("auto-tuning needs 4 or more frames: some to learn from, some to judge it by")
         self.train, self.held_back = range(0, len(spans), 2), range(1, len(spans), 2)
         self.frames = [stop - start for start, stop in spans]
-        self.truth = recording.wall is not None
+        self.truth = not blind and recording.wall is not None
         self.name = recording.name
         self._workers = workers
-        self._batches = [_batch(recording, *span, scored) for span in spans]
+        panel = judges(recording, base) if blind else ()
+        self._batches = [
+            Batch(recording.only(np.arange(start, stop)), scored=False, judges=panel) for start, stop in spans
+        ]
 
     def totals(self, params: Params, which: Sequence[int]) -> list[Totals]:
         tasks = [(self._batches[block], params) for block in which]
         return [Totals(sums) for _, sums in sorted(self._workers.results(_measure, tasks), key=lambda row: row[0])]
-
-
-def _batch(recording: Recording, start: int, stop: int, scored: bool) -> Batch:
-    lead = scored and start > 0
-    return Batch(recording.only(np.arange(start - lead, stop)), scored, lead)
 
 
 def _measure(task: tuple[Batch, Params]) -> np.ndarray:
@@ -78,16 +85,21 @@ def _measure(task: tuple[Batch, Params]) -> np.ndarray:
 
 
 class FileBlocks:
-    """Blocks of files, opened by the workers; split: whether every other block or every other file is held back."""
+    """Blocks of files, opened by the workers; split: whether every other block or every other file is held back.
+
+    blind: compare with the lines of `judges`, found for each file, even if the truth is known; None: only if a file has
+    no truth. base: thresholds with their P_min and L_min.
+    """
 
     def __init__(
         self,
         files: Sequence[Path],
         workers: Pool,
-        scored: bool,
+        blind: bool | None,
         split: Split = "frames",
         topic: str | None = None,
         most: int | None = None,
+        base: Params | None = None,
     ) -> None:
         if split == "files" and len(files) < 2:
             raise ValueError("splitting by files needs two or more files; split by frames instead")
@@ -106,11 +118,20 @@ class FileBlocks:
         if not self.train or not self.held_back:
             raise ValueError("auto-tuning needs 4 or more frames: some to learn from, some to judge it by")
         self.frames = [chunk.stop - chunk.start for chunk in self._chunks]
-        self.truth = all(source.truth for source in sources)
+        known = all(source.truth for source in sources)
         self.name = ", ".join(Path(source.file).name for source in sources)
-        self._workers, self._scored = workers, scored
+        blind = not known if blind is None else blind
+        self.truth = known and not blind
+        tasks = [(source, base) for source in sources] if blind else []
+        panels = dict(workers.results(_panel, tasks))
+        self._workers, self._panels = workers, [panels.get(number, ()) for number in owner]
 
     def totals(self, params: Params, which: Sequence[int]) -> list[Totals]:
-        tasks = [Task(self._chunks[block], (params,), self._scored) for block in which]
+        tasks = [Task(self._chunks[block], (params,), False, self._panels[block]) for block in which]
         found = sorted(self._workers.results(measure_task, tasks), key=lambda row: row[0])
         return [Totals(sums[0]) for _, sums in found]
+
+
+def _panel(task: tuple[Source, Params | None]) -> tuple[Params, ...]:
+    source, base = task
+    return judges(opened(source), base) if source.frames else ()

@@ -43,7 +43,8 @@ class Proposal:
     """Thresholds that fit a recording, or why there are none.
 
     params: the proposed ones, or the present ones if these are as good or if nothing can be proposed. changed: whether
-    they differ. scatter: standard deviation of points from their walls [m]. pieces: number of segments into which a
+    they differ. fitting: those that fit best, also if the present ones are as good; None if nothing can be proposed.
+    scatter: standard deviation of points from their walls [m]. pieces: number of segments into which a
     wall breaks at the present values, on average. tried: (k,) values of ε, or of the method's counterpart [m]; steady:
     (k,) score of the lines there, with the lines at 1.6 times that value as the truth, 0 to 1.
     text: what is proposed, or why nothing can be; "" if the present values are as good.
@@ -51,6 +52,7 @@ class Proposal:
 
     params: Thresholds
     changed: bool
+    fitting: Thresholds | None
     noise: RangeNoise
     scatter: float
     pieces: float
@@ -89,6 +91,14 @@ def scaled(params: Thresholds, scale: float) -> Thresholds:
         if knob.scatter and getattr(params, name):
             values[name] = float(np.clip(_rounded(knob.scatter * scale), knob.least, knob.most))
     return params.but(**values)
+
+
+def rescaled(params: Thresholds, factor: float) -> Thresholds:
+    """`params` with every threshold that depends on the noise multiplied by a factor."""
+    following = ((name, knob) for name, _, knob in params.knobs() if knob.scatter)
+    return params.but(
+        **{name: float(np.clip(factor * getattr(params, name), knob.least, knob.most)) for name, knob in following}
+    )
 
 
 def _rounded(value: float) -> float:
@@ -130,7 +140,7 @@ class _Search:
         self._lines.append([self._extract(scan, params) for scan in self._scans])
 
     def nothing(self, why: str) -> Proposal:
-        return Proposal(self.present, False, self.noise, self.scatter, math.nan, np.empty(0), np.empty(0), why)
+        return Proposal(self.present, False, None, self.noise, self.scatter, math.nan, np.empty(0), np.empty(0), why)
 
     def judged(self) -> Proposal:
         count = len(self.scales) - 2
@@ -143,7 +153,7 @@ class _Search:
         present = [self._extract(scan, self.present) for scan in self._scans]
         lacking = _agreement(self._lines[best], judges) - _agreement(present, judges)
         pieces = _pieces(present, self._lines[best])
-        found = replace(self.nothing(""), pieces=pieces, tried=self.scales[:count], steady=steady)
+        found = replace(self.nothing(""), fitting=proposed, pieces=pieces, tried=self.scales[:count], steady=steady)
         if lacking <= AS_GOOD:
             return found
         return replace(found, params=proposed, changed=True, text=self._text(proposed, pieces))

@@ -35,37 +35,64 @@ class Trial:
 
 
 @dataclass(frozen=True)
-class Verdict:
-    """The best trial compared with the paper's defaults, both on the held-back half.
+class Gain:
+    """The score of the tuned thresholds compared with that of others, on the same held-back stretches, pair by pair.
 
-    error: standard error of the gain (jackknife over held-back blocks); gained: whether the gain exceeds twice that.
+    others: what they are called. error: standard error of the gain (jackknife over the pairs); higher: number of
+    stretches where the tuned thresholds score higher.
     """
 
-    params: Params
-    tuned: float
-    default: float
+    others: str
+    before: float
+    after: float
     error: float
+    higher: int
+    stretches: int
     frames: int
 
     @property
-    def gain(self) -> float:
-        return self.tuned - self.default
+    def value(self) -> float:
+        return self.after - self.before
 
     @property
-    def gained(self) -> bool:
-        return self.gain > 0 and self.gain > 2 * self.error
+    def certain(self) -> bool:
+        """Whether the gain is more than twice its standard error."""
+        return self.value > 0 and self.value > 2 * self.error
 
     @property
     def text(self) -> str:
-        numbers = f"{self.tuned:.4f} against {self.default:.4f} for the paper's defaults"
-        where = f"on {self.frames:,} held-back frames"
-        if self.params == Params():
-            return f"No gain: no trial was better than the paper's defaults, which score {self.default:.4f} {where}."
-        if self.gained:
-            return f"Gain {self.gain:+.4f} (± {self.error:.4f}): {numbers} {where}."
-        if self.gain < -2 * self.error:
-            return f"No gain: {numbers} {where}. The defaults are better there; keep them."
+        numbers = f"{self.after:.4f} against {self.before:.4f} for {self.others}"
+        where = f"on {self.frames:,} held-back frames, higher in {self.higher} of {self.stretches} stretches"
+        if self.certain:
+            return f"Gain {self.value:+.4f} (± {self.error:.4f}): {numbers} {where}."
+        if self.value < -2 * self.error:
+            return f"No gain: {numbers} {where}. Keep {self.others}."
         return f"No gain: {numbers} {where}. The difference is less than twice its uncertainty of ± {self.error:.4f}."
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """The best trial compared on held-back frames with the present thresholds, and with the paper's if these differ."""
+
+    params: Params
+    gains: tuple[Gain, ...]
+    unchanged: bool
+
+    @property
+    def gained(self) -> bool:
+        """Whether the best trial is better than the present thresholds."""
+        return self.gains[0].certain
+
+    @property
+    def text(self) -> str:
+        first, *rest = self.gains
+        told = [first.text, *(each.text for each in rest)]
+        if self.unchanged:
+            told[0] = (
+                f"No gain: no trial was better than {first.others}, which score {first.before:.4f} on "
+                f"{first.frames:,} held-back frames."
+            )
+        return " ".join(told)
 
 
 class Tuning:
@@ -85,6 +112,8 @@ class Tuning:
     ) -> None:
         if objective.kind == "truth" and not blocks.truth:
             raise ValueError(f"{blocks.name} has no truth; tune it with the label-free objective")
+        if objective.kind == "label-free" and blocks.truth:
+            raise ValueError("these blocks are compared with the truth; make them blind for the label-free objective")
         thresholds = objective.thresholds if thresholds is None else thresholds
         if not thresholds:
             raise ValueError(f"no threshold to tune is given; choose from {', '.join(asdict(Params()))}")
@@ -193,23 +222,33 @@ class Tuning:
         return self._optuna.importance.get_param_importances(self._study, evaluator=evaluator)
 
     def verdict(self) -> Verdict:
-        """The best trial and the defaults on the held-back blocks."""
+        """The best trial against the present thresholds, and against the paper's defaults."""
         params = self.best().params
-        held_back = self._blocks.held_back
-        tuned, default = (self._blocks.totals(each, held_back) for each in (params, Params()))
-        gains = [
-            self._gain([*tuned[:k], *tuned[k + 1 :]], [*default[:k], *default[k + 1 :]]) for k in range(len(tuned))
-        ]
-        n = len(gains)
-        error = math.sqrt((n - 1) / n * float(np.sum((np.array(gains) - np.mean(gains)) ** 2))) if n > 1 else math.inf
-        frames = sum(self._blocks.frames[k] for k in held_back)
-        scores = self.objective.score(_sum(tuned)), self.objective.score(_sum(default))
-        return Verdict(params, *scores, error, frames)
+        tuned = self._blocks.totals(params, self._blocks.held_back)
+        others = {Params(): "the paper's defaults"}
+        if self._base != Params():
+            others = {self._base: "the present thresholds"} | others
+        gains = tuple(self._gain(tuned, each, name) for each, name in others.items())
+        return Verdict(params, gains, unchanged=params == self._base)
 
-    def _gain(self, tuned: Sequence[Totals], default: Sequence[Totals]) -> float:
-        if not tuned:
+    def _gain(self, tuned: Sequence[Totals], other: Params, name: str) -> Gain:
+        held_back = self._blocks.held_back
+        pairs = list(zip(tuned, self._blocks.totals(other, held_back), strict=True))
+        each = [self._difference([pair]) for pair in pairs]
+        without = np.array([self._difference([*pairs[:k], *pairs[k + 1 :]]) for k in range(len(pairs))])
+        n = len(pairs)
+        error = math.sqrt((n - 1) / n * float(np.sum((without - without.mean()) ** 2))) if n > 1 else math.inf
+        before = self.objective.score(_sum([other for _, other in pairs]))
+        frames = sum(self._blocks.frames[k] for k in held_back)
+        higher = sum(value > 0 for value in each)
+        return Gain(name, before, self.objective.score(_sum(tuned)), error, higher, n, frames)
+
+    def _difference(self, pairs: Sequence[tuple[Totals, Totals]]) -> float:
+        """The gain over these pairs alone."""
+        if not pairs:
             return 0.0
-        return self.objective.score(_sum(tuned)) - self.objective.score(_sum(default))
+        tuned, other = (self.objective.score(_sum(each)) for each in zip(*pairs, strict=True))
+        return tuned - other
 
     def _values(self, params: Params) -> dict[str, float]:
         return {name: getattr(params, name) for name in self._distributions}

@@ -67,7 +67,7 @@ export const tuningText = {
     progress: (/** @type {number} */ n) => `${n.toLocaleString("en")} ${n === 1 ? "trial" : "trials"}`,
     best: (/** @type {string} */ score) => `best ${score} on the training half`,
     intro:
-      "Tries out thresholds (with Optuna) on one half of the frames and compares the best with the paper's defaults on the other half. Trials are kept, so you can stop and continue another day.",
+      "Tries out thresholds (with Optuna) on one half of the frames and compares the best with the present thresholds and the paper's defaults on the other half. Trials are kept, so you can stop and continue another day.",
   },
   lost: "No connection to the server. You still see the last results.",
 };
