@@ -25,6 +25,6 @@ def judges(recording: Recording, demands: Thresholds | None = None) -> tuple[Par
     says why if nothing fits.
     """
     found = propose(recording, Params() if demands is None else demands_of(demands))
-    if found.fitting is None:
+    if not isinstance(found.fitting, Params):
         raise ValueError(f"{recording.name or 'this recording'} cannot be judged without truth. {found.text}")
     return tuple(rescaled(found.fitting, factor) for factor in SPREAD)

@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -24,6 +24,7 @@ from ..segment import Extraction
 from ..truth import Agreement, match
 from .objective import Objective
 
+T = TypeVar("T", bound=Thresholds)
 TRUTH = Objective("truth")
 FRAMES = 24
 LEAST_FRAMES = 4
@@ -93,7 +94,7 @@ def scaled(params: Thresholds, scale: float) -> Thresholds:
     return params.but(**values)
 
 
-def rescaled(params: Thresholds, factor: float) -> Thresholds:
+def rescaled(params: T, factor: float) -> T:
     """`params` with every threshold that depends on the noise multiplied by a factor."""
     following = ((name, knob) for name, _, knob in params.knobs() if knob.scatter)
     return params.but(

@@ -2,8 +2,8 @@
 
 For the samples, the simulated worlds, the real rooms beside LINESEG_DATA and further files with truth: 200 random pairs
 of settings (ε, δ and S_num within their sliders), scored by both objectives on the same frames. `clear` counts only the
-pairs whose true scores differ by more than 0.02; `best` is the true score of the setting that scores best without truth,
-divided by the best true score.
+pairs whose true scores differ by more than 0.02; `best` is the true score of the setting that scores best without
+truth, divided by the best true score.
 """
 
 from __future__ import annotations
