@@ -9,8 +9,9 @@
 Lengths are metres, angles radians, times seconds; frames and beams count from 0. By what one wants to do:
 
 Open a recording
-    `open_recording` a file (`TextOptions` for numbers as text; raise `Cancelled` to stop), a `Recording` of `Scan`s,
-    perhaps one of several a `Topic`; `read_pack`, `PackAbout`: what a failure pack says of itself.
+    `open_recording` a file (raise `Cancelled` to stop), a `Recording` of `Scan`s, perhaps one of several a `Topic`; a
+    `Reading` says how to read it, its `Account` what it was taken for, with each `Guess` and
+    `Notice`; `read_pack`, `PackAbout`: what a failure pack says of itself.
 Extract lines
     `extract` from a scan, with `Params`, an `Extraction` of `Segment`s, and what was `Dropped`; `survey` a whole
     recording, a `Survey`; `covariance`, `covariances` of lines, from the `Noise` of the beams.
@@ -40,7 +41,7 @@ from .doubt.suspicion import WEIGHTS, doubts, suspicion, worst_first
 from .extractors import EXTRACTORS, Extractor, extract, trace
 from .knobs import Knob, Thresholds
 from .params import Params
-from .readers import Cancelled, TextOptions, open_recording, save_npz
+from .readers import Account, Cancelled, Guess, Notice, Reading, open_recording, save_npz
 from .readers.pack import read_pack
 from .scan import PackAbout, Recording, Scan, Topic
 from .segment import Dropped, Extraction, Segment
@@ -62,6 +63,7 @@ __all__ = [
     "EXTRACTORS",
     "SCORES",
     "WEIGHTS",
+    "Account",
     "Agreement",
     "Cancelled",
     "ConflictError",
@@ -72,18 +74,20 @@ __all__ = [
     "Extraction",
     "Extractor",
     "FrameLabels",
+    "Guess",
     "Knob",
     "Matching",
     "Miss",
     "Noise",
+    "Notice",
     "PackAbout",
     "Params",
+    "Reading",
     "Recording",
     "Remark",
     "Scan",
     "Segment",
     "Survey",
-    "TextOptions",
     "Thresholds",
     "Topic",
     "Trace",

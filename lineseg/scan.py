@@ -5,10 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from .readers.account import Account
 
 Floats = NDArray[np.floating]
 
@@ -144,6 +147,8 @@ class Recording:
     walls: (walls, 4) of x1, y1, x2, y2 [m] in the world's frame, for simulated recordings.
     topic, topics: the stream these scans come from, and all that the file offers.
     pack: origin of a failure pack; None for other recordings.
+    numbers: (frames,) the frame of the file that each scan is, if some were left out; None if none was.
+    account: what the file was taken for; None for recordings that were not read from a file.
     """
 
     name: str
@@ -163,6 +168,8 @@ class Recording:
     topics: tuple[Topic, ...] = field(default=())
     format: str = ""
     pack: PackAbout | None = None
+    numbers: NDArray[np.int64] | None = None
+    account: Account | None = None
 
     @classmethod
     def from_scans(cls, scans: Iterable[Scan], name: str = "", **fields) -> Recording:
@@ -232,8 +239,13 @@ class Recording:
             offsets=np.concatenate(([0], np.cumsum(np.diff(self.offsets)[frames]))),
             frame_ids=tuple(self.frame_ids[frame] for frame in frames.tolist()),
             poses=None if self.poses is None else self.poses[frames],
+            numbers=None if self.numbers is None else self.numbers[frames],
             **{name: getattr(self, name)[frames] for name in of_frames},
         )
+
+    def number(self, frame: int) -> int:
+        """The frame of the file that scan `frame` is, counted from 0."""
+        return frame if self.numbers is None else int(self.numbers[frame])
 
     def _fan(self, frame: int) -> Fan:
         beams = int(self.offsets[frame + 1] - self.offsets[frame])

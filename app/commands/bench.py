@@ -8,10 +8,9 @@ from pathlib import Path
 
 from tyro.conf import OmitArgPrefixes, Positional
 
-from lineseg.readers import TextOptions
-
 from .flag_types import Switch, Unset
 from .progress import open_with_progress
+from .reading import ReadingFlags, reading_of
 from .thresholds import Flags, changed
 
 
@@ -19,16 +18,16 @@ def bench(
     file: Positional[Unset[Path]] = None,
     *,
     thresholds: OmitArgPrefixes[Flags],  # type: ignore[valid-type]
+    how: OmitArgPrefixes[ReadingFlags],  # type: ignore[valid-type]
     json: Switch = False,
-    topic: Unset[str] = None,
 ) -> None:
     """Time the extraction and compare it with the minimum work of the method.
 
     Args:
         file: recording to use (default: the samples).
         thresholds: thresholds of region growing.
+        how: how to read the file.
         json: write JSON instead of a table.
-        topic: laser topic to use (default: the first).
     """
     from lineseg import Params
     from lineseg.bench import bench as measure
@@ -42,7 +41,7 @@ def bench(
     files = [samples / "hallway.npz", samples / "laboratory.npz"] if file is None else [file]
     reports = []
     for path in files:
-        recording = open_with_progress(path, topic, TextOptions())
+        recording = open_with_progress(path, reading_of(how))
         timings = measure(recording, params)
         facts = {"file": recording.name, "frames": len(recording), "beams": recording.beams, "cores": cores()}
         reports.append(facts | {"params": params.numbers(), "timings": [asdict(timing) for timing in timings]})

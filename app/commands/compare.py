@@ -7,13 +7,14 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-from tyro.conf import Positional, arg
+from tyro.conf import OmitArgPrefixes, Positional, arg
 
-from lineseg.readers import TextOptions
+from lineseg.readers import Reading
 from lineseg.scan import Recording
 
 from .flag_types import Several, Unset
 from .progress import open_with_progress, progress_bar
+from .reading import ReadingFlags, reading_of
 
 if TYPE_CHECKING:
     from lineseg.compare import Comparison
@@ -24,12 +25,12 @@ SAMPLES = ("hallway", "laboratory")
 def compare(
     files: Positional[Several[str]] = (),
     *,
+    how: OmitArgPrefixes[ReadingFlags],  # type: ignore[valid-type]
     methods: Several[str] = (),
     budget: int = 150,
-    frames: int = 60,
+    most_frames: int = 60,
     out: Annotated[Unset[Path], arg(aliases=["-o"])] = None,
     figures: Unset[Path] = None,
-    topic: Unset[str] = None,
 ) -> None:
     """Compare methods as in the paper's tables: TR, FR, completeness, endpoint errors, time.
 
@@ -41,10 +42,10 @@ def compare(
         files: recordings, or names of samples and simulated worlds (default: all samples and worlds).
         methods: names of methods (default: all).
         budget: number of settings to try for each method; 0 runs the defaults only.
-        frames: number of frames to use from each recording; half of them are for tuning.
+        how: how to read the files.
+        most_frames: number of frames to use from each recording; half of them are for tuning.
         out: file to write, .md, .csv or .json (default: Markdown on standard output).
         figures: folder for two pictures of each recording: the times of all frames, and one frame with every method.
-        topic: laser topic to use (default: the first).
     """
     from lineseg.compare import TABLE_WRITERS, Comparison
     from lineseg.compare.figures import write_figures
@@ -56,8 +57,8 @@ def compare(
         raise FileNotFoundError(f"{out}: the folder {out.parent} does not exist.")
     if figures is not None and not figures.is_dir():
         raise FileNotFoundError(f"{figures}: there is no such folder; create it first.")
-    recordings = [_recording(name, topic) for name in files or (*SAMPLES, *WORLDS)]
-    comparisons = [Comparison(recording, methods or None, budget, frames) for recording in recordings]
+    recordings = [_recording(name, reading_of(how)) for name in files or (*SAMPLES, *WORLDS)]
+    comparisons = [Comparison(recording, methods or None, budget, most_frames) for recording in recordings]
     _run(comparisons)
     rows = [row for comparison in comparisons for row in comparison.rows]
     for comparison in comparisons:
@@ -102,7 +103,7 @@ def _tell(comparison: Comparison) -> None:
     tqdm.write(text, file=sys.stderr)
 
 
-def _recording(name: str, topic: str | None) -> Recording:
+def _recording(name: str, reading: Reading) -> Recording:
     """A file, or the sample or simulated world with this name."""
     from lineseg.simulate.worlds import WORLDS
 
@@ -116,4 +117,4 @@ def _recording(name: str, topic: str | None) -> Recording:
     if not path.exists():
         known = ", ".join((*SAMPLES, *WORLDS))
         raise FileNotFoundError(f"{name}: there is no such file, sample or world. Samples and worlds: {known}.")
-    return open_with_progress(path, topic, TextOptions())
+    return open_with_progress(path, reading)

@@ -1,61 +1,102 @@
-"""`lineseg extract`: writes segments to a file."""
+"""`lineseg extract`: writes segments to files."""
 
 from __future__ import annotations
 
+import json
 import sys
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 from tyro.conf import OmitArgPrefixes, Positional, arg
 
+from lineseg import __version__
 from lineseg.covariance import Noise
-from lineseg.readers import TextOptions
+from lineseg.knobs import Thresholds
+from lineseg.scan import Recording
 from lineseg.writers import SEGMENT_WRITERS, write_segments
 
-from .flag_types import Switch, Unset
+from .flag_types import Several, Switch, Unset
 from .progress import counted, open_with_progress
+from .reading import ReadingFlags, each_file, files_of, reading_of
 from .thresholds import Choice, suggested
 
 
 def extract(
-    file: Positional[Path],
+    files: Positional[Several[str]],
     choice: OmitArgPrefixes[Choice],
-    text: OmitArgPrefixes[TextOptions],
+    how: OmitArgPrefixes[ReadingFlags],  # type: ignore[valid-type]
     *,
     out: Annotated[Unset[Path], arg(aliases=["-o"])] = None,
-    topic: Unset[str] = None,
     range_noise: Unset[float] = None,
     bearing_noise: Unset[float] = None,
     suggest: Switch = False,
 ) -> None:
-    """Write the segments of a recording as JSON lines, CSV or GeoJSON.
+    """Write the segments of recordings as JSON lines, CSV or GeoJSON, with how they were read and extracted.
 
     Args:
-        file: recording to read.
+        files: recordings to read; * and ? stand for several.
         choice: method and thresholds (default: from --params, else the method's defaults).
-        text: scan geometry that a plain text file does not contain.
-        out: file to write, .jsonl, .csv or .geojson (default: JSON lines on standard output).
-        topic: laser topic to use (default: the first).
+        how: how to read the files.
+        out: file to write, .jsonl, .csv or .geojson; for several recordings a folder, where each gets a .jsonl file
+            (default: JSON lines on standard output). A .csv file gets a .csv.json beside it that says how it was made.
         range_noise: standard deviation of a range [m]; adds (rho, theta) and their covariance to each segment.
         bearing_noise: standard deviation of a bearing [rad]; adds the covariance too.
-        suggest: use thresholds that fit the noise of this recording, and print them.
+        suggest: use thresholds that fit the noise of each recording, and print them.
     """
-    chosen = choice.thresholds
+    chosen, reading = choice.thresholds, reading_of(how)
     noise = None
     if range_noise is not None or bearing_noise is not None:
         noise = Noise(range_noise or 0.0, bearing_noise or 0.0)
-    if out is not None and out.suffix.lower().removeprefix(".") not in SEGMENT_WRITERS:
-        raise ValueError(f"{out}: use a name that ends in {', '.join(f'.{format}' for format in SEGMENT_WRITERS)}.")
-    if out is not None and not out.absolute().parent.is_dir():
-        raise FileNotFoundError(f"{out}: the folder {out.parent} does not exist.")
-    recording = open_with_progress(file, topic, text)
-    if suggest:
-        chosen = suggested(recording, chosen, choice.method)
-    from lineseg import extract as extract_segments
+    targets = _targets(files_of(files), out)
 
-    scans = counted(enumerate(recording), len(recording), "extract")
-    rows = ((frame, scan, extract_segments(scan, chosen)) for frame, scan in scans)
+    def work(file: Path) -> None:
+        recording = open_with_progress(file, reading)
+        used = suggested(recording, chosen, choice.method) if suggest else chosen
+        _write(recording, choice.method, used, targets[file], noise)
+
+    each_file(files, work)
+
+
+def _targets(files: list[Path], out: Path | None) -> dict[Path, Path | None]:
+    """The file to write for each recording; None: standard output."""
     if out is None:
-        write_segments(sys.stdout, "jsonl", rows, noise)
-    else:
-        write_segments(out, None, rows, noise)
+        return dict.fromkeys(files)
+    if out.is_dir():
+        return {file: out / f"{file.name}.jsonl" for file in files}
+    if len(files) > 1:
+        raise ValueError(f"{out}: segments of {len(files)} recordings go into a folder; name one that exists.")
+    if out.suffix.lower().removeprefix(".") not in SEGMENT_WRITERS:
+        raise ValueError(f"{out}: use a name that ends in {', '.join(f'.{format}' for format in SEGMENT_WRITERS)}.")
+    if not out.absolute().parent.is_dir():
+        raise FileNotFoundError(f"{out}: the folder {out.parent} does not exist.")
+    return dict.fromkeys(files, out)
+
+
+def _write(recording: Recording, method: str, params: Thresholds, target: Path | None, noise: Noise | None) -> None:
+    from lineseg import EXTRACTORS
+
+    extract_segments = EXTRACTORS[method].extract
+    scans = counted(enumerate(recording), len(recording), "extract")
+    rows = ((recording.number(frame), scan, extract_segments(scan, params)) for frame, scan in scans)
+    about = about_of(recording, method, params)
+    if target is None:
+        write_segments(sys.stdout, "jsonl", rows, noise, about)
+        return
+    write_segments(target, None, rows, noise, about)
+    if target.suffix.lower() == ".csv":
+        target.with_name(f"{target.name}.json").write_text(json.dumps(about, indent=1) + "\n", encoding="utf-8")
+
+
+def about_of(recording: Recording, method: str, params: Thresholds) -> dict[str, Any]:
+    """How a file was read and its segments extracted, for JSON: enough to do it again."""
+    account = recording.account
+    assert account is not None
+    return {
+        "lineseg": __version__,
+        "file": recording.name,
+        "taken_for": account.line,
+        "reading": account.used.given(),
+        "guessed": [guess.field for guess in account.guesses],
+        "method": method,
+        "params": params.numbers(),
+    }

@@ -1,4 +1,4 @@
-"""`lineseg info`: describes a recording."""
+"""`lineseg info`: describes recordings."""
 
 from __future__ import annotations
 
@@ -9,28 +9,47 @@ import numpy as np
 from tyro.conf import OmitArgPrefixes, Positional
 
 from lineseg.noise import RangeNoise
-from lineseg.readers import TextOptions
 from lineseg.scan import Recording
 from lineseg.tuning.proposal import propose
 
-from .flag_types import Unset
+from .flag_types import Several
 from .progress import open_with_progress
+from .reading import ReadingFlags, each_file, reading_of
 
 
-def info(file: Positional[Path], text: OmitArgPrefixes[TextOptions], *, topic: Unset[str] = None) -> None:
-    """Describe a recording.
+def info(files: Positional[Several[str]], how: OmitArgPrefixes[ReadingFlags]) -> None:  # type: ignore[valid-type]
+    """Describe recordings, and say what each file was taken for.
 
     Args:
-        file: recording to read.
-        text: scan geometry that a plain text file does not contain.
-        topic: laser topic to use (default: the first).
+        files: recordings to read; * and ? stand for several.
+        how: how to read the files.
     """
-    for name, value in _facts(open_with_progress(file, topic, text)):
-        print(f"{name:<14}{value}")
+    reading = reading_of(how)
+    told = 0
+
+    def describe(file: Path) -> None:
+        nonlocal told
+        recording = open_with_progress(file, reading, tell=False)
+        if told:
+            print()
+        told += 1
+        for name, value in _facts(recording):
+            print(f"{name:<14}{value}")
+
+    each_file(files, describe)
 
 
 def _facts(recording: Recording) -> Iterator[tuple[str, object]]:
+    account = recording.account
+    assert account is not None
     yield "file", recording.name
+    yield "taken for", account.line
+    for guess in account.guesses:
+        yield "guessed", guess.text
+    for notice in account.notices:
+        yield "noticed", notice.advice
+    if account.skips:
+        yield "skipped", account.skipped_text
     yield "format", recording.format
     for topic in recording.topics:
         yield "topic", f"{topic.name} ({topic.scans} scans){' *' if topic.name == recording.topic else ''}"
@@ -45,7 +64,7 @@ def _facts(recording: Recording) -> Iterator[tuple[str, object]]:
     yield "invalid beams", f"{1 - valid / max(len(recording.ranges), 1):.2%}"
     longest = [scan.ranges[scan.valid].max() for scan in recording if scan.valid.any()]
     yield "longest range", f"{max(longest, default=0.0):.3f} m"
-    if recording.stamps.any():
+    if account.believable:
         yield "duration", f"{np.ptp(recording.stamps):.3f} s"
     found = propose(recording)
     yield "noise", _noise(found.noise, [float(ranges) for ranges in longest])

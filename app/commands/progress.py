@@ -11,7 +11,7 @@ from pathlib import Path
 from types import FrameType
 from typing import Any, TypeVar
 
-from lineseg.readers import TextOptions, open_recording
+from lineseg.readers import Reading, open_recording
 from lineseg.scan import Recording
 
 T = TypeVar("T")
@@ -71,6 +71,13 @@ def counted(items: Iterable[T], total: int, what: str) -> Iterator[T]:
             yield item
 
 
-def open_with_progress(file: Path, topic: str | None, text: TextOptions) -> Recording:
+def open_with_progress(file: Path, reading: Reading, tell: bool = True) -> Recording:
+    """The recording of a file; tell: whether to print on stderr what cannot be, and what was skipped."""
     with progress_bar("read", "B") as advance:
-        return open_recording(file, topic, advance, text)
+        recording = open_recording(file, reading, progress=advance)
+    account = recording.account
+    assert account is not None
+    for text in (*(notice.advice for notice in account.notices), account.skipped_text):
+        if text and tell:
+            print(f"lineseg: {recording.name}: {text}", file=sys.stderr)
+    return recording

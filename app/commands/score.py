@@ -11,62 +11,94 @@ from pathlib import Path
 
 from tyro.conf import OmitArgPrefixes, Positional
 
-from lineseg.readers import TextOptions
+from lineseg.knobs import Thresholds
 from lineseg.scan import Recording
 from lineseg.truth import Agreement
 
-from .flag_types import Switch, Unset
+from .flag_types import Several, Switch, Unset
 from .progress import counted, open_with_progress
+from .reading import ReadingFlags, each_file, files_of, reading_of
 from .thresholds import Choice
 
 
 def score(
-    file: Positional[Path],
+    files: Positional[Several[str]],
     choice: OmitArgPrefixes[Choice],
-    text: OmitArgPrefixes[TextOptions],
+    how: OmitArgPrefixes[ReadingFlags],  # type: ignore[valid-type]
     *,
     truth: Unset[Path] = None,
     json: Switch = False,
     csv: Switch = False,
-    topic: Unset[str] = None,
 ) -> None:
-    """Compare the segments of a recording with its true lines.
+    """Compare the segments of recordings with their true lines.
 
     Args:
-        file: recording to read.
+        files: recordings to read; * and ? stand for several.
         choice: method and thresholds (default: from --params, else the method's defaults).
-        text: scan geometry that a plain text file does not contain.
-        truth: labels, .lineseg.json (default: the array `wall` of the recording).
-        json: write JSON instead of a table, with the whole recording and each frame.
+        how: how to read the files.
+        truth: labels of one recording, .lineseg.json (default: the array `wall` of each recording).
+        json: write JSON instead of a table, a line for each recording, with its total and each frame.
         csv: write CSV instead of a table, with a row for each frame.
-        topic: laser topic to use (default: the first).
     """
-    from lineseg import agreements
-
     if json and csv:
         raise ValueError("--json and --csv cannot be combined; give one of them.")
-    chosen, method = choice.thresholds, choice.method
-    recording = open_with_progress(file, topic, text)
+    several = len(files_of(files)) > 1
+    if truth is not None and several:
+        raise ValueError("--truth has the labels of one recording; name one file.")
+    chosen, reading, method = choice.thresholds, reading_of(how), choice.method
+    totals: list[Agreement] = []
+
+    def work(file: Path) -> None:
+        recording = open_with_progress(file, reading)
+        frames = _agreements(recording, chosen, method, truth)
+        total = Agreement.of_all(frames.values())
+        if csv:
+            _write_csv(recording.name if several else None, frames, header=not totals)
+        elif json:
+            report = {"file": recording.name, "reading": _used(recording), "method": method}
+            report |= {"params": chosen.numbers(), **_numbers(total)}
+            print(dumps(report | {"frames": [{"frame": frame, **_numbers(each)} for frame, each in frames.items()]}))
+        else:
+            _print_table(f"{recording.name}, {len(frames)} frames with true lines, {method}", total)
+        totals.append(total)
+
+    try:
+        each_file(files, work)
+    finally:
+        if len(totals) > 1 and not (csv or json):
+            _print_table(f"all {len(totals)} files, {method}", Agreement.of_all(totals))
+
+
+def _agreements(recording: Recording, params: Thresholds, method: str, truth: Path | None) -> dict[int, Agreement]:
+    """The agreement of each frame that has true lines, by its number in the file."""
+    from lineseg import agreements
+
     known = () if truth is None else _labelled(truth, recording)
     if truth is None and recording.wall is None:
         raise ValueError(
             f"{recording.name} has no truth; give a file of labels with --truth, or use an NPZ with `wall`."
         )
-    found = counted(agreements(recording, chosen, method, *known), len(recording), "score")
-    frames = {frame: each for frame, each in enumerate(found) if each is not None}
-    total = Agreement.of_all(frames.values())
-    if csv:
-        rows = [{"frame": frame, **_numbers(each)} for frame, each in frames.items()]
-        writer = csv_format.DictWriter(sys.stdout, rows[0], lineterminator="\n")
+    found = counted(agreements(recording, params, method, *known), len(recording), "score")
+    return {recording.number(frame): each for frame, each in enumerate(found) if each is not None}
+
+
+def _used(recording: Recording) -> dict[str, object]:
+    return {} if recording.account is None else recording.account.used.given()
+
+
+def _write_csv(file: str | None, frames: dict[int, Agreement], header: bool) -> None:
+    named = {} if file is None else {"file": file}
+    rows = [{**named, "frame": frame, **_numbers(each)} for frame, each in frames.items()]
+    writer = csv_format.DictWriter(sys.stdout, rows[0], lineterminator="\n")
+    if header:
         writer.writeheader()
-        writer.writerows(rows)
-    elif json:
-        report = {"file": recording.name, "method": method, "params": chosen.numbers(), **_numbers(total)}
-        print(dumps(report | {"frames": [{"frame": frame, **_numbers(each)} for frame, each in frames.items()]}))
-    else:
-        print(f"{recording.name}, {len(frames)} frames with true lines, {method}")
-        for name, value in _facts(total):
-            print(f"{name:<24}{value:>10}")
+    writer.writerows(rows)
+
+
+def _print_table(title: str, total: Agreement) -> None:
+    print(title)
+    for name, value in _facts(total):
+        print(f"{name:<24}{value:>10}")
 
 
 def _labelled(file: Path, recording: Recording) -> tuple[Callable, Callable]:
@@ -79,8 +111,8 @@ def _labelled(file: Path, recording: Recording) -> tuple[Callable, Callable]:
     if all(each.lines is None for each in labels.values()):
         raise ValueError(f"{file}: no frame has true lines.")
     return (
-        lambda frame: labels.get(frame, FrameLabels()).truth(recording[frame]),
-        lambda frame: labels[frame].ends,
+        lambda frame: labels.get(recording.number(frame), FrameLabels()).truth(recording[frame]),
+        lambda frame: labels[recording.number(frame)].ends,
     )
 
 

@@ -13,6 +13,7 @@ from lineseg.writers import read_params
 
 from .flag_types import Several, Unset
 from .progress import progress_bar
+from .reading import ReadingFlags, files_of, reading_of
 
 
 def _axis_flag(symbol: str, unit: str, text: str) -> Any:
@@ -29,12 +30,12 @@ Axes: type = make_dataclass(
 def sweep(
     files: Positional[Several[Path]],
     axes: OmitArgPrefixes[Axes],  # type: ignore[valid-type]
+    how: OmitArgPrefixes[ReadingFlags],  # type: ignore[valid-type]
     *,
     out: Annotated[Path, arg(aliases=["-o"])],
     plot: Unset[Path] = None,
     measure: Unset[str] = None,
     params: Unset[Path] = None,
-    topic: Unset[str] = None,
     scheduler: Unset[str] = None,
 ) -> None:
     """Try every combination of threshold values on whole recordings: coverage, segments, and, with truth, TR and FR.
@@ -45,11 +46,11 @@ def sweep(
     Args:
         files: recordings to read.
         axes: values of the thresholds (default: from --params, else the defaults).
+        how: how to read the files.
         out: table to write, .csv or .parquet, with a row for each file and setting.
         plot: picture to write, .png or .svg: curves for one threshold, or a map for the first two.
         measure: the measure that the map shows.
         params: thresholds to start from: ROS 1 launch file, ROS 2 YAML, JSON, Python or flags.
-        topic: laser topic to use (default: the first).
         scheduler: address of a Dask scheduler, such as tcp://host:8786 (default: threads of this machine). Its workers
             must find the files at the same paths.
     """
@@ -72,7 +73,7 @@ def sweep(
     complete = False
     try:
         with pool(scheduler) as workers, progress_bar("sweep", "frame") as advance:
-            result = measure_all(files, grid, workers, topic, journal, advance)
+            result = measure_all(files_of(files), grid, workers, reading_of(how), journal, advance)
         write_table(result, out)
         complete = True
     finally:

@@ -6,30 +6,31 @@ import sys
 from pathlib import Path
 from typing import Annotated, Literal
 
-from tyro.conf import Positional, arg
+from tyro.conf import OmitArgPrefixes, Positional, arg
 
 from lineseg.params import Params
 from lineseg.writers import params_text, read_params
 
 from .flag_types import Several, Unset
 from .progress import progress_bar
+from .reading import ReadingFlags, files_of, reading_of
 
 
 def tune(
     files: Positional[Several[Path]],
+    how: OmitArgPrefixes[ReadingFlags],  # type: ignore[valid-type]
     *,
     trials: int = 100,
     objective: Unset[Literal["truth", "label-free"]] = None,
     thresholds: Unset[tuple[str, ...]] = None,
     split: Literal["frames", "files"] = "frames",
-    frames: Unset[int] = None,
+    most_frames: Unset[int] = None,
     recall: float = 1.0,
     completeness: float = 1.0,
     study: Unset[Path] = None,
     out: Annotated[Unset[Path], arg(aliases=["-o"])] = None,
     to: Literal["ros2", "ros1", "python", "flags"] = "ros2",
     params: Unset[Path] = None,
-    topic: Unset[str] = None,
     scheduler: Unset[str] = None,
 ) -> None:
     """Search for thresholds with Optuna, and compare the best with the present ones and with the paper's defaults, on
@@ -40,13 +41,14 @@ def tune(
 
     Args:
         files: recordings to read.
+        how: how to read the files.
         trials: number of settings to try in this call.
         objective: compare with the truth, or with lines that fit the noise of the laser (default: truth if all files
             have it).
         thresholds: names of the thresholds to tune (default: the paper's five with truth; epsilon, delta and
             seed_points without it, because label-free scores cannot know which lines you want).
         split: what to hold back: every other stretch of frames, or every other file.
-        frames: total number of frames to use, spread over the files (default: all).
+        most_frames: total number of frames to use, spread over the files (default: all).
         recall: weight of TR relative to 1 - FR.
         completeness: exponent of the completeness.
         study: SQLite file to keep the trials in.
@@ -54,7 +56,6 @@ def tune(
         to: format of the thresholds.
         params: the present thresholds, kept where they are not tuned (default: the paper's defaults): ROS 1 launch
             file, ROS 2 YAML, JSON, Python or flags.
-        topic: laser topic to use (default: the first).
         scheduler: address of a Dask scheduler, such as tcp://host:8786 (default: threads of this machine).
     """
     from lineseg.sweep import pool
@@ -67,7 +68,7 @@ def tune(
     base = Params() if params is None else read_params(params.read_text(encoding="utf-8-sig"))
     with pool(scheduler) as workers:
         blind = None if objective is None else objective == "label-free"
-        blocks = FileBlocks(files, workers, blind, split, topic, frames, base)
+        blocks = FileBlocks(files_of(files), workers, blind, split, reading_of(how), most_frames, base)
         kind = objective or ("truth" if blocks.truth else "label-free")
         aim = Objective(kind, recall, completeness)
         tuning = Tuning(blocks, aim, study, thresholds, base)

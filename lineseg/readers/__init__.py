@@ -5,22 +5,30 @@ A new format is one small class in one file, and one line in READERS.
 
 from __future__ import annotations
 
-import gzip
-import zlib
+from contextlib import ExitStack
+from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 from ..arguments import need_path
 from ..scan import Recording
+from .account import Account, Guess, Notice, Skipped
+from .applying import applied
 from .carmen import CarmenLog
+from .folder import bag_of_metadata, recording_in
 from .npz import Npz, save_npz
 from .pack import FailurePack
+from .reading import Reading
 from .ros1 import Ros1Bag
 from .ros2 import Mcap, Ros2Bag
-from .source import GZIP_MAGIC, Cancelled, Progress, Reader, Source
+from .source import Cancelled, Progress, Reader, Source
 from .text import Text
-from .text_options import TextOptions
+from .wrapping import unwrapped
 
-__all__ = ["READERS", "Cancelled", "Progress", "TextOptions", "open_recording", "save_npz"]
+__all__ = [
+    "READERS", "Account", "Cancelled", "Guess", "Notice", "Progress", "Reading", "Skipped", "open_recording",
+    "save_npz",
+]  # fmt: skip
 
 HEAD_BYTES = 1 << 16
 
@@ -30,46 +38,66 @@ READERS: tuple[type[Reader], ...] = (Ros1Bag, Ros2Bag, Mcap, FailurePack, Npz, C
 
 
 def open_recording(
-    path: str | Path, topic: str | None = None, progress: Progress | None = None, text: TextOptions | None = None
+    path: str | Path, reading: Reading | None = None, *, progress: Progress | None = None, **given: Any
 ) -> Recording:
-    """The scans of a file, or of the folder of a ROS 2 bag.
+    """The scans of a file, or of the folder of a ROS 2 bag; `Recording.account` says what it was taken for.
 
-    topic: the stream of scans to read (default: the first). `Recording.topics` lists all.
+    reading: how to read it, where the file does not say it or says it wrongly.
     progress: called with (done, total) while reading; may raise `Cancelled`, which is passed on.
-    text: the scan geometry that a plain text file does not contain.
+    given: fields of the Reading, as in open_recording("scan.csv", unit="mm").
     Raises ValueError or OSError, with one sentence, if the file cannot be read.
     """
     need_path(path)
     path = Path(path)
-    source = Source(path, topic, progress or (lambda done, total: None), text or TextOptions())
+    reading = (reading or Reading()).but(**given)
     if not path.exists():
         raise FileNotFoundError(f"{path}: there is no such file or folder.")
-    try:
-        recording = (_folder_reader(path) if path.is_dir() else _reader(source, _head(path))).read(source)
-    except PermissionError:
-        raise PermissionError(f"{path}: you have no permission to read it.") from None
+    with ExitStack() as stack:
+        try:
+            return _read(Source(path, reading, progress or (lambda done, total: None), named=path), stack)
+        except PermissionError:
+            raise PermissionError(f"{path}: you have no permission to read it.") from None
+
+
+def _read(source: Source, stack: ExitStack) -> Recording:
+    path = bag_of_metadata(source.path)
+    reader = _own_folder(path)
+    if path.is_dir() and reader is None:
+        path = recording_in(path)
+    if reader is None:
+        path = unwrapped(path, stack, source.notes, source.progress)
+    source = replace(source, path=path)
+    reader = reader or (Ros2Bag if path.is_dir() else _reader(source, _head(path)))
+    source.reading.check_format(source.name, reader.format)
+    recording = _whole(source, reader)
     if not recording.ranges.size:
         raise ValueError(f"{source.name} has no scan with a beam; open another file or topic.")
-    return recording
+    return applied(recording, source.reading, source.notes)
 
 
-def _folder_reader(folder: Path) -> type[Reader]:
-    # Any other folder is treated as a ROS 2 bag, whose reader says what is missing.
-    return next((reader for reader in READERS if reader.recognises_folder(folder)), Ros2Bag)
+def _whole(source: Source, reader: type[Reader]) -> Recording:
+    """What a reader reads; if compressed data broke off, an error says that first."""
+    try:
+        return reader.read(source)
+    except ValueError as error:
+        broken = next((notice.text for notice in source.notes.notices if notice.kind == "breaks off"), None)
+        if broken is None:
+            raise
+        raise ValueError(f"{source.name}: {broken[0].lower()}{broken[1:]} {error}") from None
+
+
+def _own_folder(path: Path) -> type[Reader] | None:
+    return next((reader for reader in READERS if reader.recognises_folder(path)), None) if path.is_dir() else None
 
 
 def _reader(source: Source, head: bytes) -> type[Reader]:
     suffixes = [suffix.lower() for suffix in source.path.suffixes]
-    by_suffix = next((reader for reader in READERS if suffixes and _last(suffixes) in reader.suffixes), None)
+    by_suffix = next((reader for reader in READERS if suffixes and suffixes[-1] in reader.suffixes), None)
     expected = f"; a {by_suffix.format} has {by_suffix.expects}" if by_suffix else ""
     if not head.strip():
         raise ValueError(f"{source.name} is empty{expected}.")
     for reader in READERS:
         if reader.recognises(head):
-            if _packed(source.path) and not reader.unpacks:
-                raise ValueError(
-                    f"{source.name}: a {reader.format} compressed with gzip; unpack it with `gunzip` first."
-                )
             return CarmenLog if reader is Text and by_suffix is CarmenLog and not _has_numbers(head) else reader
     formats = ", ".join(reader.format for reader in READERS)
     raise ValueError(
@@ -77,31 +105,11 @@ def _reader(source: Source, head: bytes) -> type[Reader]:
     )
 
 
-def _last(suffixes: list[str]) -> str:
-    return suffixes[-2] if suffixes[-1] == ".gz" and len(suffixes) > 1 else suffixes[-1]
-
-
 def _has_numbers(head: bytes) -> bool:
     """Whether a line starts like a number, so that a .log may be a table after all."""
     return any(line.lstrip()[:1] in b"+-.0123456789" for line in head.splitlines() if line.strip())
 
 
-def _packed(path: Path) -> bool:
-    with path.open("rb") as file:
-        return file.read(2) == GZIP_MAGIC
-
-
 def _head(path: Path) -> bytes:
-    """The first bytes of a file, unpacked if it is gzip; as many as are readable if it is broken."""
-    if not _packed(path):
-        with path.open("rb") as file:
-            return file.read(HEAD_BYTES)
-    head = bytearray()
-    try:
-        with gzip.open(path, "rb") as file:
-            while len(head) < HEAD_BYTES and (piece := file.read1(HEAD_BYTES)):
-                head += piece
-    except (EOFError, zlib.error, gzip.BadGzipFile) as error:
-        if not head:
-            raise ValueError(f"{path.name}: damaged gzip data ({error}); fetch the file again.") from None
-    return bytes(head)
+    with path.open("rb") as file:
+        return file.read(HEAD_BYTES)

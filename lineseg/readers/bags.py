@@ -77,8 +77,7 @@ def collect(
     if not sweeps:
         raise ValueError(f"{source.name}: the topic {topic} has no messages; choose another topic.")
     recording = sweeps.recording(source, topic=topic, topics=topics, format=format)
-    if not recording.stamps.any():
-        recording.stamps[:] = np.array(recorded)
+    source.notes.recorded = np.array(recorded)
     return recording
 
 

@@ -35,7 +35,6 @@ class CarmenLog(Reader):
     format = "CARMEN log"
     suffixes = (".log", ".clf", ".carmen")
     expects = "lines that begin with FLASER, RLASER, ROBOTLASER1 or ROBOTLASER2"
-    unpacks = True
 
     @staticmethod
     def recognises(head: bytes) -> bool:
@@ -52,13 +51,16 @@ class CarmenLog(Reader):
             if laser:
                 decode = _decode_flaser if laser in MAXIMA else _decode_robotlaser
                 try:
-                    lasers.setdefault(laser, []).append(decode(text))
+                    line = decode(text)
                 except ValueError as error:
-                    raise ValueError(f"{source.name}:{number}: {error}") from None
+                    source.notes.skip(f"{source.name}:{number}", str(error))
+                else:
+                    lasers.setdefault(laser, []).append(line)
             elif word == [b"PARAM"]:
                 _, key, value, *_ = (*text.split(), b"", b"")
                 settings[key] = value
         if not lasers:
+            source.notes.nothing_left()
             raise ValueError(f"{source.name} has no laser line; a CARMEN log has {CarmenLog.expects}.")
         topics = [Topic(name, len(lines)) for name, lines in lasers.items()]
         topic = source.choose(topics, "message")

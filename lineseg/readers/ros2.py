@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-import re
 import shutil
 import sqlite3
 import tempfile
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
-from typing import Any, Protocol
+from typing import IO, Any, Protocol, cast
 from urllib.parse import quote
 
 from ..scan import Recording
 from .bags import Stream, choose_streams, collect, guarded
+from .bounded import expand, limit_of, unzstd
+from .folder import storage_files
 from .laser_scan import decode_cdr, decode_ros1
 from .source import Reader, Source
 
@@ -43,7 +44,7 @@ class Ros2Bag(Reader):
 
     @staticmethod
     def read(source: Source) -> Recording:
-        return _read(source, _bag_files(source) if source.path.is_dir() else [source.path], Ros2Bag.format)
+        return _read(source, storage_files(source.path) if source.path.is_dir() else [source.path], Ros2Bag.format)
 
 
 class Mcap(Reader):
@@ -86,22 +87,6 @@ def _read(source: Source, files: list[Path], format: str) -> Recording:
         decode = decode_ros1 if encodings == {"ros1"} else lambda data: decode_cdr(_unpacked(data))
         total = sum(stream.messages for stream in chosen)
         return collect(source, messages(), total, decode, topic, topics, format)
-
-
-def _bag_files(source: Source) -> list[Path]:
-    """The storage files of a bag's folder in recording order: bag_2 comes before bag_10."""
-    names = (".db3", ".mcap", ".db3.zstd", ".mcap.zstd")
-    files = [path for path in source.path.iterdir() if path.name.endswith(names) and path.is_file()]
-    if not files:
-        raise ValueError(
-            f"{source.name} is a folder without a ROS 2 recording, which has .db3 or .mcap files. "
-            "Open other recordings one file at a time."
-        )
-    return sorted(files, key=lambda path: [int(part) if part.isdecimal() else part for part in _parts(path.name)])
-
-
-def _parts(name: str) -> list[str]:
-    return re.split(r"(\d+)", name)
 
 
 @contextmanager
@@ -192,15 +177,11 @@ def _unpack_file(file: Path, stack: ExitStack) -> Path:
 
     folder = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="lineseg-")))
     unpacked = folder / file.name.removesuffix(".zstd")
-    with zstd.open(file, "rb") as packed, unpacked.open("wb") as out:
-        shutil.copyfileobj(packed, out)
+    with zstd.open(file, "rb") as packed:
+        expand(cast(IO[bytes], packed), unpacked, file.name, limit_of(file.stat().st_size))
     return unpacked
 
 
 def _unpacked(data: bytes) -> bytes:
     """A message, decompressed if necessary; CDR never begins like zstd."""
-    if not data.startswith(ZSTD_MAGIC):
-        return data
-    from rosbags.rosbag2.reader import zstd
-
-    return zstd.decompress(data)
+    return unzstd(data) if data.startswith(ZSTD_MAGIC) else data

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import gzip
-import io
-import zlib
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -13,10 +10,10 @@ from typing import Any, ClassVar
 import numpy as np
 
 from ..scan import Floats, Recording, Topic
-from .text_options import TextOptions
+from .account import Notes
+from .reading import Reading
 
 Progress = Callable[[int, int], None]
-GZIP_MAGIC = b"\x1f\x8b"
 LONGEST_LINE = 1 << 24
 
 
@@ -26,62 +23,61 @@ class Cancelled(Exception):  # noqa: N818 - this is not an error
 
 @dataclass(frozen=True)
 class Source:
-    """One file to read, with options.
+    """One file to read, and how.
 
-    progress: called with (done, total) in bytes or messages; it may raise `Cancelled`.
+    path: the file, or its expanded copy; named: as the user named it. progress: called with (done, total) in bytes or
+    messages; it may raise `Cancelled`. notes: what the reader finds out besides the scans.
     """
 
     path: Path
-    topic: str | None = None
+    reading: Reading = field(default_factory=Reading)
     progress: Progress = lambda done, total: None
-    text: TextOptions = field(default_factory=TextOptions)
+    notes: Notes = field(default_factory=Notes)
+    named: Path | None = None
 
     @property
     def name(self) -> str:
-        return self.path.name or str(self.path)
+        path = self.named or self.path
+        return path.name or str(path)
 
     def lines(self) -> Iterator[tuple[int, bytes]]:
-        """(number, line) of a text file, plain or gzip; numbers count from 1, line ends are removed."""
+        """(number, line) of a text file; numbers count from 1, line ends are removed."""
         total = max(self.path.stat().st_size, 1)
         number = 0
         with self.path.open("rb") as file:
-            packed = file.read(2) == GZIP_MAGIC
-            file.seek(0)
-            unpacked = io.BufferedReader(gzip.GzipFile(fileobj=file), 1 << 14) if packed else file  # type: ignore[arg-type]
-            try:
-                while line := unpacked.readline(LONGEST_LINE):
-                    number += 1
-                    if number % 256 == 1:
-                        self.progress(file.tell(), total)
-                    yield number, line.rstrip(b"\r\n")
-            except (EOFError, zlib.error, gzip.BadGzipFile) as error:
-                where = f"{self.name}:{number}: after this line" if number else f"{self.name}:"
-                raise ValueError(
-                    f"{where} the gzip data are incomplete or damaged ({str(error).rstrip('.')}); "
-                    "fetch the file again, or unpack the readable part with `gzip -dc`."
-                ) from None
+            while line := file.readline(LONGEST_LINE):
+                number += 1
+                if number % 256 == 1:
+                    self.progress(file.tell(), total)
+                yield number, line.rstrip(b"\r\n")
         self.progress(total, total)
 
     def choose(self, topics: list[Topic], what: str = "topic") -> str:
-        """The wanted topic, or the first. Raises ValueError, listing the topics, if it does not exist."""
+        """The wanted topic, or the first that has scans.
+
+        Raises ValueError, listing the topics, if it does not exist.
+        """
         names = [topic.name for topic in topics]
-        if self.topic is None:
-            return names[0]
-        if self.topic not in names:
-            raise ValueError(f"{self.name} has no laser {what} {self.topic!r}; it has {', '.join(names)}.")
-        return self.topic
+        wanted = self.reading.topic
+        if wanted is None:
+            first = next((topic.name for topic in topics if topic.scans), names[0])
+            if first != names[0]:
+                self.notes.notice("empty topic", f"{names[0]} has no scans, so {first} is shown.")
+            return first
+        if wanted not in names:
+            raise ValueError(f"{self.name} has no laser {what} {wanted!r}; it has {', '.join(names)}.")
+        return wanted
 
 
 class Reader:
     """A format. format: its name; suffixes: in lower case; expects: the typical content, for messages.
 
-    unpacks: whether it also reads gzip files; `recognises` then gets the unpacked bytes.
+    Compressed files are unpacked before a reader sees them.
     """
 
     format: ClassVar[str]
     suffixes: ClassVar[tuple[str, ...]]
     expects: ClassVar[str]
-    unpacks: ClassVar[bool] = False
 
     @staticmethod
     def recognises(head: bytes) -> bool:

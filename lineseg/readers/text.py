@@ -6,7 +6,6 @@ import csv
 import math
 import re
 from collections.abc import Iterator
-from dataclasses import replace
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -14,9 +13,8 @@ import numpy as np
 
 from ..scan import Floats, Recording, Topic
 from .numbers import all_numbers, is_number, split
-from .range_limits import longest_return
+from .reading import Reading
 from .source import Reader, Source, Sweeps
-from .text_options import METRES, TextOptions, Unit
 
 # angle_min and angle_increment, in degrees, of common lasers by number of beams.
 LASERS = {
@@ -49,7 +47,6 @@ class Text(Reader):
     format = "text"
     suffixes = (".csv", ".txt", ".dat", ".tsv", ".asc", ".xy")
     expects = "lines of numbers"
-    unpacks = True
 
     @staticmethod
     def recognises(head: bytes) -> bool:
@@ -109,28 +106,30 @@ def _numbers(source: Source, row: Row, text: bytes) -> Floats:
     return values
 
 
-def _with_comments(source: Source, said: dict[str, str]) -> TextOptions:
+def _with_comments(source: Source, said: dict[str, str]) -> Reading:
     """The given options, completed from the comment lines of the file."""
     found: dict[str, str | float | int] = {}
-    for name in TextOptions.names():
-        if name in said and getattr(source.text, name) is None:
+    for name in said.keys() & Reading.declared().keys():
+        if getattr(source.reading, name) is None:
             try:
-                value = said[name]
-                found[name] = value if "unit" in name else int(value) if name == "skip_columns" else float(value)
+                kind, value = Reading.type_of(name), said[name]
+                found[name] = kind(value) if kind in (int, float) else value
             except ValueError:
                 raise ValueError(
                     f"{source.name}: its comments say {name} = {said[name]!r}; it must be a number."
                 ) from None
     try:
-        return replace(source.text, **found)  # type: ignore[arg-type]
+        options = source.reading.but(**found)
     except ValueError as error:
         raise ValueError(f"{source.name}: {error}") from None
+    source.notes.found |= found
+    return options
 
 
 # One scan a row
 
 
-def _read_scans(source: Source, rows: Iterator[Row], options: TextOptions) -> Recording:
+def _read_scans(source: Source, rows: Iterator[Row], options: Reading) -> Recording:
     scans: list[Floats] = []
     numbers: list[int] = []
     skip = options.skip_columns
@@ -149,13 +148,11 @@ def _read_scans(source: Source, rows: Iterator[Row], options: TextOptions) -> Re
         scans = [np.concatenate(scans)]
     if len(scans[0]) == 0:
         raise ValueError(f"{source.name}:{numbers[0]}: no ranges are left after {skip} leading columns; skip fewer.")
-    ranges = np.concatenate(scans)
-    unit = options.unit or _guess_unit(ranges)
     angle_min, increment = _angles(source, len(scans[0]), options)
     sweeps = Sweeps()
     for scan in scans:
-        sweeps.add(scan * METRES[unit], angle_min, increment)
-    return _finish(source, sweeps, options)
+        sweeps.add(scan, angle_min, increment)
+    return _finish(source, sweeps)
 
 
 def _leading_columns(text: bytes) -> int:
@@ -164,14 +161,7 @@ def _leading_columns(text: bytes) -> int:
     return len(split(parts[0])) if len(parts) == 2 and len(split(parts[1])) > len(split(parts[0])) else 0
 
 
-def _guess_unit(ranges: Floats) -> Unit:
-    """Whole numbers, most of them too large for metres, are millimetres."""
-    finite = ranges[np.isfinite(ranges) & (ranges > 0)]
-    whole = len(finite) > 0 and bool((finite == np.floor(finite)).all())
-    return "mm" if whole and np.percentile(finite, 90) > 100 else "m"
-
-
-def _angles(source: Source, beams: int, options: TextOptions) -> tuple[float, float]:
+def _angles(source: Source, beams: int, options: Reading) -> tuple[float, float]:
     """angle_min and angle_increment [rad]: as given, or of the common laser with this number of beams."""
     low, step = (math.radians(angle) for angle in LASERS.get(beams, (math.nan, math.nan)))
     step = step if options.angle_increment is None else options.angle_increment
@@ -189,7 +179,7 @@ def _angles(source: Source, beams: int, options: TextOptions) -> tuple[float, fl
 # Columns of angle and distance
 
 
-def _read_columns(source: Source, rows: Iterator[Row], options: TextOptions, names: list[str]) -> Recording:
+def _read_columns(source: Source, rows: Iterator[Row], options: Reading, names: list[str]) -> Recording:
     angle_at = _column(source, names, ANGLES)
     distance_at = _column(source, names, DISTANCES)
     table: list[Floats] = []
@@ -208,16 +198,17 @@ def _read_columns(source: Source, rows: Iterator[Row], options: TextOptions, nam
     angles, distances = np.array(table).T
     if not np.isfinite(angles).all():
         raise ValueError(f"{source.name}: an angle is not a finite number; each beam needs its own.")
-    named_mm = names[distance_at].endswith("_mm")
-    unit = options.unit or ("mm" if named_mm else _guess_unit(distances))
+    if names[distance_at].endswith("_mm"):
+        source.notes.found["unit"] = "mm"
     if _in_degrees(angles, names[angle_at], options):
         angles = np.deg2rad(angles)
+    source.notes.radians = True
     sweeps = Sweeps()
     for start, stop in _revolutions(angles):
-        bearings, ranges = angles[start:stop], distances[start:stop] * METRES[unit]
+        bearings, ranges = angles[start:stop], distances[start:stop]
         increment = (bearings[-1] - bearings[0]) / max(len(bearings) - 1, 1)
         sweeps.add(ranges, bearings[0], increment, bearings=bearings)
-    return _finish(source, sweeps, options)
+    return _finish(source, sweeps)
 
 
 def _column(source: Source, names: list[str], known: tuple[str, ...]) -> int:
@@ -229,7 +220,7 @@ def _column(source: Source, names: list[str], known: tuple[str, ...]) -> int:
     )
 
 
-def _in_degrees(angles: Floats, name: str, options: TextOptions) -> bool:
+def _in_degrees(angles: Floats, name: str, options: Reading) -> bool:
     """The unit of angles: as given, from the column's name, or degrees if angles are too large for radians."""
     if options.angle_unit:
         return options.angle_unit == "deg"
@@ -248,7 +239,7 @@ def _revolutions(angles: Floats) -> Iterator[tuple[int, int]]:
 # A table with a column of lists, as written by `rostopic echo -p` and exporters
 
 
-def _read_table(source: Source, names: list[str], rows: Iterator[Row], options: TextOptions) -> Recording:
+def _read_table(source: Source, names: list[str], rows: Iterator[Row], options: Reading) -> Recording:
     csv.field_size_limit(1 << 24)
     sweeps = Sweeps()
     for row in rows:
@@ -263,10 +254,10 @@ def _read_table(source: Source, names: list[str], rows: Iterator[Row], options: 
         range_min = _value(source, row, cell, "range_min", 0.0)
         range_max = _value(source, row, cell, "range_max", math.inf) or math.inf
         stamp, frame_id = _stamp(cell), _frame_id(cell)
-        sweeps.add(ranges * METRES[options.unit or "m"], angle_min, increment, range_min, range_max, stamp, frame_id)
+        sweeps.add(ranges, angle_min, increment, range_min, range_max, stamp, frame_id)
     if not sweeps:
         raise ValueError(f"{source.name} has column names, but no scans below them.")
-    return _finish(source, sweeps, options, limits=True)
+    return _finish(source, sweeps, limits=True)
 
 
 def _value(source: Source, row: Row, cell: dict[str, str], name: str, default: float | None) -> float:
@@ -296,13 +287,8 @@ def _frame_id(cell: dict[str, str]) -> str:
     return found[1] if found else cell.get("header.frame_id", cell.get("frame_id", ""))
 
 
-def _finish(source: Source, sweeps: Sweeps, options: TextOptions, limits: bool = False) -> Recording:
+def _finish(source: Source, sweeps: Sweeps, limits: bool = False) -> Recording:
     topics = (Topic("scan", len(sweeps)),)
-    recording = sweeps.recording(source, topic=source.choose(list(topics)), topics=topics, format=Text.format)
     if not limits:
-        recording.range_max[:] = longest_return(recording.ranges)
-    if options.range_min is not None:
-        recording.range_min[:] = options.range_min
-    if options.range_max is not None:
-        recording.range_max[:] = options.range_max
-    return recording
+        source.notes.unstated |= {"unit", "range_max"} - source.notes.found.keys()
+    return sweeps.recording(source, topic=source.choose(list(topics)), topics=topics, format=Text.format)

@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from ..readers import Reading
 from .axes import MOST_SETTINGS, Grid, axis_values, slider_values
 from .chunks import BLOCK_SETTINGS, Source, Task, describe, measure_task
 from .journal import Journal
@@ -40,7 +41,7 @@ def sweep(
     files: Sequence[Path],
     grid: Grid,
     workers: Pool,
-    topic: str | None = None,
+    reading: Reading | None = None,
     journal: Journal | None = None,
     progress: Callable[[int, int], None] = lambda done, total: None,
 ) -> Sweep:
@@ -50,7 +51,7 @@ def sweep(
     so the result does not depend on the workers.
     journal: finished work that is not computed again. progress: called with (frames × settings done, total).
     """
-    places = [(str(Path(file).absolute()), topic) for file in files]
+    places = [(str(Path(file).absolute()), reading or Reading()) for file in files]
     if len(grid) * len(places) > MOST_SETTINGS:
         raise ValueError(
             f"{len(grid):,} settings for {len(places)} files exceed the {MOST_SETTINGS:,} sums that fit in memory; "

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..params import Params
-from ..readers import open_recording
+from ..readers import Reading, open_recording
 from ..scan import Recording
 from .measure import Batch
 
@@ -27,10 +27,10 @@ _reading = threading.Lock()
 
 @dataclass(frozen=True)
 class Source:
-    """A stream of a file at one moment; beams, frames: its size."""
+    """A file as it is read, at one moment; beams, frames: its size."""
 
     file: str
-    topic: str | None
+    reading: Reading
     changed: int
     size: int
     frames: int
@@ -63,14 +63,14 @@ class Task:
     judges: tuple[Params, ...] = ()
 
 
-def describe(place: tuple[str, str | None]) -> Source:
+def describe(place: tuple[str, Reading]) -> Source:
     """The description of a file, read on this machine."""
-    file, topic = place
+    file, reading = place
     status = Path(file).stat()
-    recording = _opened(file, topic, status.st_mtime_ns, status.st_size)
+    recording = _opened(file, reading, status.st_mtime_ns, status.st_size)
     beams = int(recording.offsets[-1])
     truth = recording.wall is not None
-    return Source(file, topic, status.st_mtime_ns, status.st_size, len(recording), beams, truth)
+    return Source(file, reading, status.st_mtime_ns, status.st_size, len(recording), beams, truth)
 
 
 def measure_task(task: Task) -> NDArray[np.float64]:
@@ -93,9 +93,9 @@ def _batch(chunk: Chunk, scored: bool, judges: tuple[Params, ...]) -> Batch:
 
 def opened(source: Source) -> Recording:
     """The recording of a source."""
-    return _opened(source.file, source.topic, source.changed, source.size)
+    return _opened(source.file, source.reading, source.changed, source.size)
 
 
 @lru_cache(maxsize=2)
-def _opened(file: str, topic: str | None, changed: int, size: int) -> Recording:
-    return open_recording(Path(file), topic)
+def _opened(file: str, reading: Reading, changed: int, size: int) -> Recording:
+    return open_recording(Path(file), reading)

@@ -10,6 +10,7 @@ from typing import Literal, Protocol
 import numpy as np
 
 from ..params import Params
+from ..readers import Reading
 from ..scan import Recording
 from ..sweep.chunks import Chunk, Source, Task, describe, measure_task, opened
 from ..sweep.measure import Batch
@@ -97,13 +98,13 @@ class FileBlocks:
         workers: Pool,
         blind: bool | None,
         split: Split = "frames",
-        topic: str | None = None,
+        reading: Reading | None = None,
         most: int | None = None,
         base: Params | None = None,
     ) -> None:
         if split == "files" and len(files) < 2:
             raise ValueError("splitting by files needs two or more files; split by frames instead")
-        places = [(str(Path(file).absolute()), topic) for file in files]
+        places = [(str(Path(file).absolute()), reading or Reading()) for file in files]
         sources = [source for _, source in sorted(workers.results(describe, places), key=lambda row: row[0])]
         self._chunks: list[Chunk] = []
         owner: list[int] = []

@@ -8,9 +8,9 @@ from __future__ import annotations
 import csv
 import io
 import json
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
-from typing import TextIO
+from typing import Any, TextIO
 
 from ..covariance import Noise, covariances
 from ..scan import Scan
@@ -18,6 +18,7 @@ from ..segment import Extraction, Segment
 from .finite import finite_or_none
 
 Rows = Iterable[tuple[int, Scan, Extraction]]
+About = Mapping[str, Any] | None
 COLUMNS = (
     "frame", "stamp", "frame_id", "start_x", "start_y", "end_x", "end_y", "first", "last", "a", "b", "c", "points",
     "length", "rms",
@@ -25,24 +26,28 @@ COLUMNS = (
 POLAR_COLUMNS = ("rho", "theta", "var_rho", "cov_rho_theta", "var_theta")
 
 
-def json_lines(rows: Rows, noise: Noise | None = None) -> Iterator[str]:
+def json_lines(rows: Rows, noise: Noise | None = None, about: About = None) -> Iterator[str]:
     """One object per line: frame, stamp, frame_id, and segments of start, end, first, last, line, points, length, rms.
 
     With `noise` also rho, theta and covariance, [[var ρ, cov], [cov, var θ]]. One line for each scan; null for a stamp
-    that is not finite and for an undefined covariance.
+    that is not finite and for an undefined covariance. about: how they were made, written into the first line.
     """
     for frame, scan, extraction in rows:
         segments = _segments(scan, extraction, noise)
         row = {"frame": frame, "stamp": finite_or_none(scan.stamp), "frame_id": scan.frame_id, "segments": segments}
+        if about:
+            row["about"] = about
+            about = None
         yield json.dumps(row, ensure_ascii=False, allow_nan=False) + "\n"
 
 
-def geojson(rows: Rows, noise: Noise | None = None) -> Iterator[str]:
+def geojson(rows: Rows, noise: Noise | None = None, about: About = None) -> Iterator[str]:
     """A FeatureCollection with a LineString for each segment; the other fields of `json_lines` are its properties.
 
     Coordinates are metres in the frame of the laser, not degrees; GeoJSON has no field to declare this.
     """
-    yield '{"type": "FeatureCollection", "features": ['
+    head = f'"about": {json.dumps(about, ensure_ascii=False)}, ' if about else ""
+    yield f'{{"type": "FeatureCollection", {head}"features": ['
     separator = "\n"
     for frame, scan, extraction in rows:
         for number, fields in enumerate(_segments(scan, extraction, noise)):
@@ -54,8 +59,8 @@ def geojson(rows: Rows, noise: Noise | None = None) -> Iterator[str]:
     yield "\n]}\n"
 
 
-def csv_lines(rows: Rows, noise: Noise | None = None) -> Iterator[str]:
-    """A header and a row for each segment, with enough digits to restore every number exactly."""
+def csv_lines(rows: Rows, noise: Noise | None = None, about: About = None) -> Iterator[str]:
+    """A header and a row for each segment, with enough digits to restore every number exactly; no place for `about`."""
     yield _csv_line(COLUMNS if noise is None else (*COLUMNS, *POLAR_COLUMNS))
     for frame, scan, extraction in rows:
         stamp = finite_or_none(scan.stamp)
@@ -67,31 +72,33 @@ def csv_lines(rows: Rows, noise: Noise | None = None) -> Iterator[str]:
 
 
 # Suffix → writer: takes rows of (frame, scan, extraction), yields pieces of text.
-SEGMENT_WRITERS: dict[str, Callable[[Rows, Noise | None], Iterator[str]]] = {
+SEGMENT_WRITERS: dict[str, Callable[[Rows, Noise | None, About], Iterator[str]]] = {
     "jsonl": json_lines,
     "csv": csv_lines,
     "geojson": geojson,
 }
 
 
-def segment_lines(format: str, rows: Rows, noise: Noise | None = None) -> Iterator[str]:
+def segment_lines(format: str, rows: Rows, noise: Noise | None = None, about: About = None) -> Iterator[str]:
     """The text of `rows` in a format of SEGMENT_WRITERS, piece by piece; with covariances if the noise is given."""
     if format not in SEGMENT_WRITERS:
         raise ValueError(f"segments cannot be written as {format!r}; choose from {', '.join(SEGMENT_WRITERS)}.")
-    return SEGMENT_WRITERS[format](rows, noise)
+    return SEGMENT_WRITERS[format](rows, noise, about)
 
 
-def write_segments(target: str | Path | TextIO, format: str | None, rows: Rows, noise: Noise | None = None) -> None:
+def write_segments(
+    target: str | Path | TextIO, format: str | None, rows: Rows, noise: Noise | None = None, about: About = None
+) -> None:
     """Write `rows` to a path or an open text file, row by row; format: None to use the path's suffix.
 
-    noise: of the beams, to write covariances too.
+    noise: of the beams, to write covariances too. about: how the segments were made, where the format has a place.
     The file appears under its name when it is complete; an existing file stays until then.
     """
     if not isinstance(target, str | Path):
-        target.writelines(segment_lines(format or "jsonl", rows, noise))
+        target.writelines(segment_lines(format or "jsonl", rows, noise, about))
         return
     path = Path(target)
-    lines = segment_lines(format or path.suffix.lstrip(".").lower(), rows, noise)
+    lines = segment_lines(format or path.suffix.lstrip(".").lower(), rows, noise, about)
     unfinished = path.with_name(f"{path.name}.part")
     try:
         with unfinished.open("w", encoding="utf-8", newline="") as file:

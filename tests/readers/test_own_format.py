@@ -15,7 +15,6 @@ class Dashes(Reader):
     format = "dashes"
     suffixes = (".dash",)
     expects = "two dashes at its beginning"
-    unpacks = True
 
     @staticmethod
     def recognises(head):
@@ -28,9 +27,7 @@ class Dashes(Reader):
     @staticmethod
     def read(source):
         path = source.path / "scan" if source.path.is_dir() else source.path
-        data = path.read_bytes()
-        text = gzip.decompress(data) if data.startswith(b"\x1f\x8b") else data
-        ranges = np.array(text[2:].split(), float)
+        ranges = np.array(path.read_bytes()[2:].split(), float)
         return Recording.from_scans([Scan.regular(ranges, 0.0, 0.01)], name=source.name)
 
 

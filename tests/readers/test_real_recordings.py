@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 
-from lineseg.readers import TextOptions, open_recording
+from lineseg.readers import Reading, open_recording
 
 REFUSED = ("ros1_unsupported_v12", "ros1_no_laserscan")
 
@@ -118,10 +118,10 @@ def test_a_maximum_that_the_data_contradict_clips_no_reading(data_dir):
 
 def test_options_say_what_a_plain_table_does_not(data_dir):
     path = data_dir / "urg04lx_breezy_exp2" / "exp2.dat"
-    options = TextOptions(
+    options = Reading(
         angle_min=np.deg2rad(-120), angle_increment=np.deg2rad(240 / 681), unit="mm", skip_columns=25, range_min=0.02
     )
-    told, guessed = open_recording(path, text=options), open_recording(path)
+    told, guessed = open_recording(path, reading=options), open_recording(path)
     assert np.array_equal(told.ranges, guessed.ranges)
     assert np.allclose(told[0].bearings, guessed[0].bearings)
     assert invalid_share(told) == pytest.approx(0.5774, abs=1e-4)  # with the error codes of 1 to 15 mm

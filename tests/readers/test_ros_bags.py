@@ -99,10 +99,18 @@ def test_a_truncated_message_is_refused():
 
 
 def test_two_publishers_on_one_topic_are_one_recording_in_the_order_of_time(tmp_path):
-    recording = open_recording(bag1(tmp_path / "two.bag", ("/scan", [1.0, 2.0]), ("/scan", [3.0, 4.0, 5.0])))
-    assert (len(recording), recording.beams) == (6, (2, 3))
+    recording = open_recording(bag1(tmp_path / "two.bag", ("/scan", [1.0, 2.0]), ("/scan", [3.0, 4.0])))
+    assert (len(recording), recording.beams) == (6, (2, 2))
     assert [topic.name for topic in recording.topics] == ["/scan"]
     assert np.all(np.diff(recording.stamps) >= 0)
+
+
+def test_two_lasers_on_one_topic_are_never_mixed(tmp_path):
+    path = bag1(tmp_path / "two.bag", ("/scan", [1.0, 2.0]), ("/scan", [3.0, 4.0, 5.0]))
+    first, second = open_recording(path), open_recording(path, geometry=1)
+    assert (first.ranges.tolist(), second.ranges.tolist()) == ([1.0, 2.0] * 3, [3.0, 4.0, 5.0] * 3)
+    (notice,) = first.account.notices
+    assert (notice.kind, notice.change) == ("several lasers", {"geometry": 1})
 
 
 def test_only_messages_of_the_laser_are_read(tmp_path):

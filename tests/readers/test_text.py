@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from lineseg.readers import TextOptions, open_recording
+from lineseg.readers import Reading, open_recording
 
 TURN = np.linspace(-180, 179, 360)
 
@@ -22,7 +22,7 @@ def rows(beams, scans=3, separator=","):
 
 @pytest.mark.parametrize("separator", [",", ";", " ", "\t", ", ", "  "])
 def test_a_row_is_a_scan_whatever_separates_its_numbers(text, separator):
-    recording = open_recording(text(rows(181, separator=separator)), text=TextOptions(skip_columns=0))
+    recording = open_recording(text(rows(181, separator=separator)), reading=Reading(skip_columns=0))
     assert (len(recording), recording.beams, recording.format) == (3, (181, 181), "text")
     assert recording.ranges[181] == 2.0
 
@@ -38,7 +38,7 @@ def test_an_unknown_number_of_beams_needs_the_angles(text):
     path = text(rows(100))
     with pytest.raises(ValueError, match=r"scan.csv: rows of 100 numbers without angles"):
         open_recording(path)
-    bearings = open_recording(path, text=TextOptions(angle_increment=0.01))[0].bearings
+    bearings = open_recording(path, reading=Reading(angle_increment=0.01))[0].bearings
     assert bearings[[0, -1]].tolist() == pytest.approx([-0.495, 0.495])
 
 
@@ -46,13 +46,13 @@ def test_options_win_over_comments_and_comments_over_guesses(text):
     path = text("# angle_min = 0.5, angle_increment: 0.25 unit=cm\n" + rows(181))
     recording = open_recording(path)
     assert (recording.angle_min[0], recording.angle_increment[0], recording.ranges[0]) == (0.5, 0.25, 0.01)
-    assert open_recording(path, text=TextOptions(angle_min=1.0)).angle_min[0] == 1.0
+    assert open_recording(path, reading=Reading(angle_min=1.0)).angle_min[0] == 1.0
 
 
 def test_whole_numbers_too_large_for_metres_are_millimetres(text):
     numbers = " ".join(["1500"] * 180 + ["0"])
     assert open_recording(text(numbers)).ranges[0] == 1.5
-    assert open_recording(text(numbers), text=TextOptions(unit="m")).ranges[0] == 1500
+    assert open_recording(text(numbers), reading=Reading(unit="m")).ranges[0] == 1500
 
 
 def test_numbers_before_a_double_space_are_not_ranges(text):
@@ -131,4 +131,4 @@ def test_a_table_without_scans_is_named_with_its_line(text, content, sentence):
 )
 def test_options_without_sense_are_refused(options, sentence):
     with pytest.raises(ValueError, match=sentence):
-        TextOptions(**options)
+        Reading(**options)

@@ -40,8 +40,7 @@ def test_a_pack_is_recognised_by_its_content_and_not_by_its_name(pack, tmp_path)
     assert open_recording(other).format == "failure pack"
     with zipfile.ZipFile(tmp_path / "plain.zip", "w") as plain, zipfile.ZipFile(other) as archive:
         plain.writestr("frame.npz", archive.read("frame.npz"))
-    with pytest.raises(ValueError, match="there is no array 'ranges'"):
-        open_recording(tmp_path / "plain.zip")
+    assert open_recording(tmp_path / "plain.zip").format == "NPZ"
 
 
 def test_a_pack_says_where_it_came_from(pack):

@@ -149,6 +149,7 @@ def test_options_of_text_files_are_flags(run, tmp_path):
     ("arguments", "sentence"),
     [
         (["nowhere.bag"], "lineseg: nowhere.bag: there is no such file or folder."),
+        (["extract"], "lineseg: name one or more files."),
         (["extract", "nowhere.bag"], "lineseg: nowhere.bag: there is no such file or folder."),
         (["info", "nowhere.bag"], "lineseg: nowhere.bag: there is no such file or folder."),
         (["extract", "{hall}", "-o", "out.txt"], "lineseg: out.txt: use a name that ends in .jsonl, .csv, .geojson."),
@@ -175,7 +176,12 @@ def test_an_error_is_one_sentence_and_code_2(run, hall, arguments, sentence):
 
 
 def test_wrong_flags_are_refused_with_code_2(capsys):
-    for arguments in (["extract"], ["params", "--to", "ros3"], ["params", "--epsilon", "wide"], ["view", "--nonsense"]):
+    for arguments in (
+        ["extract", "--out"],
+        ["params", "--to", "ros3"],
+        ["params", "--epsilon", "wide"],
+        ["view", "--nonsense"],
+    ):
         with pytest.raises(SystemExit) as raised:
             main(arguments)
         assert raised.value.code == 2

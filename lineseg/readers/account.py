@@ -1,0 +1,118 @@
+"""What a file was taken for: the Reading as used, what was guessed, what cannot be, and what was skipped."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from dataclasses import field as dataclass_field
+from typing import Any
+
+from .reading import Reading, as_flags
+
+MOST_SKIPPED = 5
+
+
+@dataclass(frozen=True)
+class Guess:
+    """A value that neither the file nor the Reading gave.
+
+    field: of the Reading; value: as guessed; why: the reason; change: other values of the Reading to try.
+    """
+
+    field: str
+    value: str
+    why: str
+    change: dict[str, Any] = dataclass_field(default_factory=dict)
+
+    @property
+    def text(self) -> str:
+        """One sentence, with the flags that change the guess."""
+        flag = as_flags(self.change) if self.change else f"--{self.field.replace('_', '-')}"
+        return f"{self.value} is a guess: {self.why}. To change it: {flag}"
+
+
+@dataclass(frozen=True)
+class Notice:
+    """Something that cannot be, or is worth knowing. change: fields of the Reading that would mend it, {} if none."""
+
+    kind: str
+    text: str
+    change: dict[str, Any] = dataclass_field(default_factory=dict)
+
+    @property
+    def advice(self) -> str:
+        """The sentence, with the flags that mend it."""
+        return f"{self.text} To do so: {as_flags(self.change)}" if self.change else self.text
+
+
+@dataclass(frozen=True)
+class Skipped:
+    """A scan that could not be read. place: its line or message; why: what is wrong with it."""
+
+    place: str
+    why: str
+
+
+@dataclass(frozen=True)
+class Account:
+    """What a file was taken for.
+
+    given: the Reading that was asked for; used: the same with all that was found in the file or guessed.
+    line: one line that says it. skipped: some of the scans that could not be read; skips: how many there are.
+    believable: whether the stamps can be believed.
+    """
+
+    given: Reading = dataclass_field(default_factory=Reading)
+    used: Reading = dataclass_field(default_factory=Reading)
+    line: str = ""
+    guesses: tuple[Guess, ...] = ()
+    notices: tuple[Notice, ...] = ()
+    skipped: tuple[Skipped, ...] = ()
+    skips: int = 0
+    believable: bool = True
+
+    @property
+    def skipped_text(self) -> str:
+        """One sentence about what was skipped, "" if nothing was."""
+        if not self.skips:
+            return ""
+        first, were = self.skipped[0], " was" if self.skips == 1 else "s were"
+        return f"{self.skips} scan{were} skipped, the first at {first.place}: {first.why}."
+
+
+class Notes:
+    """Collects what a reader finds out besides the scans.
+
+    unstated: fields of the Reading that the file does not give, so that they are to be guessed.
+    found: fields of the Reading as the file gives them. stamps: where they come from, "" if there are none.
+    recorded: when a bag's recorder received each scan [s]. kind: the name of the format for the line, if another.
+    radians: whether bearings were converted to radians already.
+    """
+
+    def __init__(self) -> None:
+        self.unstated: set[str] = set()
+        self.found: dict[str, Any] = {}
+        self.stamps = ""
+        self.kind = ""
+        self.recorded: Any = None
+        self.radians = False
+        self.guesses: list[Guess] = []
+        self.notices: list[Notice] = []
+        self.skipped: list[Skipped] = []
+        self.skips = 0
+
+    def guess(self, field: str, value: str, why: str, **change: Any) -> None:
+        self.guesses.append(Guess(field, value, why, change))
+
+    def notice(self, kind: str, text: str, **change: Any) -> None:
+        self.notices.append(Notice(kind, text, change))
+
+    def skip(self, place: str, why: str) -> None:
+        """Counts a scan that cannot be read. place: its file and line, or message."""
+        self.skips += 1
+        if len(self.skipped) < MOST_SKIPPED:
+            self.skipped.append(Skipped(place, why.rstrip(".")))
+
+    def nothing_left(self) -> None:
+        """Raises ValueError for the first scan that was skipped; for readers that are left with none."""
+        if self.skipped:
+            raise ValueError(f"{self.skipped[0].place}: {self.skipped[0].why}.")

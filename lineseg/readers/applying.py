@@ -1,0 +1,171 @@
+"""Applies a Reading to what a reader delivered: one place for every format, in the order of the fields."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..scan import Recording, Scan
+from .account import Account, Notes
+from .guessing import guess_limit, guess_unit, metres, no_return_codes
+from .lasers import one_laser
+from .plausible import believable, noticed
+from .reading import Reading, Span, frames_of, span_of, values_of
+from .saying import line_of
+
+SAME = 5e-4
+
+
+def applied(recording: Recording, reading: Reading, notes: Notes) -> Recording:
+    """The recording as `reading` wants it, with its account. Raises ValueError if nothing would be left."""
+    recording = one_laser(recording, reading, notes)
+    recording = _with_stamps(recording, reading, notes)
+    recording, used = _in_metres_and_radians(recording, reading, notes)
+    recording = _with_limits(recording, used, notes)
+    notices = (*notes.notices, *noticed(recording, used, notes.recorded is not None))
+    whole = recording
+    recording = _chosen_frames(recording, used)
+    recording = _chosen_beams(recording, used)
+    account = Account(
+        given=reading,
+        used=used,
+        guesses=tuple(notes.guesses),
+        notices=notices,
+        skipped=tuple(notes.skipped),
+        skips=notes.skips,
+        believable=believable(whole.stamps),
+    )
+    account = replace(account, line=line_of(recording, account, notes))
+    return replace(recording, account=account)
+
+
+def _with_stamps(recording: Recording, reading: Reading, notes: Notes) -> Recording:
+    if reading.stamps == "recorded" and notes.recorded is None:
+        raise ValueError(f"{recording.name}: stamps cannot be the recorder's; only a bag has its recorder's times.")
+    if reading.stamps == "none":
+        return replace(recording, stamps=np.zeros(len(recording)))
+    wanted = reading.stamps == "recorded" or (reading.stamps is None and not recording.stamps.any())
+    return replace(recording, stamps=notes.recorded) if wanted and notes.recorded is not None else recording
+
+
+def _in_metres_and_radians(recording: Recording, reading: Reading, notes: Notes) -> tuple[Recording, Reading]:
+    """Units, angles and direction; also returns the Reading completed with what was found."""
+    unit = guess_unit(recording, reading, notes)
+    angle_unit = reading.angle_unit or notes.found.get("angle_unit", "rad")
+    direction = reading.direction or "counter-clockwise"
+    used = Reading(**{**notes.found, **reading.given(), "unit": unit, "angle_unit": angle_unit, "direction": direction})
+    changes: dict[str, Any] = {}
+    if (scale := metres(unit)) != 1:
+        changes |= {name: getattr(recording, name) * scale for name in ("ranges", "range_min", "range_max")}
+    if angle_unit == "deg" and not notes.radians:
+        changes |= _angles(recording, np.deg2rad)
+    recording = replace(recording, **changes)
+    recording = _with_geometry(recording, reading)
+    if direction == "clockwise":
+        recording = replace(recording, **_angles(recording, np.negative))
+    return recording, used
+
+
+def _angles(recording: Recording, change: Any) -> dict[str, Any]:
+    bearings = None if recording.bearings is None else change(recording.bearings)
+    return {
+        "angle_min": change(recording.angle_min),
+        "angle_increment": change(recording.angle_increment),
+        "bearings": bearings,
+    }
+
+
+def _with_geometry(recording: Recording, reading: Reading) -> Recording:
+    given = {name: reading.given()[name] for name in ("angle_min", "angle_increment") if name in reading.given()}
+    if given and recording.bearings is not None:
+        raise ValueError(
+            f"{recording.name}: {' and '.join(given)} cannot be used, because the file states the bearing of each beam."
+        )
+    frames = len(recording)
+    return replace(recording, **{name: np.full(frames, value) for name, value in given.items()})
+
+
+def _with_limits(recording: Recording, reading: Reading, notes: Notes) -> Recording:
+    changes: dict[str, Any] = {}
+    frames = len(recording)
+    codes = [Span(code, code) for code in no_return_codes(recording, reading, notes)]
+    if reading.no_return is not None:
+        codes += values_of(reading.no_return)
+    if codes:
+        ranges = recording.ranges.copy()
+        for low, high in codes:
+            ranges[(ranges >= low - SAME) & (ranges <= high + SAME)] = np.nan
+        changes["ranges"] = ranges
+    if "range_max" in notes.unstated and not codes:
+        changes["range_max"] = np.full(frames, guess_limit(recording, reading, notes))
+    for name in ("range_min", "range_max"):
+        if getattr(reading, name) is not None:
+            changes[name] = np.full(frames, float(getattr(reading, name)))
+    return replace(recording, **changes) if changes else recording
+
+
+# Filters
+
+
+def _chosen_frames(recording: Recording, reading: Reading) -> Recording:
+    keep = np.ones(len(recording), np.bool_)
+    if reading.frames is not None:
+        chosen = frames_of(reading.frames, len(recording))
+        keep[: chosen.start] = keep[chosen.stop :] = False
+    if reading.seconds is not None:
+        keep &= _within(recording, span_of(reading.seconds), reading.seconds)
+    if reading.every_scan is not None:
+        keep[np.arange(len(recording)) % reading.every_scan != 0] = False
+    if keep.all():
+        return recording
+    if not keep.any():
+        raise ValueError(f"{recording.name}: no scan is left of {len(recording)}; choose other frames or seconds.")
+    numbers = np.flatnonzero(keep)
+    return replace(recording.only(numbers), numbers=numbers)
+
+
+def _within(recording: Recording, span: Span, text: str) -> NDArray[np.bool_]:
+    if not recording.stamps.any():
+        raise ValueError(f"{recording.name}: seconds cannot be used, because it has no stamps; use frames.")
+    since = recording.stamps - recording.stamps[0]
+    keep = (since >= span.low) & (since < span.high)
+    if not keep.any():
+        raise ValueError(
+            f"{recording.name}: seconds is {text!r}, which is empty; its stamps go from {since.min():g} to "
+            f"{since.max():g} s after the first."
+        )
+    return keep
+
+
+def _chosen_beams(recording: Recording, reading: Reading) -> Recording:
+    if reading.sector is None and reading.every_beam in (None, 1):
+        return recording
+    span = None if reading.sector is None else span_of(reading.sector)
+    scans = [_beams(scan, span, reading.every_beam or 1) for scan in recording]
+    if not any(len(scan) for scan in scans):
+        raise ValueError(f"{recording.name}: no beam is left in the sector {reading.sector}; choose another.")
+    fresh = Recording.from_scans(scans, name=recording.name)
+    names = ("ranges", "offsets", "angle_min", "angle_increment", "bearings", "wall")
+    return replace(recording, **{name: getattr(fresh, name) for name in names})
+
+
+def _beams(scan: Scan, span: Span | None, step: int) -> Scan:
+    """The beams within a sector [deg], in their order, without a gap where the scan's seam lies inside the sector."""
+    order = np.arange(len(scan))
+    bearings = scan.bearings
+    if span is not None and len(scan):
+        low = np.deg2rad(max(span.low, -180.0))
+        width = np.deg2rad(min(span.high, 180.0)) - low
+        width = width % (2 * np.pi) or 2 * np.pi if width <= 0 or width > 2 * np.pi else width
+        # A beam on the border may lie a hair outside of it.
+        since = (bearings - low + 1e-6) % (2 * np.pi) - 1e-6
+        inside = np.flatnonzero(since <= width + 1e-6)
+        falling = len(scan) > 1 and bearings[-1] < bearings[0]
+        order = inside[np.argsort(-since[inside] if falling else since[inside], kind="stable")]
+        bearings = since + low
+    order = order[::step]
+    wall = None if scan.wall is None else scan.wall[order]
+    return replace(scan, ranges=scan.ranges[order], bearings=bearings[order], wall=wall, known=None)

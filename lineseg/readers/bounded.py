@@ -1,0 +1,60 @@
+"""Limits on what compressed data may become: bytes are counted after expansion. Every reader expands with this."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import IO
+
+PIECE = 1 << 20
+# Scans compress to a tenth, rarely to a hundredth; what grows more was made to do harm.
+LARGEST_RATIO = 200
+SMALL, MOST = 1 << 28, 8 << 30
+MOST_MESSAGE = 1 << 26
+
+
+class TooLargeError(ValueError):
+    """Data would become larger than allowed."""
+
+
+def limit_of(packed: int) -> int:
+    """The most bytes that `packed` bytes may become."""
+    return min(max(SMALL, LARGEST_RATIO * packed), MOST)
+
+
+def expand(
+    packed: IO[bytes], target: Path, name: str, limit: int, tell: Callable[[int], None] = lambda done: None
+) -> str:
+    """Write all of an opened compressed file to `target`; returns why it broke off, "" if it is whole.
+
+    tell: called with the bytes written so far. Raises TooLargeError beyond the limit.
+    """
+    done, read = 0, getattr(packed, "read1", packed.read)
+    with target.open("wb") as out:
+        while True:
+            try:
+                piece = read(PIECE)
+            except Exception as error:  # each library has errors of its own
+                return str(error).rstrip(".") or type(error).__name__
+            if not piece:
+                return ""
+            done += len(piece)
+            if done > limit:
+                raise TooLargeError(too_large(name, limit))
+            out.write(piece)
+            tell(done)
+
+
+def unzstd(data: bytes, most: int = MOST_MESSAGE) -> bytes:
+    """A message expanded from zstd. Raises TooLargeError if it would have more than `most` bytes."""
+    from rosbags.rosbag2.reader import zstd
+
+    unpacked = zstd.ZstdDecompressor().decompress(data, max_length=most + 1)
+    if len(unpacked) > most:
+        raise TooLargeError(too_large("a message", most))
+    return unpacked
+
+
+def too_large(name: str, limit: int) -> str:
+    size = f"{limit / 2**30:.3g} GB" if limit >= 1 << 30 else f"{limit >> 20} MB"
+    return f"{name} would have more than {size} unpacked, which is not allowed; unpack it yourself, or split it."

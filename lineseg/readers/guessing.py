@@ -1,0 +1,84 @@
+"""Guesses what a file does not state: the unit of ranges and of angles, and codes for "no return"."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..scan import Floats, Recording
+from .account import Notes
+from .range_limits import longest_return
+from .reading import METRES, AngleUnit, Reading, Unit
+
+UNIT_NAMES = {"m": "metres", "cm": "centimetres", "mm": "millimetres"}
+# Rooms and yards: a laser's median range is hardly ever outside of these [m].
+NEAR, FAR = 0.25, 60.0
+# What drivers write for "no return": the greatest numbers of 16, 15, 14, 13 and 12 bits in millimetres or centimetres.
+CODES = (655.35, 655.34, 655.33, 65.535, 65.534, 65.533, 32.767, 16.383, 8.191, 4.095)
+OFTEN = 0.01
+MOST_SAMPLED = 200_000
+
+
+def sampled(values: Floats) -> Floats:
+    """The values, or about MOST_SAMPLED of them, evenly spread."""
+    return values[:: max(1, len(values) // MOST_SAMPLED)]
+
+
+def unit_of(ranges: Floats) -> Unit:
+    """Metres, unless most ranges are too large for them: then millimetres, or centimetres if these are too small."""
+    finite = sampled(ranges)
+    finite = finite[np.isfinite(finite) & (finite > 0)]
+    if not finite.size:
+        return "m"
+    middle = float(np.median(finite))
+    if middle <= FAR and not (np.percentile(finite, 90) > 100 and (finite == np.floor(finite)).all()):
+        return "m"
+    whole_cm = middle < 1e3 * NEAR and NEAR <= 0.01 * middle <= FAR and float(finite.max()) < 6000
+    return "cm" if whole_cm else "mm"
+
+
+def guess_unit(recording: Recording, reading: Reading, notes: Notes) -> Unit:
+    """The unit of the ranges: as wanted, as the file says, or guessed."""
+    if reading.unit or "unit" not in notes.unstated:
+        return reading.unit or notes.found.get("unit", "m")
+    unit = unit_of(recording.ranges)
+    finite = recording.ranges[np.isfinite(recording.ranges) & (recording.ranges > 0)]
+    middle = float(np.median(sampled(finite))) if finite.size else 0.0
+    other = next(each for each in ("mm", "m", "cm") if each != unit)
+    why = f"no unit is stated, and the median of the ranges is {middle:.4g}"
+    notes.guess("unit", UNIT_NAMES[unit], why, unit=other)
+    return unit
+
+
+def angle_unit_of(angles: Floats) -> AngleUnit:
+    """Degrees if angles are too large for radians."""
+    return "deg" if angles.size and float(np.nanmax(np.abs(angles))) > 2 * np.pi + 0.2 else "rad"
+
+
+def no_return_codes(recording: Recording, reading: Reading, notes: Notes) -> tuple[float, ...]:
+    """Codes for "no return" that recur as the greatest value of all beams [m]."""
+    if reading.no_return is not None or reading.range_max is not None:
+        return ()
+    ranges = sampled(recording.ranges)
+    finite = ranges[np.isfinite(ranges)]
+    limit = float(np.max(recording.range_max, initial=0.0))
+    greatest = float(finite.max(initial=0.0))
+    code = next((each for each in CODES if abs(greatest - each) < 5e-4), None)
+    if code is None or code >= limit or np.count_nonzero(np.abs(finite - code) < 5e-4) < max(2, OFTEN * len(ranges)):
+        return ()
+    notes.guess(
+        "no_return", f"{code:g} m means no return", "it is the greatest number that fits, and recurs", no_return="none"
+    )
+    return (code,)
+
+
+def guess_limit(recording: Recording, reading: Reading, notes: Notes) -> float:
+    """The range from which on there are no returns [m]; inf if the data show none."""
+    limit = longest_return(recording.ranges)
+    if np.isfinite(limit) and reading.range_max is None and reading.no_return is None:
+        why = "readings at and above it recur like codes"
+        notes.guess("range_max", f"no return from {limit:g} m on", why, range_max=round(2 * limit, 3))
+    return limit
+
+
+def metres(unit: Unit) -> float:
+    return METRES[unit]

@@ -1,0 +1,98 @@
+"""Tells apart the lasers that share a topic, by frame_id or by geometry, and keeps one."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..scan import Recording
+from .account import Notes
+from .reading import Reading
+
+MOST_LASERS = 8
+# Scans of one laser vary in length; those of two lasers differ by more than this.
+FEW_BEAMS, FEW_DEGREES = 0.2, 10.0
+# A geometry with fewer scans than these is a slip, not a laser; two that change over once are one laser, set anew.
+RARE, FEW_SCANS = 0.1, 3
+
+
+def one_laser(recording: Recording, reading: Reading, notes: Notes) -> Recording:
+    """The scans of one laser. Raises ValueError if the wanted one does not exist."""
+    recording = _one_frame_id(recording, reading, notes)
+    return _one_geometry(recording, reading, notes)
+
+
+def _one_frame_id(recording: Recording, reading: Reading, notes: Notes) -> Recording:
+    names = dict.fromkeys(recording.frame_ids)
+    wanted = reading.frame_id
+    if wanted is not None and wanted not in names:
+        listed = ", ".join(map(repr, list(names)[:MOST_LASERS]))
+        raise ValueError(f"{recording.name} has no frame_id {wanted!r}; it has {listed}.")
+    if len(names) < 2:
+        return recording
+    ids = np.array(recording.frame_ids)
+    taken = next(iter(names)) if wanted is None else wanted
+    if wanted is None:
+        listed = ", ".join(f"{name} ({np.count_nonzero(ids == name)} scans)" for name in list(names)[:MOST_LASERS])
+        other = next(name for name in names if name != taken)
+        notes.notice(
+            "several lasers",
+            f"{len(names)} lasers share {recording.topic or 'the file'}: {listed}. {taken} is shown; show another?",
+            frame_id=other,
+        )
+    return _kept(recording, ids == taken, notes)
+
+
+def _one_geometry(recording: Recording, reading: Reading, notes: Notes) -> Recording:
+    """Scans of the geometry that is wanted, if two or more alternate."""
+    kinds = _geometries(recording)
+    wanted = reading.geometry
+    count = int(kinds.max(initial=0)) + 1
+    if wanted is not None and wanted >= count:
+        raise ValueError(f"{recording.name} has no geometry {wanted}; it has {count}, numbered from 0.")
+    if count < 2:
+        return recording
+    if wanted is None:
+        shares = ", ".join(_described(recording, kinds == kind, kind) for kind in range(count))
+        notes.notice(
+            "several lasers",
+            f"Scans of {count} geometries alternate: {shares}. Geometry 0 is shown; show another?",
+            geometry=1,
+        )
+    return _kept(recording, kinds == (wanted or 0), notes)
+
+
+def _geometries(recording: Recording) -> np.ndarray:
+    """(frames,) the number of each scan's geometry, in the order of appearance; all 0 unless they alternate."""
+    frames = len(recording)
+    lengths = np.diff(recording.offsets)
+    if frames < 2 or recording.bearings is not None or (lengths.max() == lengths.min() and _equal(recording)):
+        return np.zeros(frames, np.int64)
+    ends = recording.angle_min + recording.angle_increment * (lengths - 1)
+    rows = np.column_stack((lengths, np.rad2deg(recording.angle_min), np.rad2deg(ends)))
+    leaders: list[np.ndarray] = []
+    kinds = np.full(frames, -1, np.int64)
+    while (left := np.flatnonzero(kinds < 0)).size and len(leaders) < MOST_LASERS:
+        leader = rows[left[0]]
+        near = np.abs(rows[left] - leader) <= np.array((FEW_BEAMS * leader[0], FEW_DEGREES, FEW_DEGREES))
+        kinds[left[near.all(axis=1)]] = len(leaders)
+        leaders.append(leader)
+    counts = np.bincount(kinds[kinds >= 0], minlength=len(leaders))
+    steady = (kinds >= 0).all() and (counts >= max(RARE * frames, FEW_SCANS)).all()
+    alternate = np.count_nonzero(np.diff(kinds)) >= counts.min()
+    return kinds if steady and alternate and len(leaders) > 1 else np.zeros(frames, np.int64)
+
+
+def _equal(recording: Recording) -> bool:
+    return bool(np.ptp(recording.angle_min) < 1e-3 and np.ptp(recording.angle_increment) < 1e-6)
+
+
+def _described(recording: Recording, these: np.ndarray, kind: int) -> str:
+    first = int(np.flatnonzero(these)[0])
+    return f"{kind}: {len(recording[first])} beams ({np.count_nonzero(these)} scans)"
+
+
+def _kept(recording: Recording, these: np.ndarray, notes: Notes) -> Recording:
+    frames = np.flatnonzero(these)
+    if notes.recorded is not None:
+        notes.recorded = notes.recorded[frames]
+    return recording.only(frames)

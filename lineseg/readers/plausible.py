@@ -1,0 +1,152 @@
+"""Notices what cannot be in a recording, each with the change of the Reading that would mend it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from ..scan import Floats, Recording
+from .account import Notice
+from .guessing import sampled
+from .reading import Reading
+
+MOST_RANGE, LEAST_MEDIAN = 500.0, 0.05
+RECURS = 0.1
+YEAR = 365.25 * 86400
+WRAPS = tuple(2.0**32 * scale for scale in (1.0, 1e-3, 1e-6, 1e-9))
+
+
+def noticed(recording: Recording, reading: Reading, recorded: bool) -> Iterator[Notice]:
+    """All notices of a recording in metres and radians; recorded: whether its recorder's times are known."""
+    yield from _about_angles(recording, reading)
+    yield from _about_size(recording, reading)
+    ranges, inside = _sample(recording)
+    yield from _about_limits(recording, reading, ranges, inside)
+    yield from _about_recurring(recording, ranges[inside])
+    yield from _about_stamps(recording.stamps, recorded and reading.stamps != "recorded")
+
+
+def _sample(recording: Recording) -> tuple[Floats, Any]:
+    """Some of the ranges, and which of them are within the limits."""
+    step = max(1, len(recording.ranges) // 200_000)
+    ranges = recording.ranges[::step]
+    frame = np.searchsorted(recording.offsets, np.arange(0, len(recording.ranges), step), side="right") - 1
+    inside = (ranges > 0) & (ranges >= recording.range_min[frame]) & (ranges < recording.range_max[frame])
+    return ranges, inside & np.isfinite(ranges)
+
+
+def _about_angles(recording: Recording, reading: Reading) -> Iterator[Notice]:
+    lengths = np.diff(recording.offsets)
+    steps = np.abs(recording.angle_increment)
+    views = np.rad2deg(steps * np.maximum(lengths - 1, 0))
+    if recording.bearings is not None:
+        inner = [abs(scan.bearings[-1] - scan.bearings[0]) for scan in recording if len(scan)]
+        views = np.rad2deg(np.array(inner or [0.0]))
+    view = float(np.median(views))
+    if view > 360.0 + 1.5 * float(np.rad2deg(np.median(steps))) + 0.5:
+        in_degrees = float(np.deg2rad(view))
+        change = {"angle_unit": "deg"} if reading.angle_unit != "deg" and in_degrees <= 361 else {}
+        question = "are the angles degrees?" if change else "check angle_increment."
+        yield Notice("field of view", f"A field of view of {view:.0f}° is more than a turn: {question}", change)
+
+
+def _about_size(recording: Recording, reading: Reading) -> Iterator[Notice]:
+    finite = sampled(recording.ranges)
+    finite = finite[np.isfinite(finite) & (finite > 0)]
+    if not finite.size:
+        yield Notice("no ranges", "No beam has a range above 0.")
+        return
+    middle = float(np.median(finite))
+    far = float(np.mean(finite > MOST_RANGE))
+    if far > RECURS:
+        unit = "mm" if reading.unit == "m" else None
+        question = " Are they millimetres?" if unit else " Check the unit."
+        yield Notice(
+            "far", f"{far:.2g} of all ranges are above {MOST_RANGE:g} m (the median is {middle:.4g} m).{question}",
+            {"unit": unit} if unit else {},
+        )  # fmt: skip
+    elif middle < LEAST_MEDIAN:
+        unit = {"mm": "m", "cm": "m"}.get(reading.unit or "m")
+        question = f" Are they {'metres' if unit else 'of another unit'}?"
+        yield Notice(
+            "near", f"The median of the ranges is {100 * middle:.2g} cm.{question}", {"unit": unit} if unit else {}
+        )
+
+
+def _about_limits(recording: Recording, reading: Reading, ranges: Floats, inside: Any) -> Iterator[Notice]:
+    """More than half of the beams outside the limits; codes at the top do not count, because they are no readings."""
+    there = np.isfinite(ranges) & (ranges > 0)
+    count = max(len(ranges), 1)
+    low, high = float(np.median(recording.range_min)), float(np.median(recording.range_max))
+    below = np.count_nonzero(there & (ranges < low)) / count
+    beyond = ranges[there & (ranges >= high)]
+    above = len(beyond) / count if len(np.unique(np.round(beyond[:5000], 3))) > 20 else 0.0
+    if below + above <= 0.5:
+        return
+    side = f"below range_min = {low:g} m" if below >= above else f"at or beyond range_max = {high:g} m"
+    change = {"range_min": 0.0} if below >= above else {"range_max": float(np.ceil(beyond.max() + 1))}
+    yield Notice("limits", f"{max(below, above):.2g} of all beams read {side} and count as no return. Lift it?", change)
+
+
+def _about_recurring(recording: Recording, valid: Floats) -> Iterator[Notice]:
+    """One value, or a narrow ring below the greatest, that recurs in more than a tenth of all beams."""
+    if len(valid) < 100:
+        return
+    rounded = np.round(valid.astype(np.float64), 3)
+    values, counts = np.unique(rounded, return_counts=True)
+    most = int(np.argmax(counts))
+    share = counts[most] / len(valid)
+    if share > RECURS and len(values) > 1:
+        value = float(values[most])
+        yield Notice(
+            "recurs",
+            f"{share:.2g} of all beams read {value:g} m. Take that for no return?",
+            {"no_return": f"{value:g}"},
+        )
+        return
+    top = float(values[-1])
+    ring = valid > 0.99 * top
+    limit = float(np.median(recording.range_max))
+    lonely = np.count_nonzero((valid <= 0.99 * top) & (valid > 0.95 * top)) < 0.05 * np.count_nonzero(ring)
+    if ring.mean() > RECURS and lonely and (not np.isfinite(limit) or top > 0.95 * limit):
+        low = float(np.floor(1000 * valid[ring].min()) / 1000)
+        yield Notice(
+            "recurs",
+            f"{ring.mean():.2g} of all beams read between {low:g} and {top:g} m. Take that for no return?",
+            {"no_return": f"{low:g}:{top:g}"},
+        )
+
+
+def believable(stamps: Floats) -> bool:
+    """Whether the stamps can be times: they rise, and neither jump by years nor wrap."""
+    return bool(stamps.any()) and (len(stamps) < 2 or not any(_about_stamps(stamps)))
+
+
+def _about_stamps(stamps: Floats, recorded: bool = False) -> Iterator[Notice]:
+    if len(stamps) < 2 or not stamps.any():
+        return
+    change = {"stamps": "recorded" if recorded else "none"}
+    way = "Use the recorder's times?" if recorded else "Leave the stamps out?"
+    if not np.isfinite(stamps).all():
+        yield Notice("stamps", f"Some stamps are not numbers. {way}", change)
+        return
+    steps = np.diff(stamps)
+    if not steps.any():
+        yield Notice("stamps", f"All stamps are equal ({stamps[0]:g}). {way}", change)
+        return
+    at = int(np.argmin(steps))
+    wraps = [wrap for wrap in WRAPS if steps[at] < 0 and abs(-steps[at] - wrap) < 0.01 * wrap]
+    if wraps:
+        yield Notice("stamps", f"The stamps wrap at 2³² before frame {at + 1}. {way}", change)
+    elif (leap := int(np.argmax(np.abs(steps)))) >= 0 and abs(steps[leap]) > YEAR:
+        years = abs(steps[leap]) / YEAR
+        yield Notice("stamps", f"The stamps jump by {years:.0f} years before frame {leap + 1}. {way}", change)
+    elif steps[at] < 0:
+        backwards = np.count_nonzero(steps < 0)
+        times = "once" if backwards == 1 else f"{backwards} times"
+        yield Notice(
+            "stamps", f"The stamps run backwards {times}, by {-steps[at]:.3g} s before frame {at + 1}. {way}",
+            change,
+        )  # fmt: skip

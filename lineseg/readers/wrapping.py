@@ -1,0 +1,147 @@
+"""Takes off what files are wrapped in: gzip, zstd, zip and UTF-16, also one inside the other."""
+
+from __future__ import annotations
+
+import codecs
+import gzip
+import io
+import tempfile
+import zipfile
+from collections.abc import Callable
+from contextlib import ExitStack
+from pathlib import Path, PurePosixPath
+from typing import IO, cast
+
+from .account import Notes
+from .bounded import expand, limit_of
+
+GZIP_MAGIC, ZSTD_MAGIC, ZIP_MAGIC = b"\x1f\x8b", b"\x28\xb5\x2f\xfd", b"PK\x03\x04"
+UTF16_MARKS = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
+MOST_LAYERS = 4
+MOST_NAMED = 5
+BAG_PARTS = (".db3", ".mcap", ".db3.zstd", ".mcap.zstd")
+# Offset of the name in the local header of a zip's first entry.
+NAME_AT = 30
+
+Progress = Callable[[int, int], None]
+
+
+def unwrapped(path: Path, stack: ExitStack, notes: Notes, progress: Progress) -> Path:
+    """`path`, or an expanded copy that lives as long as `stack`: a file, or a folder for the parts of a bag.
+
+    Raises ValueError if nothing can be expanded, if it would grow beyond the limit, or if a zip has several recordings.
+    """
+    name = path.name
+    for _ in range(MOST_LAYERS):
+        if path.is_dir():
+            return path
+        with path.open("rb") as file:
+            head = file.read(64)
+        if head.startswith((GZIP_MAGIC, ZSTD_MAGIC)):
+            path = _stream(path, head, name, stack, notes, progress)
+        elif head.startswith(UTF16_MARKS) and len(head) % 2 == 0:
+            path = _utf8(path, name, stack)
+        elif head.startswith(ZIP_MAGIC) and not _is_arrays(head):
+            unzipped = _unzipped(path, name, stack, notes, progress)
+            if unzipped is None:
+                return path
+            path = unzipped
+        else:
+            return path
+    raise ValueError(f"{name} is compressed more than {MOST_LAYERS - 1} times; unpack it first.")
+
+
+def _is_arrays(head: bytes) -> bool:
+    """Whether a zip is one that a reader opens itself: a failure pack, or NPZ."""
+    entry = head[NAME_AT : NAME_AT + int.from_bytes(head[26:28], "little")]
+    return entry == b"lineseg.json" or entry.endswith(b".npy")
+
+
+def _target(path: Path, stack: ExitStack, name: str | None = None) -> Path:
+    folder = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="lineseg-")))
+    return folder / (name or path.name)
+
+
+def _stream(path: Path, head: bytes, name: str, stack: ExitStack, notes: Notes, progress: Progress) -> Path:
+    size = path.stat().st_size
+    bare = path.stem if path.suffix.lower() in (".gz", ".zst", ".zstd") else path.name
+    target = _target(path, stack, bare or "unpacked")
+    kind = "gzip" if head.startswith(GZIP_MAGIC) else "zstd"
+    with path.open("rb") as raw:
+        packed = cast(IO[bytes], gzip.GzipFile(fileobj=raw)) if kind == "gzip" else _zstd_file(raw)
+        why = expand(packed, target, name, limit_of(size), lambda done: progress(raw.tell(), size))
+    _tell_break(why, target, name, kind, notes)
+    return target
+
+
+def _zstd_file(raw: IO[bytes]) -> IO[bytes]:
+    from rosbags.rosbag2.reader import zstd
+
+    return cast(IO[bytes], zstd.open(raw, "rb"))
+
+
+def _tell_break(why: str, target: Path, name: str, kind: str, notes: Notes) -> None:
+    if why and not target.stat().st_size:
+        raise ValueError(f"{name}: the {kind} data are incomplete or damaged ({why}); fetch the file again.")
+    if why:
+        text = f"The {kind} data are incomplete or damaged ({why}); what could be unpacked was read."
+        notes.notice("breaks off", text)
+
+
+def _utf8(path: Path, name: str, stack: ExitStack) -> Path:
+    target = _target(path, stack)
+    with path.open("rb") as raw:
+        text = io.TextIOWrapper(raw, encoding="utf-16", errors="replace", newline="")
+        packed = codecs.iterencode(iter(lambda: text.read(1 << 16), ""), "utf-8")
+        with target.open("wb") as out:
+            out.writelines(packed)
+    return target
+
+
+def _unzipped(path: Path, name: str, stack: ExitStack, notes: Notes, progress: Progress) -> Path | None:
+    """The recording in a zip; None if it is not a whole zip, so that the reader of its suffix may say so."""
+    try:
+        archive = stack.enter_context(zipfile.ZipFile(path))
+    except (zipfile.BadZipFile, OSError, NotImplementedError, ValueError) as error:
+        if path.suffix.lower() != ".zip":
+            return None
+        raise ValueError(f"{name}: a damaged zip file ({str(error).rstrip('.')}); fetch it again.") from None
+    entries = [entry for entry in archive.infolist() if not entry.is_dir() and not _is_hidden(entry.filename)]
+    if any(entry.filename == "lineseg.json" for entry in entries):
+        return None
+    parts = _chosen(entries, name)
+    folder = _target(path, stack, "bag")
+    folder.mkdir()
+    for entry in parts:
+        target = folder / PurePosixPath(entry.filename.replace("\\", "/")).name
+        try:
+            with archive.open(entry) as packed:
+                why = expand(packed, target, f"{entry.filename} in {name}", limit_of(path.stat().st_size))
+        except (zipfile.BadZipFile, NotImplementedError, RuntimeError) as error:
+            raise ValueError(f"{name}: {entry.filename} cannot be unpacked ({str(error).rstrip('.')}).") from None
+        _tell_break(why, target, f"{entry.filename} in {name}", "zip", notes)
+    return folder if len(parts) > 1 else next(folder.iterdir())
+
+
+def _is_hidden(name: str) -> bool:
+    return any(part.startswith((".", "__MACOSX")) for part in PurePosixPath(name).parts)
+
+
+def _chosen(entries: list[zipfile.ZipInfo], name: str) -> list[zipfile.ZipInfo]:
+    """The one recording among the entries: a file, or the parts of one bag."""
+    bags = [entry for entry in entries if entry.filename.lower().endswith(BAG_PARTS)]
+    folders = {str(PurePosixPath(entry.filename).parent) for entry in bags}
+    if bags and len(folders) == 1:
+        about = [e for e in entries if PurePosixPath(e.filename).name == "metadata.yaml"]
+        return bags + [e for e in about if str(PurePosixPath(e.filename).parent) in folders]
+    from . import READERS
+
+    suffixes = (*(suffix for reader in READERS for suffix in reader.suffixes), ".gz", ".zst")
+    known = [entry for entry in entries if entry.filename.lower().endswith(suffixes)]
+    found = known if known else entries
+    if len(found) == 1:
+        return found
+    listed = ", ".join(entry.filename for entry in found[:MOST_NAMED])
+    more = f" and {len(found) - MOST_NAMED} more" if len(found) > MOST_NAMED else ""
+    what = f"has several files that may be recordings: {listed}{more}; unzip it and open one" if found else "is empty"
+    raise ValueError(f"{name} {what}.")
