@@ -57,7 +57,7 @@ export type Survey = Surveyed & { values: Float32Array };
 /** The values of a threshold, and the value of each measure there. */
 export type Curve = { values: number[] } & Record<string, (number | null)[]>;
 /** An answer of long work. */
-export type Answer = Worked & Partial<SampledCurves & SampledMap> & Tuned;
+export type Answer = Worked & Partial<SampledCurves & SampledMap> & Tuned & Fitted;
 """
 
 

@@ -38,6 +38,23 @@ class Knob:
     floor: bool = False
     scatter: float = 0.0
 
+    def reaching(self, *values: float) -> Knob:
+        """The same with a slider that reaches these values: an end that is too near moves to the next round number."""
+        low, high = min(values), max(values)
+        return replace(
+            self,
+            low=self.low if low >= self.low else max(max(each for each in _round(low) if each <= low), self.least),
+            high=self.high if high <= self.high else min(min(each for each in _round(high) if each >= high), self.most),
+        )
+
+
+def _round(value: float) -> tuple[float, ...]:
+    """The round numbers around a value, one of them on each side: 1, 2 and 5 times powers of ten."""
+    if value <= 0.0:
+        return (value,)
+    unit = 10.0 ** math.floor(math.log10(value))
+    return tuple(float(f"{step * unit:.3g}") for step in (1, 2, 5, 10))
+
 
 def switch(symbol: str, label: str, help: str) -> Knob:
     """The knob of a switch; on and off are the numbers 1 and 0."""

@@ -12,7 +12,7 @@ from .knobs import Knob, Thresholds
 Epsilon = Annotated[
     float,
     Knob(
-        "ε", 0.005, 0.20, "m", 0.001, log=True, least=1e-6, most=100.0, ros="least_thresh", scatter=1.0,
+        "ε", 0.005, 0.50, "m", 0.001, log=True, least=1e-6, most=100.0, ros="least_thresh", scatter=1.0,
         label="distance to the line",
         why="a distance of 0 would refuse every measured point",
         help="Largest distance of a point from its line. Higher accepts noisier points. Set it near the laser's range "
@@ -80,7 +80,7 @@ class Params(Thresholds):
     max_dropout: Annotated[
         int,
         Knob(
-            "D_max", 0, 20, "beams", 1, least=0, most=100_000,
+            "D_max", 0, 40, "beams", 1, least=0, most=100_000,
             label="dropout crossed",
             why="a number of beams is never negative",
             help="Largest number of consecutive beams without a return that a seed or line may cross. 0 allows none, "

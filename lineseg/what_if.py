@@ -66,6 +66,7 @@ def what_if(
 def nearest(value: float, kind: type, knob: Knob, differs: Callable[[int | float], bool]) -> int | float | None:
     """The nearest different value of the knob, or None."""
     place = math.log if knob.log else float
+    knob = knob.reaching(value)
     settable = knob.step * np.arange(round(knob.low / knob.step), round(knob.high / knob.step) + 1)
     settable = settable[(settable >= knob.least) & ((settable > 0) | (not knob.log))]
     widest = WIDEST * (place(knob.high) - place(knob.low))

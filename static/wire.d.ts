@@ -19,7 +19,7 @@ export type Connection = "connecting" | "open" | "lost";
 
 export type Where = "recording" | "params" | "frame" | "view" | "upload" | "server";
 
-export type Job = "curves" | "map" | "auto";
+export type Job = "curves" | "map" | "auto" | "fit";
 
 /** What the tab shows. Every input changes only this. */
 export type View = Required<Omit<ViewPatch, "mode" | "against">> & {
@@ -44,7 +44,7 @@ export type Survey = Surveyed & { values: Float32Array };
 /** The values of a threshold, and the value of each measure there. */
 export type Curve = { values: number[] } & Record<string, (number | null)[]>;
 /** An answer of long work. */
-export type Answer = Worked & Partial<SampledCurves & SampledMap> & Tuned;
+export type Answer = Worked & Partial<SampledCurves & SampledMap> & Tuned & Fitted;
 
 // What the page sends
 
@@ -155,9 +155,15 @@ export interface AutoWish {
   anew?: boolean;
 }
 
+/** For the recording, the method and the thresholds on the screen. */
+export interface FitWish {
+  type: "fit";
+  job: number;
+}
+
 export interface StopWish {
   type: "stop";
-  what: "curves" | "map" | "auto";
+  what: "curves" | "map" | "auto" | "fit";
 }
 
 export interface PublishAsked {
@@ -742,9 +748,39 @@ export interface Tuned {
   verdict?: Verdict;
 }
 
+/**
+ * How ranges scatter. edges: of bins of the range [m]; sigma: standard deviation in each bin [m], null if unknown.
+ *
+ * base [m], growth: σ² = base² + (growth·ρ)² through these. rough: how much walls deviate from straight over a
+ * length of roughOver [m].
+ */
+export interface Noise {
+  edges: number[];
+  sigma: (number | null)[];
+  base: number;
+  growth: number;
+  rough: number;
+  roughOver: number;
+}
+
+/**
+ * What fits the laser. fits: values of the thresholds that depend on its noise, none if nothing can be proposed.
+ *
+ * better: whether they are better than the present ones; text: a sentence that says so, or why nothing can be
+ * proposed. scatter: standard deviation of points from their walls [m]; noise: null if unknown.
+ */
+export interface Fitted {
+  method?: string;
+  fits?: Record<string, number>;
+  better?: boolean;
+  text?: string;
+  scatter?: number | null;
+  noise?: Noise | null;
+}
+
 /** Common fields of answers of long work. done: it has ended; stopped: on request; message: why it failed. */
 export interface Worked {
-  type: "curves" | "map" | "auto";
+  type: "curves" | "map" | "auto" | "fit";
   job: number;
   done?: boolean;
   stopped?: boolean;

@@ -1,4 +1,5 @@
 import math
+from dataclasses import replace
 
 import pytest
 
@@ -38,6 +39,17 @@ def test_equal_parameters_are_one_cache_key():
 def test_defaults_equal_the_paper():
     p = Params()
     assert (p.epsilon, p.delta, p.seed_points, p.min_points, p.min_length) == (0.03, 0.10, 6, 10, 0.6)
+
+
+def test_a_slider_reaches_the_value_that_is_set_and_ends_at_a_round_number():
+    knobs = {name: knob for name, _, knob in Params.knobs()}
+    epsilon = knobs["epsilon"]
+    assert (epsilon.high, knobs["max_dropout"].high) == (0.5, 40)
+    assert epsilon.reaching(0.005, 0.5) == epsilon
+    assert epsilon.reaching(0.6) == replace(epsilon, high=1.0)
+    assert epsilon.reaching(0.0031, 1.0) == replace(epsilon, low=0.002, high=1.0)
+    assert epsilon.reaching(1e-6, 100.0) == replace(epsilon, low=1e-6, high=100.0)
+    assert knobs["min_points"].reaching(2, 101) == replace(knobs["min_points"], low=2, high=200)
 
 
 def test_every_default_lies_on_its_slider_and_every_slider_within_what_is_allowed():

@@ -78,7 +78,7 @@ def test_a_line_of_other_beams_is_named_with_the_one_that_it_replaces():
 def test_a_threshold_that_decides_nothing_says_so():
     found = by_name(corner(), 40)["max_dropout"]
     assert found.value is None
-    assert found.text == "no D_max from 0 to 20 beams changes the answer for beam 40"
+    assert found.text == "no D_max from 0 to 40 beams changes the answer for beam 40"
 
 
 def test_no_threshold_brings_a_beam_back_that_did_not_return():

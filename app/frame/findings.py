@@ -90,7 +90,8 @@ def histograms(found: Findings) -> dict[str, Histogram]:
     measured = _lines_measured(found)
     if isinstance(found.trace, GrowthTrace):
         measured |= _distances_measured(found, found.trace)
-    knobs = {name: knob for name, _, knob in found.trace.params.knobs() if name in measured}
+    params = found.trace.params
+    knobs = {name: knob.reaching(getattr(params, name)) for name, _, knob in params.knobs() if name in measured}
 
     def of(knob: Knob, passed: NDArray | list, failed: NDArray | list) -> Histogram:
         return histogram(np.asarray(passed, float), np.asarray(failed, float), knob.low, knob.high, knob.log)

@@ -10,10 +10,11 @@ import math
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import asdict
 from pathlib import Path
-from typing import Annotated, Any, Literal, NamedTuple
+from typing import Annotated, Any, Literal, NamedTuple, get_args
 
 import numpy as np
 from fastapi import FastAPI
+from numpy.typing import NDArray
 from pydantic import Field, TypeAdapter, ValidationError
 from starlette.exceptions import HTTPException
 from starlette.websockets import WebSocket, WebSocketDisconnect
@@ -26,8 +27,9 @@ from lineseg.tuning import Objective, RecordingBlocks, Trial, Tuning
 from ..bounds import Message, Name, Number, sentence
 from ..newest import Newest
 from ..session.sessions import Sessions
+from ..told.answers import Job, Tuned
 from ..told.answers import Trial as TrialTold
-from ..told.answers import Tuned
+from ..tuning.fit import fit
 from ..tuning.kept_trials import KeptTrials
 from ..tuning.sensitivity import Subject, curves, relief
 
@@ -68,17 +70,24 @@ class AutoWish(Message):
     anew: bool = False
 
 
+class FitWish(Message):
+    """For the recording, the method and the thresholds on the screen."""
+
+    type: Literal["fit"]
+    job: int
+
+
 class StopWish(Message):
     type: Literal["stop"]
-    what: Literal["curves", "map", "auto"]
+    what: Job
 
 
-Wish = CurvesWish | MapWish | AutoWish | StopWish
+Wish = CurvesWish | MapWish | AutoWish | FitWish | StopWish
 _WISH: TypeAdapter[Wish] = TypeAdapter(Annotated[Wish, Field(discriminator="type")])
 Answers = Iterator[Mapping[str, object]]
 
 
-class Job(NamedTuple):
+class Piece(NamedTuple):
     """A piece of work; number: by which the page knows its answers."""
 
     number: int
@@ -90,13 +99,13 @@ class Slot:
 
     def __init__(self, name: str, send: Callable[[dict[str, Any]], None]) -> None:
         self._name, self._send = name, send
-        self._stop: np.ndarray | None = None
-        self._newest = Newest[Job](f"tuning {name}", self._run, behind=True)
+        self._stop: NDArray[np.bool_] | None = None
+        self._newest = Newest[Piece](f"tuning {name}", self._run, behind=True)
 
-    def begin(self, number: int, subject: Subject, work: Callable[[Pool], Answers]) -> None:
+    def begin(self, number: int, stop: NDArray[np.bool_], work: Callable[[Pool], Answers]) -> None:
         self.stop()
-        self._stop = subject.stop
-        self._newest.put(Job(number, work))
+        self._stop = stop
+        self._newest.put(Piece(number, work))
 
     def stop(self) -> None:
         if self._stop is not None:
@@ -107,7 +116,7 @@ class Slot:
         self.stop()
         self._newest.close()
 
-    def _run(self, job: Job) -> None:
+    def _run(self, job: Piece) -> None:
         about = {"type": self._name, "job": job.number}
         try:
             with pool() as workers:
@@ -135,7 +144,7 @@ def add_tuning(app: FastAPI, sessions: Sessions, folder: Path) -> None:
             with contextlib.suppress(Exception):
                 asyncio.run_coroutine_threadsafe(socket.send_text(json.dumps(answer)), loop).result(30)
 
-        slots = {name: Slot(name, send) for name in ("curves", "map", "auto")}
+        slots = {name: Slot(name, send) for name in get_args(Job)}
         measures = {"type": "measures", "measures": [asdict(each) for each in MEASURES.values()]}
         with contextlib.suppress(WebSocketDisconnect, RuntimeError):
             await socket.send_text(json.dumps(measures))
@@ -152,12 +161,17 @@ def _obey(text: str, slots: dict[str, Slot], sessions: Sessions, session: str, f
         wish = _WISH.validate_json(text)
         if isinstance(wish, StopWish):
             slots[wish.what].stop()
+            return None
+        shown = sessions.shown(session)
+        view, stop = shown.view, np.zeros(1, np.bool_)
+        if isinstance(wish, FitWish):
+            work = fit(shown.recording, view.params, view.method, stop)
+            slots["fit"].begin(wish.job, stop, lambda workers: work)
         else:
-            shown = sessions.shown(session)
-            if shown.view.method != SURVEYED:
+            if view.method != SURVEYED:
                 raise ValueError("auto-tuning works with region growing only; choose region growing")
-            subject = Subject(shown.recording, Params().but(**wish.params))
-            slots[wish.type].begin(wish.job, subject, _work_of(wish, subject, folder))
+            subject = Subject(shown.recording, Params().but(**wish.params), stop)
+            slots[wish.type].begin(wish.job, stop, _work_of(wish, subject, folder))
     except ValidationError as error:
         return sentence(error)
     except HTTPException as error:

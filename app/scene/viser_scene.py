@@ -175,19 +175,24 @@ class ViserScene:
             for widget in self._sliders.values():
                 widget.remove()
             self._sliders = {name: self._slider(name, kind, knob, params) for name, kind, knob in params.knobs()}
-        for name, kind, knob in params.knobs():
-            value = kind(_within(getattr(params, name), knob.low, knob.high))
-            if self._sliders[name].value != value:
-                self._sliders[name].value = value
+        for name, _, knob in params.knobs():
+            slider, value = self._sliders[name], getattr(params, name)
+            if isinstance(slider, viser.GuiSliderHandle):
+                reaching = knob.reaching(value, slider.min, slider.max)
+                if (slider.min, slider.max) != (reaching.low, reaching.high):
+                    slider.min, slider.max = type(value)(reaching.low), type(value)(reaching.high)
+            if slider.value != value:
+                slider.value = value
 
     def _slider(self, name: str, kind: type, knob: Knob, params: Thresholds) -> Any:
         """The slider of a threshold, or the checkbox of a switch."""
         label = f"{knob.symbol} [{knob.unit}]" if knob.unit else knob.symbol
-        value = kind(_within(getattr(params, name), knob.low, knob.high))
+        value = getattr(params, name)
         if kind is bool:
             widget = self._server.gui.add_checkbox(label, initial_value=value, hint=knob.help)
         else:
-            low, high, step = kind(knob.low), kind(knob.high), kind(knob.step)
+            reaching = knob.reaching(value)
+            low, high, step = kind(reaching.low), kind(reaching.high), kind(knob.step)
             widget = self._server.gui.add_slider(
                 label, min=low, max=high, step=step, initial_value=value, hint=knob.help
             )
@@ -246,7 +251,3 @@ def _show_lines(handle: viser.LineSegmentsHandle, lines: Lines | None) -> None:
 def _set_visible(handle: viser.SceneNodeHandle, visible: bool) -> None:
     if handle.visible != visible:
         handle.visible = visible
-
-
-def _within(value: float, low: float, high: float) -> float:
-    return min(max(value, low), high)

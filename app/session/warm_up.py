@@ -10,6 +10,7 @@ import numpy as np
 from lineseg import EXTRACTORS, Recording, Scan, extract, trace
 from lineseg.baselines.authors import AuthorsParams
 from lineseg.survey import survey
+from lineseg.tuning.proposal import propose
 
 log = logging.getLogger(__name__)
 
@@ -49,9 +50,16 @@ class WarmUp:
         finally:
             self.surveyed.set()
         try:
+            propose(Recording.from_scans(_noisy_scans()))
             for method in EXTRACTORS.values():
                 method.extract(wall, method.params_type())
                 method.trace(wall, method.params_type())
             survey(Recording.from_scans([wall, wall]), AuthorsParams())
         except Exception:
             log.exception("warming up the other methods failed")
+
+
+def _noisy_scans() -> list[Scan]:
+    """Scans from which the noise can be told."""
+    ranges = 2.0 + np.random.default_rng(0).normal(0.0, 0.01, (8, 400))
+    return [Scan.regular(each, -1.0, 0.005) for each in ranges]

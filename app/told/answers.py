@@ -12,7 +12,7 @@ from lineseg.what_if import WhatIf
 from .drawn import Agreement, Params, Point, Reference
 from .typescript import As
 
-Job = Literal["curves", "map", "auto"]
+Job = Literal["curves", "map", "auto", "fit"]
 
 
 class WhatIfs(TypedDict):
@@ -148,6 +148,36 @@ class Tuned(TypedDict, total=False):
     trials: list[Trial]
     importance: dict[str, float]
     verdict: Verdict
+
+
+class Noise(TypedDict):
+    """How ranges scatter. edges: of bins of the range [m]; sigma: standard deviation in each bin [m], null if unknown.
+
+    base [m], growth: σ² = base² + (growth·ρ)² through these. rough: how much walls deviate from straight over a length
+    of roughOver [m].
+    """
+
+    edges: list[float]
+    sigma: list[float | None]
+    base: float
+    growth: float
+    rough: float
+    roughOver: float
+
+
+class Fitted(TypedDict, total=False):
+    """What fits the laser. fits: values of the thresholds that depend on its noise, none if nothing can be proposed.
+
+    better: whether they are better than the present ones; text: a sentence that says so, or why nothing can be
+    proposed. scatter: standard deviation of points from their walls [m]; noise: null if unknown.
+    """
+
+    method: str
+    fits: Params
+    better: bool
+    text: str
+    scatter: float | None
+    noise: Noise | None
 
 
 class Worked(TypedDict):

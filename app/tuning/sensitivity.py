@@ -33,7 +33,7 @@ class Subject:
 def curves(subject: Subject, workers: Pool, names: Sequence[str]) -> Iterator[SampledCurves]:
     """Stage by stage, CURVES over the slider of each threshold, from evenly spread frames of the recording."""
     for batch, frames, count in _stages(subject.recording, CURVE_STAGES):
-        values = {name: slider_values(name, count) for name in names}
+        values = {name: slider_values(name, count, getattr(subject.params, name)) for name in names}
         tasks = [
             (batch, [subject.params.but(**{name: value}) for value in values[name]], subject.stop) for name in names
         ]
@@ -49,7 +49,7 @@ def curves(subject: Subject, workers: Pool, names: Sequence[str]) -> Iterator[Sa
 def relief(subject: Subject, workers: Pool, x: str, y: str, measure: str) -> Iterator[SampledMap]:
     """Stage by stage, a measure over two thresholds: `heights`, a row for each value of y."""
     for batch, frames, count in _stages(subject.recording, MAP_STAGES):
-        xs, ys = slider_values(x, count), slider_values(y, count)
+        xs, ys = (slider_values(name, count, getattr(subject.params, name)) for name in (x, y))
         tasks = [(batch, [subject.params.but(**{x: u, y: v}) for u in xs], subject.stop) for v in ys]
         rows: list[list[float | None]] = [[]] * len(ys)
         for number, totals in workers.results(_measure, tasks):

@@ -22,7 +22,7 @@ def values_of(kind: type, knob: Knob, most: int = MOST_VALUES) -> list[float]:
 def sweep(scan: Scan, method: str, params: Thresholds, name: str) -> ThresholdSweep:
     """values; runs: the stretches of beams [first, last, "#rrggbb"] at each value; lines: number of lines."""
     kind, knob = {field: (kind, knob) for field, kind, knob in params.knobs()}[name]
-    values = values_of(kind, knob)
+    values = values_of(kind, knob.reaching(getattr(params, name)))
     extractions = [EXTRACTORS[method].extract(scan, params.but(**{name: kind(value)})) for value in values]
     return {
         "name": name,

@@ -80,9 +80,11 @@ def spread(low: float, high: float, count: int, kind: type, knob: Knob) -> tuple
     return tuple(dict.fromkeys(_exact(value, kind) for value in even(low, high, count).tolist()))
 
 
-def slider_values(name: str, count: int) -> tuple[float, ...]:
-    """`count` values over the range of a threshold's slider."""
+def slider_values(name: str, count: int, present: float | None = None) -> tuple[float, ...]:
+    """`count` values over the range of a threshold's slider, which reaches the present value, if any."""
     kind, knob = knob_of(name)
+    if present is not None:
+        knob = knob.reaching(present)
     return spread(knob.low, knob.high, count, kind, knob)
 
 

@@ -37,6 +37,8 @@ LOWEST, HIGHEST = 2.5, 4.5
 USUAL, PULL = 3.2, 0.1
 # Steadiness that the present values may lack before others are proposed.
 AS_GOOD = 0.01
+# Above this ε [m], walls and what stands before them become one line.
+MOST_EPSILON = 0.5
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,9 +47,8 @@ class Proposal:
 
     params: the proposed ones, or the present ones if these are as good or if nothing can be proposed. changed: whether
     they differ. fitting: those that fit best, also if the present ones are as good; None if nothing can be proposed.
-    scatter: standard deviation of points from their walls [m]. pieces: number of segments into which a
-    wall breaks at the present values, on average. tried: (k,) values of ε, or of the method's counterpart [m]; steady:
-    (k,) score of the lines there, with the lines at 1.6 times that value as the truth, 0 to 1.
+    scatter: standard deviation of points from their walls [m]. pieces: number of segments into which a wall breaks at
+    the present values, on average. tried: (k,) values of ε, or of the method's counterpart [m]; steady: (k,) score of the lines there, with the lines at 1.6 times that value as the truth, 0 to 1.
     text: what is proposed, or why nothing can be; "" if the present values are as good.
     """
 
@@ -131,7 +132,8 @@ class _Search:
             return "This method has no threshold that depends on the noise of the laser."
         if len(self._scans) < LEAST_FRAMES:
             few = len(self._scans)
-            return f"Estimating noise needs at least {LEAST_FRAMES} scans with a return; {few} have one."
+            have = "has" if few == 1 else "have"
+            return f"Estimating noise needs at least {LEAST_FRAMES} scans with a return; {few} {have} one."
         if not len(self.scales):
             return "No straight wall was found, so the noise of the laser is unknown."
         return ""
@@ -150,6 +152,11 @@ class _Search:
             return self.nothing("No ε that fits this noise gives steady lines.")
         usual = USUAL * math.sqrt(self._white * self.scatter)
         best = int(np.argmax(steady - PULL * np.abs(np.log(self.scales[:count] / usual))))
+        if self.scales[best] > MOST_EPSILON:
+            return self.nothing(
+                f"Points scatter by {1e3 * self.scatter:.0f} mm here. That is too much: lines would have to take in "
+                f"points more than {MOST_EPSILON:g} m away."
+            )
         proposed, judges = scaled(self.present, self.scales[best]), self._lines[best + 1]
         present = [self._extract(scan, self.present) for scan in self._scans]
         lacking = _agreement(self._lines[best], judges) - _agreement(present, judges)

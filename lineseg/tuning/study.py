@@ -169,11 +169,10 @@ class Tuning:
     def _distribution(self, name: str) -> Any:
         """The range of the slider, and what the settings that are tried first need beyond it."""
         kind, knob = knob_of(name)
-        starts = [getattr(start, name) for start in (Params(), self._base)]
-        low, high = min(knob.low, *starts), max(knob.high, *starts)
+        knob = knob.reaching(*(getattr(start, name) for start in (Params(), self._base)))
         if kind is int:
-            return self._optuna.distributions.IntDistribution(int(low), int(high))
-        return self._optuna.distributions.FloatDistribution(low, high, log=knob.log and low > 0)
+            return self._optuna.distributions.IntDistribution(int(knob.low), int(knob.high))
+        return self._optuna.distributions.FloatDistribution(knob.low, knob.high, log=knob.log)
 
     def step(self) -> Trial:
         """Try one more setting."""

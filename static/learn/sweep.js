@@ -2,7 +2,7 @@
 // One threshold over its whole range: a picture of the lines for each value.
 import { freshCanvas } from "../widgets/canvas.js";
 import { h, setText } from "../widgets/dom.js";
-import { clamp, format, placeOf, valueAt, withUnit } from "../widgets/scale.js";
+import { clamp, format, placeOf, reaching, valueAt, withUnit } from "../widgets/scale.js";
 import { createSlider, gestureCount } from "../widgets/slider.js";
 import { colour, onTheme } from "./colours.js";
 import { fetchInto } from "./fetched.js";
@@ -153,6 +153,7 @@ export class Sweep {
   /** @param {import("../wire.js").State} state */
   setState({ params, recording, topic, frame, method }) {
     this.#params = params;
+    this.#knobs = this.#knobs.map((knob) => reaching(knob, params[knob.name] ?? knob.low));
     this.#frame = JSON.stringify([recording, topic, frame, method]);
     this.#refresh();
   }

@@ -3,6 +3,23 @@
 
 export const tuningText = {
   pages: { map: "Map", auto: "Auto" },
+  fit: {
+    label: "What fits this laser",
+    measuring: "Measuring how much the points scatter…",
+    use: "Use it",
+    used: (/** @type {string} */ values) => `Set ${values}. Ctrl+Z brings the former values back.`,
+    usesHelp: (/** @type {string} */ values) => `Sets ${values}`,
+    suits: (/** @type {string} */ scatter, /** @type {string} */ values) =>
+      `Points scatter by ${scatter} here, and ${values} suits that.`,
+    mm: (/** @type {number} */ metres) => `${Number((1000 * metres).toPrecision(2))} mm`,
+    m: (/** @type {number} */ metres) => `${metres < 10 ? metres.toFixed(1) : metres.toFixed(0)} m`,
+    noise: (/** @type {string} */ near, /** @type {string} */ far, /** @type {string} */ reach) =>
+      `Standard deviation of a range: ${near} at 1 m, ${far} at ${reach}.`,
+    rough: (/** @type {string} */ rough, /** @type {string} */ over) =>
+      `Pale: with the walls’ own deviation from straight, ${rough} over ${over}.`,
+    limit: (/** @type {string} */ symbol, /** @type {string} */ value) => `Dashed: ${symbol}, now ${value}.`,
+    proposed: (/** @type {string} */ value) => `Solid: what fits, ${value}.`,
+  },
   curves: {
     label: "Sensitivity",
     show: "Sensitivity",

@@ -42,22 +42,28 @@ export function createCurve(knob, text, onSet) {
   element.addEventListener("pointermove", (event) => {
     element.title = curve ? words(knob, curve, placeAt(event), text) : "";
   });
+  const paint = (/** @type {Curve} */ { values, ...lines }) => {
+    const most = Math.max(1e-9, ...lines.segments.map((value) => value ?? 0));
+    for (const [line, path] of paths)
+      path.setAttribute("d", lines[line] ? pathOf(knob, values, lines[line], line === "segments" ? most : 1) : "");
+  };
   return {
     element,
     /** @param {Curve} next */
     set(next) {
       curve = next;
-      const most = Math.max(1e-9, ...next.segments.map((value) => value ?? 0));
-      for (const [line, path] of paths) {
-        path.setAttribute("d", next[line] ? pathOf(knob, next.values, next[line], line === "segments" ? most : 1) : "");
-      }
+      paint(next);
     },
     /** @param {Set<string>} hidden */
     showOnly(hidden) {
       for (const [line, path] of paths) path.style.display = hidden.has(line) ? "none" : "";
     },
-    /** @param {number} value */
-    mark(value) {
+    /** @param {number} value @param {Knob} range of the slider */
+    mark(value, range) {
+      if (range !== knob) {
+        knob = range;
+        if (curve) paint(curve);
+      }
       const x = String(placeOf(knob, value) * WIDTH);
       mark.setAttribute("x1", x);
       mark.setAttribute("x2", x);

@@ -14,7 +14,7 @@ import { Thresholds } from "./thresholds.js";
  * @param {typeof import("../text/page.js").pageText} text
  * @param {Handlers} handlers
  * @param {Page[]} inspecting further pages, first in the mode Inspect
- * @param {{legend: HTMLElement, pages: Page[]}} tuner above the thresholds, and its pages in the mode Tune
+ * @param {{above: HTMLElement[], pages: Page[]}} tuner above the thresholds, and its pages in the mode Tune
  */
 export function mountPanel(panel, text, handlers, inspecting, tuner) {
   return new Panel(panel, text, handlers, inspecting, tuner);
@@ -24,17 +24,18 @@ class Panel {
   #thresholds;
   #lines;
   #tabs;
+  /** Identifies the drawn recording. */ #place = "";
 
   /**
    * @param {HTMLElement} panel
    * @param {typeof import("../text/page.js").pageText} text
    * @param {Handlers} handlers
    * @param {Page[]} inspecting
-   * @param {{legend: HTMLElement, pages: Page[]}} tuner
+   * @param {{above: HTMLElement[], pages: Page[]}} tuner
    */
   constructor(panel, text, handlers, inspecting, tuner) {
     const { tabs } = text.tune;
-    this.#thresholds = new Thresholds(text.tune, handlers, tuner.legend);
+    this.#thresholds = new Thresholds(text.tune, handlers, tuner.above);
     this.#lines = createLines(text.lines, handlers.onSelect);
     this.#tabs = new Tabs([
       ...inspecting.map((page) => ({ ...page, mode: "inspect" })),
@@ -70,6 +71,9 @@ class Panel {
 
   /** @param {State} state */
   setState(state) {
+    const place = `${state.recording} ${state.topic}`;
+    if (place !== this.#place) this.#thresholds.forget();
+    this.#place = place;
     this.#thresholds.setHistograms(state.histograms);
     this.#tabs.setCount("lines", state.segments.length);
     this.#lines.setState(state);
@@ -78,6 +82,11 @@ class Panel {
   /** Marks on the sliders. @param {import("../wire.js").WhatIf[]} changes */
   setMarks(changes) {
     this.#thresholds.setMarks(changes);
+  }
+
+  /** Ticks on the sliders. @param {import("../wire.js").Params} fits the values that fit the laser */
+  setFits(fits) {
+    this.#thresholds.setFits(fits);
   }
 
   /** Shows why the server refused thresholds. @param {string} why */

@@ -15,6 +15,7 @@ export class Sensitivity {
   #text;
   #onSet;
   #onShow;
+  #row;
   /** Lines that are not drawn; "all" means that none is drawn. @type {Set<string>} */ #hidden;
   #note = h("span", { class: "curves-note muted", role: "status" });
   #all;
@@ -22,11 +23,12 @@ export class Sensitivity {
   /** @type {Map<string, ReturnType<typeof createCurve>>} */ #curves = new Map();
   /** Whether the recording has truth. */ hasTruth = false;
 
-  /** @param {Text} text @param {{onSet: (name: string, value: number) => void, onShow: () => void}} handlers */
-  constructor(text, { onSet, onShow }) {
+  /** @param {Text} text @param {{onSet: (name: string, value: number) => void, onShow: () => void, row: (name: string) => import("./tuner.js").Row | null}} handlers */
+  constructor(text, { onSet, onShow, row }) {
     this.#text = text;
     this.#onSet = onSet;
     this.#onShow = onShow;
+    this.#row = row;
     this.#hidden = new Set(JSON.parse(localStorage.getItem(KEY) ?? "[]"));
     this.#all = h("button", { type: "button", class: "curve-key all", onclick: () => this.#toggle("all") }, text.show);
     tooltip(this.#all, text.help, "left");
@@ -78,18 +80,21 @@ export class Sensitivity {
     }
   }
 
-  /** @param {Knob[]} knobs @param {(name: string) => HTMLElement | null} holder */
-  setKnobs(knobs, holder) {
+  /** @param {Knob[]} knobs */
+  setKnobs(knobs) {
     this.#curves = new Map(
       knobs.map((knob) => [knob.name, createCurve(knob, this.#text, (value) => this.#onSet(knob.name, value))]),
     );
-    for (const [name, curve] of this.#curves) holder(name)?.append(curve.element);
+    for (const [name, curve] of this.#curves) this.#row(name)?.element.append(curve.element);
     this.#show();
   }
 
   /** @param {import("../wire.js").Params} params */
   setParams(params) {
-    for (const [name, value] of Object.entries(params)) this.#curves.get(name)?.mark(value);
+    for (const [name, value] of Object.entries(params)) {
+      const row = this.#row(name);
+      if (row) this.#curves.get(name)?.mark(value, row.knob);
+    }
   }
 
   pending() {

@@ -28,6 +28,7 @@ export function createSwitch(knob, text, onChange) {
 
   return {
     element: row,
+    knob,
     /** @param {number} value */
     set(value) {
       box.checked = value === 1;
@@ -45,5 +46,7 @@ export function createSwitch(knob, text, onChange) {
       mark.title = change?.text ?? "";
     },
     setHistogram() {},
+    shrink() {},
+    setFit() {},
   };
 }

@@ -2,7 +2,7 @@
 import { h } from "../widgets/dom.js";
 import { createHistogram } from "../widgets/histogram.js";
 import { createNumberField } from "../widgets/number.js";
-import { clamp, format, placeOf, snap, valueAt, withUnit } from "../widgets/scale.js";
+import { clamp, format, placeOf, reaching, snap, valueAt, withUnit } from "../widgets/scale.js";
 import { createSlider } from "../widgets/slider.js";
 import { hideTooltip, tooltip } from "../widgets/tooltip.js";
 import { allowedRange, refused } from "./allowed.js";
@@ -22,7 +22,8 @@ export function hasHistogram(knob) {
 
 /** One threshold: symbol, typed value, slider and, if measured values are compared with it, their histogram. */
 export class Threshold {
-  #knob;
+  /** Its slider reaches every value that was set on this recording. */ #knob;
+  #declared;
   #text;
   #onChange;
   #value;
@@ -31,6 +32,8 @@ export class Threshold {
   #slider;
   #reset;
   #mark;
+  /** The value that fits the laser. @type {number | undefined} */ #fits;
+  #tick;
   #histogram;
 
   /**
@@ -39,7 +42,7 @@ export class Threshold {
    * @param {(name: string, value: number) => void} onChange
    */
   constructor(knob, text, onChange) {
-    this.#knob = knob;
+    this.#knob = this.#declared = knob;
     this.#text = text;
     this.#onChange = onChange;
     this.#value = this.#marked = knob.default;
@@ -53,7 +56,7 @@ export class Threshold {
     });
     this.#slider = createSlider({
       label: `${knob.symbol}, ${knob.label}`,
-      onPlace: (place) => this.#change(valueAt(knob, place)),
+      onPlace: (place) => this.#change(valueAt(this.#knob, place)),
       onSteps: (steps) => this.#change(this.#stepped(steps)),
     });
     this.#slider.element.title = "";
@@ -64,6 +67,9 @@ export class Threshold {
     this.#mark = button("what-if-mark", () => this.#change(this.#marked));
     this.#mark.hidden = true;
     tooltip(this.#mark, () => this.#mark.getAttribute("aria-label") ?? "");
+    this.#tick = button("fit-mark", () => this.#fits !== undefined && this.#change(this.#fits));
+    this.#tick.hidden = true;
+    tooltip(this.#tick, () => this.#tick.getAttribute("aria-label") ?? "");
     this.#histogram = hasHistogram(knob) ? createHistogram(knob) : null;
     this.element = this.#createRow();
     this.set(this.#value);
@@ -83,7 +89,7 @@ export class Threshold {
       "div",
       { class: "threshold", "data-knob": knob.name },
       h("div", { class: "threshold-head" }, name, this.#reset, this.#field.element, unit),
-      h("div", { class: "slider-holder" }, this.#slider.element, this.#mark),
+      h("div", { class: "slider-holder" }, this.#slider.element, this.#tick, this.#mark),
       this.#field.error,
       this.#holdHistogram(),
     );
@@ -115,8 +121,29 @@ export class Threshold {
     return Math.sign(next - this.#value) === Math.sign(steps) ? next : this.#value;
   }
 
+  /** The threshold with the range of its slider. */
+  get knob() {
+    return this.#knob;
+  }
+
+  /** @param {Knob} knob the same threshold with another range */
+  #span(knob) {
+    if (knob === this.#knob) return;
+    this.#knob = knob;
+    this.#histogram?.setRange(knob);
+    this.#mark.style.setProperty("--place", String(placeOf(knob, this.#marked)));
+    this.#tick.style.setProperty("--place", String(placeOf(knob, this.#fits ?? 0)));
+  }
+
+  /** Lets the slider span no more than it must: another recording was opened. */
+  shrink() {
+    this.#span(reaching(this.#declared, this.#value, this.#fits ?? this.#value));
+    this.set(this.#value);
+  }
+
   /** @param {number} next */
   set(next) {
+    this.#span(reaching(this.#knob, next));
     const knob = this.#knob;
     this.#value = next;
     this.#field.set(format(knob, next));
@@ -124,6 +151,7 @@ export class Threshold {
     this.#histogram?.cutAt(next);
     this.#reset.classList.toggle("shown", next !== knob.default);
     this.#reset.tabIndex = next === knob.default ? -1 : 0;
+    this.#tick.hidden = this.#fits === undefined || this.#fits === next;
   }
 
   /** @param {string} message */
@@ -138,6 +166,17 @@ export class Threshold {
     this.#marked = change.value;
     this.#mark.style.setProperty("--place", String(placeOf(this.#knob, this.#marked)));
     this.#mark.setAttribute("aria-label", change.text);
+  }
+
+  /** Shows a tick at the value that fits the laser. @param {number | undefined} value */
+  setFit(value) {
+    this.#fits = value;
+    this.#span(reaching(this.#knob, value ?? this.#value));
+    this.set(this.#value);
+    if (value === undefined) return;
+    const [knob, words] = [this.#knob, `${this.#knob.symbol.replace("_", " ")} = ${withUnit(this.#knob, value)}`];
+    this.#tick.style.setProperty("--place", String(placeOf(knob, value)));
+    this.#tick.setAttribute("aria-label", this.#text.fits(words));
   }
 
   /** @param {Histogram | undefined} shown */

@@ -28,8 +28,8 @@ export class Thresholds {
   #extensions;
   #message = h("p", { class: "panel-error", role: "alert", hidden: true });
 
-  /** @param {Text} text @param {Handlers} handlers @param {HTMLElement} curves the legend of what stands below each row */
-  constructor(text, { onParams, onUndo, onRedo }, curves) {
+  /** @param {Text} text @param {Handlers} handlers @param {HTMLElement[]} above what stands above the rows */
+  constructor(text, { onParams, onUndo, onRedo }, above) {
     this.#text = text;
     this.#onParams = onParams;
     this.#undo = iconButton("undo", text.undo, onUndo);
@@ -60,7 +60,7 @@ export class Thresholds {
       {},
       h("div", { class: "panel-toolbar" }, this.#presets, spacer, this.#undo, this.#redo, this.#resetAll),
       this.#message,
-      curves,
+      ...above,
       this.#main,
       this.#legend,
       this.#extensions,
@@ -104,7 +104,12 @@ export class Thresholds {
 
   /** The row of a threshold, so that others can add to it. @param {string} name */
   row(name) {
-    return this.#rows.get(name)?.element ?? null;
+    return this.#rows.get(name) ?? null;
+  }
+
+  /** Another recording was opened. */
+  forget() {
+    for (const row of this.#rows.values()) row.shrink();
   }
 
   /** @param {import("../wire.js").State["histograms"]} histograms */
@@ -115,6 +120,11 @@ export class Thresholds {
   /** Marks on the sliders. @param {import("../wire.js").WhatIf[]} changes */
   setMarks(changes) {
     for (const [name, row] of this.#rows) row.setMark(changes.find((change) => change.name === name));
+  }
+
+  /** Ticks on the sliders. @param {Params} fits the values that fit the laser */
+  setFits(fits) {
+    for (const [name, row] of this.#rows) row.setFit(fits[name]);
   }
 
   /** Shows why the server refused thresholds: at the field that it names, or else above all fields. @param {string} why */

@@ -16,6 +16,7 @@ export function createTune(page, places, text, { pages, explanation }) {
   const tuner = createTuner(text.tuning, {
     session: () => page.session.id,
     onParams: (params) => page.change({ params }),
+    onFits: (fits) => panel.setFits(fits),
     row: (name) => panel.row(name),
   });
   const panel = mountPanel(

@@ -1,6 +1,7 @@
 // @ts-check
-// Sensitivity, map and auto-tuning, and the socket that serves them.
+// What fits the laser, sensitivity, map and auto-tuning, and the socket that serves them.
 import { Auto } from "./auto.js";
+import { Fit } from "./fit.js";
 import { TuningMap } from "./map.js";
 import { Sensitivity } from "./sensitivity.js";
 import { Workbench } from "./workbench.js";
@@ -9,7 +10,8 @@ import { Workbench } from "./workbench.js";
 /** @typedef {import("../wire.js").Params} Params */
 /** @typedef {import("../wire.js").State} State */
 /** @typedef {import("../wire.js").Answer} Answer */
-/** row: of a threshold's slider. @typedef {{session: () => string | null, onParams: (params: Params) => void, row: (name: string) => HTMLElement | null}} Handlers */
+/** Of a threshold; knob: with the range of its slider. @typedef {{element: HTMLElement, knob: import("../wire.js").Knob}} Row */
+/** @typedef {{session: () => string | null, onParams: (params: Params) => void, onFits: (fits: Params) => void, row: (name: string) => Row | null}} Handlers */
 
 // Pauses while a slider is being dragged are shorter than this.
 const PAUSE_MS = 120;
@@ -25,11 +27,11 @@ export function createTuner(text, handlers) {
 }
 
 class Tuner {
-  #row;
   #bench;
   #sensitivity;
   #map;
   #auto;
+  #fit;
   /** @type {Params} */ #params = {};
   /** Identifies the drawn recording. */ #place = "";
   /** What the last request for curves was for. */ #asked = "";
@@ -37,8 +39,7 @@ class Tuner {
   /** Whether the selected method can be run over whole recordings. */ #able = true;
 
   /** @param {typeof import("../text/tuning.js").tuningText} text @param {Handlers} handlers */
-  constructor(text, { session, onParams, row }) {
-    this.#row = row;
+  constructor(text, { session, onParams, onFits, row }) {
     this.#bench = new Workbench(() => addressFor(session()), {
       onAnswer: (answer) => this.#receive(answer),
       onMeasures: (measures) => {
@@ -49,6 +50,7 @@ class Tuner {
     this.#sensitivity = new Sensitivity(text.curves, {
       onSet: (name, value) => onParams({ [name]: value }),
       onShow: () => this.#ask(),
+      row,
     });
     this.#map = new TuningMap(text.map, {
       ask: (x, y, measure) => this.#bench.ask("map", { params: this.#params, x, y, measure }),
@@ -60,7 +62,13 @@ class Tuner {
       stop: () => this.#bench.stop("auto"),
       onAdopt: onParams,
     });
-    this.legend = this.#sensitivity.legend;
+    this.#fit = new Fit(text.fit, {
+      ask: () => this.#bench.ask("fit", {}),
+      stop: () => this.#bench.stop("fit"),
+      onParams,
+      onFits,
+    });
+    this.above = [this.#fit.element, this.#sensitivity.legend];
     this.pages = [
       { name: "map", label: text.pages.map, content: this.#map.element },
       { name: "auto", label: text.pages.auto, content: this.#auto.element },
@@ -69,7 +77,7 @@ class Tuner {
 
   /** @param {Answer} answer */
   #receive(answer) {
-    ({ curves: this.#sensitivity, map: this.#map, auto: this.#auto })[answer.type].receive(answer);
+    ({ curves: this.#sensitivity, map: this.#map, auto: this.#auto, fit: this.#fit })[answer.type].receive(answer);
     if (answer.type === "curves" && answer.curves) this.#tellTruth();
   }
 
@@ -95,8 +103,9 @@ class Tuner {
   /** @param {Method} method */
   setMethod({ name, knobs }) {
     this.#able = name === METHOD;
-    this.legend.hidden = !this.#able;
-    this.#sensitivity.setKnobs(this.#able ? knobs : [], this.#row);
+    this.#fit.setKnobs(knobs);
+    this.#sensitivity.legend.hidden = !this.#able;
+    this.#sensitivity.setKnobs(this.#able ? knobs : []);
     this.#asked = "";
     if (!this.#able) return;
     this.#map.setKnobs(knobs);
@@ -105,11 +114,13 @@ class Tuner {
 
   /** @param {Readonly<import("../wire.js").View>} view */
   setView({ params }) {
+    this.#fit.setParams(params);
     if (this.#able) this.#sensitivity.setParams(params);
   }
 
   /** @param {State} state */
   setState(state) {
+    this.#fit.setState(state);
     if (!this.#able || state.method !== METHOD) return;
     const here = `${state.recording} ${state.topic}`;
     this.#params = state.params;
@@ -125,7 +136,7 @@ class Tuner {
 
   /** For scripts and tests. */
   get current() {
-    return { map: this.#map.current, auto: this.#auto.current };
+    return { map: this.#map.current, auto: this.#auto.current, fit: this.#fit.current };
   }
 }
 

@@ -3,15 +3,17 @@ import { svg } from "./dom.js";
 import { placeOf } from "./scale.js";
 
 /** @typedef {import("../wire.js").Histogram} Histogram */
+/** @typedef {{low: number, high: number, log: boolean}} Range */
 
 const WIDTH = 1000;
 const HEIGHT = 100;
 
 /**
  * Bars of what passed and what failed, on the scale of the slider above them, with the cut drawn.
- * @param {{low: number, high: number, log: boolean}} range
+ * @param {Range} range
  */
 export function createHistogram(range) {
+  /** @type {Histogram | undefined} */ let shown;
   const passed = svg("path", { class: "passed" });
   const failed = svg("path", { class: "failed" });
   const cut = svg("line", { class: "cut", y1: 0, y2: HEIGHT, "vector-effect": "non-scaling-stroke" });
@@ -23,13 +25,23 @@ export function createHistogram(range) {
   });
   element.append(passed, failed, cut);
 
+  function paint() {
+    const [low, high] = shown ? stacked(range, shown) : ["", ""];
+    passed.setAttribute("d", low);
+    failed.setAttribute("d", high);
+  }
+
   return {
     element,
+    /** @param {Range} next of the slider */
+    setRange(next) {
+      range = next;
+      paint();
+    },
     /** @param {Histogram | undefined} histogram @param {string} label */
     set(histogram, label) {
-      const [low, high] = histogram ? stacked(range, histogram) : ["", ""];
-      passed.setAttribute("d", low);
-      failed.setAttribute("d", high);
+      shown = histogram;
+      paint();
       element.setAttribute("aria-label", label);
     },
     /** @param {number} value */
@@ -44,7 +56,7 @@ export function createHistogram(range) {
 /**
  * Paths of the passed bars and of the failed ones on top. Heights go with the square root, so that single
  * refused points stay visible beside hundreds of passed ones.
- * @param {{low: number, high: number, log: boolean}} range
+ * @param {Range} range
  * @param {Histogram} histogram
  */
 function stacked(range, histogram) {

@@ -39,6 +39,32 @@ export function snap(knob, value) {
   return clamp(Number(stepped.toFixed(decimals(knob) + 2)), knob.low, knob.high);
 }
 
+/**
+ * The knob with a slider that reaches these values: an end that is too near moves to the next round number. The same
+ * object if it reaches them already.
+ * @param {Knob} knob
+ * @param {...number} values
+ * @returns {Knob}
+ */
+export function reaching(knob, ...values) {
+  const [least, most] = [Math.min(...values), Math.max(...values)];
+  if (least >= knob.low && most <= knob.high) return knob;
+  const low = Math.max(...roundNumbers(least).filter((each) => each <= least));
+  const high = Math.min(...roundNumbers(most).filter((each) => each >= most));
+  return {
+    ...knob,
+    low: least < knob.low ? Math.max(low, knob.least) : knob.low,
+    high: most > knob.high ? Math.min(high, knob.most ?? Infinity) : knob.high,
+  };
+}
+
+/** On each side of a value: 1, 2 or 5 times a power of ten. @param {number} value */
+function roundNumbers(value) {
+  if (value <= 0) return [value];
+  const power = Math.floor(Math.log10(value));
+  return [1, 2, 5, 10].map((step) => Number(`${step}e${power}`));
+}
+
 /** @param {Knob} knob */
 function decimals(knob) {
   return knob.kind === "int" ? 0 : Math.max(0, Math.ceil(-Math.log10(knob.step) - 1e-9));

@@ -25,7 +25,7 @@ def test_the_last_axis_changes_fastest():
 
 @pytest.mark.parametrize("text", ["0.01:0.1", "0.01:0.1:1", "a:b:3", "", "0.01:inf:4", "nan:1:3", "0.01:0.1:2.5"])
 def test_an_invalid_sweep_is_refused_with_an_example(text):
-    with pytest.raises(ValueError, match=r"--epsilon is .*FROM:TO:COUNT, such as 0.005:0.2:20"):
+    with pytest.raises(ValueError, match=r"--epsilon is .*FROM:TO:COUNT, such as 0.005:0.5:20"):
         axis_values(text, "epsilon")
 
 

@@ -77,6 +77,7 @@ def test_nothing_is_proposed_if_the_current_values_are_as_good():
     assert not found.changed
     assert found.text == ""
     assert found.params == Params()
+    assert 0.5 < found.fitting.epsilon / Params().epsilon < 2
 
 
 @pytest.mark.parametrize("method", ["split-and-merge-textbook", "line-tracking", "hough", "ransac"])
@@ -103,9 +104,10 @@ def scans_of(*ranges):
     ("recording", "why"),
     [
         pytest.param(scans_of(), "scans with a return; 0 have one", id="no scan"),
-        pytest.param(scans_of(np.full(400, 2.0)), "scans with a return; 1 have one", id="one frame"),
+        pytest.param(scans_of(np.full(400, 2.0)), "scans with a return; 1 has one", id="one frame"),
         pytest.param(scans_of(*[np.full(10, 2.0)] * 9), "No straight wall", id="ten beams"),
         pytest.param(scans_of(*[np.full(400, np.inf)] * 9), "scans with a return; 0 have one", id="nothing returns"),
+        pytest.param(world("flat", 0.5, RPLIDAR_A2), "mm here. That is too much", id="noise above every slider"),
         pytest.param(scans_of(*np.random.default_rng(1).uniform(0.5, 20, (40, 400))), "No straight wall", id="no wall"),
     ],
 )
@@ -113,6 +115,7 @@ def test_a_sentence_says_why_nothing_can_be_proposed(recording, why):
     found = propose(recording)
     assert not found.changed
     assert found.params == Params()
+    assert found.fitting is None
     assert why in found.text
 
 

@@ -150,6 +150,9 @@ def test_drawing_moves_the_sliders_and_moving_them_back_is_no_change(scene, caps
     found = findings(recording, 0, view.method, view.params)
     drawn.draw(picture(view, recording, found, bounds_of(recording)), view.params, view.dark)
     assert drawn._sliders["epsilon"].value == 0.05
-    assert drawn._sliders["min_points"].value == 100
+    assert drawn._sliders["min_points"].value == 500
+    further = view.params.but(epsilon=0.9)
+    drawn.draw(picture(view, recording, found, bounds_of(recording)), further, view.dark)
+    assert (drawn._sliders["epsilon"].value, drawn._sliders["epsilon"].max) == (0.9, 1.0)
     assert changes == []
     assert capsys.readouterr().out == ""

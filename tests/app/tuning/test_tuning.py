@@ -17,6 +17,7 @@ from websockets.sync.client import connect
 from lineseg import Params, open_recording
 from lineseg.readers import save_npz
 from lineseg.sweep import Batch, slider_values
+from lineseg.tuning.proposal import propose
 
 FRAMES = 60
 
@@ -46,7 +47,8 @@ class Bench:
 
     def ask(self, kind: str, **wish: Any) -> int:
         self._job += 1
-        self._socket.send(json.dumps({"type": kind, "job": self._job, "params": {}} | wish))
+        params = {} if kind == "fit" else {"params": {}}
+        self._socket.send(json.dumps({"type": kind, "job": self._job} | params | wish))
         return self._job
 
     def stop(self, kind: str) -> None:
@@ -144,6 +146,36 @@ def test_auto_tuning_stops_when_told_and_judges_what_it_has(tab):
     *_, verdict, end = bench.answers(job)
     assert "verdict" in verdict
     assert end["done"]
+
+
+def test_what_fits_is_told_for_the_method_the_thresholds_and_the_recording_on_the_screen(tab, hall: Path):
+    page, bench = tab
+    page.change(params={"epsilon": 0.004})
+    expected = propose(open_recording(hall), Params(epsilon=0.004))
+    told, end = bench.answers(bench.ask("fit"))
+    assert end["done"]
+    assert (told["better"], told["text"]) == (True, expected.text)
+    assert told["fits"] == {"epsilon": expected.params.epsilon, "delta": expected.params.delta}
+    assert told["noise"]["base"] == pytest.approx(expected.noise.base, rel=1e-3)
+    page.change(params=told["fits"])
+    again, _ = bench.answers(bench.ask("fit"))
+    assert (again["better"], again["text"], again["fits"]) == (False, "", told["fits"])
+    page.change(method="split-and-merge-textbook")
+    other, _ = bench.answers(bench.ask("fit"))
+    assert set(other["fits"]) == {"split_distance"}
+    page.change(recording="lesson:1_perfect_corner")
+    none, _ = bench.answers(bench.ask("fit"))
+    assert (none["better"], none["fits"], none["noise"]) == (False, {}, None)
+    assert "at least 4 scans" in none["text"]
+
+
+def test_the_newest_fit_wins(tab):
+    page, bench = tab
+    jobs = []
+    for k in range(5):
+        page.change(params={"epsilon": 0.004 + 0.001 * k})
+        jobs.append(bench.ask("fit"))
+    assert "0.008" in bench.answers(jobs[-1])[0]["text"]
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,134 @@
+// @ts-check
+// What fits the laser of this recording: its noise as a picture, and thresholds that a person may take over.
+import { h, setText } from "../widgets/dom.js";
+import { withUnit } from "../widgets/scale.js";
+import { toast } from "../widgets/toast.js";
+import { tooltip } from "../widgets/tooltip.js";
+import { limitAt } from "./limit.js";
+import { createNoisePicture, reachOf, sigmaAt } from "./noise_picture.js";
+
+/** @typedef {import("../wire.js").Answer} Answer */
+/** @typedef {import("../wire.js").Knob} Knob */
+/** @typedef {import("../wire.js").Params} Params */
+/** @typedef {import("../wire.js").State} State */
+/** onFits: the values that fit, by threshold. @typedef {{ask: () => void, stop: () => void, onParams: (params: Params) => void, onFits: (fits: Params) => void}} Handlers */
+
+// Pauses while a slider is being dragged are shorter than this.
+const PAUSE_MS = 250;
+
+export class Fit {
+  #text;
+  #handlers;
+  /** @type {Knob[]} */ #knobs = [];
+  /** @type {Params} */ #params = {};
+  /** The recording and the method that the answer is for. */ #place = "";
+  /** What the last answer was asked for. */ #asked = "";
+  #timer = 0;
+  /** @type {Answer | null} */ #answer = null;
+  #says = h("p", { class: "fit-text", role: "status" });
+  #use;
+  #picture;
+  #frame;
+
+  /** @param {typeof import("../text/tuning.js").tuningText.fit} text @param {Handlers} handlers */
+  constructor(text, handlers) {
+    this.#text = text;
+    this.#handlers = handlers;
+    this.#picture = createNoisePicture(text);
+    this.#frame = h("div", { class: "fit-picture" });
+    this.#frame.append(this.#picture.element);
+    tooltip(this.#frame, () => this.#picture.element.getAttribute("aria-label") ?? "", "left");
+    this.#use = h("button", { type: "button", class: "button", onclick: () => this.#take() }, text.use);
+    tooltip(this.#use, () => text.usesHelp(this.#listed()), "left");
+    const words = h("div", { class: "fit-words" }, this.#says, this.#use);
+    this.element = h("section", { class: "fit", "aria-label": text.label }, this.#frame, words);
+    this.#show();
+  }
+
+  #take() {
+    const values = this.#listed();
+    this.#handlers.onParams(this.#answer?.fits ?? {});
+    toast(this.#text.used(values));
+  }
+
+  /** What fits, in words. */
+  #listed() {
+    const fits = Object.entries(this.#answer?.fits ?? {});
+    return fits.map(([name, value]) => this.#value(name, value)).join(", ");
+  }
+
+  /** @param {string} name @param {number} value */
+  #value(name, value) {
+    const knob = this.#knobs.find((each) => each.name === name);
+    return knob ? `${knob.symbol.replace("_", " ")} = ${withUnit(knob, value)}` : "";
+  }
+
+  #show() {
+    const { text, fits, better, scatter, noise, message } = this.#answer ?? {};
+    const [first] = Object.keys(fits ?? {});
+    const suits = first && this.#text.suits(this.#text.mm(scatter ?? 0), this.#value(first, this.#params[first]));
+    setText(this.#says, this.#answer ? message || text || suits || "" : this.#text.measuring);
+    this.#use.hidden = !better;
+    this.element.classList.toggle("better", Boolean(better));
+    this.#frame.hidden = Boolean(this.#answer && !(noise && first));
+    this.#draw();
+  }
+
+  #draw() {
+    const { noise, fits, better } = this.#answer ?? {};
+    const knob = this.#knobs.find(({ name }) => name === Object.keys(fits ?? {})[0]);
+    if (!noise || !fits || !knob) return;
+    const { mm, m, noise: scatter, rough, limit, proposed } = this.#text;
+    const reach = reachOf(noise);
+    const [now, then] = [this.#params, { ...this.#params, ...fits }].map((params) => limitAt(knob.name, params, reach));
+    const parts = [scatter(mm(sigmaAt(noise, 1)), mm(sigmaAt(noise, reach)), m(reach))];
+    if (noise.rough) parts.push(rough(mm(noise.rough), m(noise.roughOver)));
+    parts.push(limit(knob.symbol.replace("_", " "), mm(now)));
+    if (better) parts.push(proposed(mm(then)));
+    this.#picture.set({ noise, knob, params: this.#params, fits: better ? fits : null }, parts.join("\n"));
+  }
+
+  /** @param {Knob[]} knobs of the chosen method */
+  setKnobs(knobs) {
+    this.#knobs = knobs;
+  }
+
+  /** @param {Params} params */
+  setParams(params) {
+    this.#params = params;
+    this.#draw();
+  }
+
+  /** Asks again if something else is shown, but not while a slider moves. @param {State} state */
+  setState({ recording, topic, method, params, live, frames }) {
+    const place = JSON.stringify([recording, topic, method]);
+    // A live recording is looked at again when it has become twice as long.
+    const size = live === null ? frames : Math.floor(Math.log2(frames));
+    const wanted = JSON.stringify([place, params, size]);
+    if (wanted === this.#asked) return;
+    if (place !== this.#place) this.#forget();
+    this.#place = place;
+    this.#asked = wanted;
+    this.#handlers.stop();
+    clearTimeout(this.#timer);
+    this.#timer = setTimeout(() => this.#handlers.ask(), this.#answer ? PAUSE_MS : 0);
+  }
+
+  #forget() {
+    this.#answer = null;
+    this.#handlers.onFits({});
+    this.#show();
+  }
+
+  /** @param {Answer} answer */
+  receive(answer) {
+    if (answer.stopped || (answer.done && !answer.message)) return;
+    this.#answer = answer;
+    this.#handlers.onFits(answer.fits ?? {});
+    this.#show();
+  }
+
+  get current() {
+    return { text: this.#says.textContent, fits: this.#answer?.fits ?? null, better: !this.#use.hidden };
+  }
+}
