@@ -229,13 +229,13 @@ def _rough(recording: Recording, length: float, base: float, growth: float) -> f
 def _credible(rough: Floats) -> Floats:
     """(lengths,) limited to what a wall can do: its deviation grows with length, at most in proportion.
 
-    Anything that grows faster is clutter within the white noise of a wall.
+    Anything that grows faster is clutter within the white noise of a wall; so is what shows over one length only.
     """
     kept = rough.copy()
     for k in range(len(kept)):
         most = MOST_ROUGH if k == 0 else kept[k - 1] * LENGTHS[k] / LENGTHS[k - 1]
         kept[k] = min(kept[k], most) if math.isfinite(most) and kept[k] <= MOST_ROUGH else math.nan
-    return kept
+    return kept if np.isfinite(kept).sum() > 1 else np.full_like(kept, math.nan)
 
 
 @entry_kernel

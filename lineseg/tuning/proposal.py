@@ -48,7 +48,8 @@ class Proposal:
     params: the proposed ones, or the present ones if these are as good or if nothing can be proposed. changed: whether
     they differ. fitting: those that fit best, also if the present ones are as good; None if nothing can be proposed.
     scatter: standard deviation of points from their walls [m]. pieces: number of segments into which a wall breaks at
-    the present values, on average. tried: (k,) values of ε, or of the method's counterpart [m]; steady: (k,) score of the lines there, with the lines at 1.6 times that value as the truth, 0 to 1.
+    the present values, on average. tried: (k,) values of ε, or of the method's counterpart [m]; steady: (k,) score of
+    the lines there, with the lines at 1.6 times that value as the truth, 0 to 1.
     text: what is proposed, or why nothing can be; "" if the present values are as good.
     """
 
