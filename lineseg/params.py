@@ -136,3 +136,15 @@ class Params(Thresholds):
             extension=True,
         ),
     ] = 0.3  # fmt: skip
+    max_void: Annotated[
+        float,
+        Knob(
+            "V_max", 0.0, 2.0, "m", 0.05, least=0.0, most=1000.0,
+            label="void bridged",
+            why="a width is never negative",
+            help="Widest void that a line may cross: a gap whose beams ended elsewhere or did not return, or one much "
+            "wider than the gaps next to it. Higher crosses wider ones; 0 crosses any, as in the paper.",
+            refuses="a void of {value:m} lies before beam {beam}, V_max = {limit:m} (over by {over:m})",
+            extension=True,
+        ),
+    ] = 0.3  # fmt: skip

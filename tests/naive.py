@@ -88,11 +88,31 @@ class RegionGrowing:
     def distance(self, k, line):
         return abs(line[0] @ self.at(k) + line[1])
 
+    def step(self, k, j):
+        return np.linalg.norm(self.at(j) - self.at(k))
+
     def joined(self, k, j):
         lost = abs(self.number(j) - self.number(k)) - 1 > self.params.max_dropout
         if lost and min(k, j) % self.n not in self.passed:
             return False
-        return np.linalg.norm(self.at(j) - self.at(k)) <= self.params.max_gap
+        return self.step(k, j) <= self.params.max_gap and not self.is_void(min(k, j))
+
+    def is_void(self, k):
+        """Whether the step from point k to the next is a void."""
+        width, most = self.step(k, k + 1), self.params.max_void
+        if not most or width <= most or k % self.n in self.passed:
+            return False
+        if self.number(k + 1) - self.number(k) > 1:
+            return True
+        chord = self.at(k + 1) - self.at(k)
+        for here, beyond in ((k, k - 1), (k + 1, k + 2)):
+            if self.circle or 0 <= beyond < self.n:
+                step = self.at(beyond) - self.at(here)
+                aside = abs(chord[0] * step[1] - chord[1] * step[0]) / width
+                each = np.linalg.norm(step) / abs(self.number(beyond) - self.number(here))
+                if aside <= 2 * self.params.epsilon and width <= 4 * each:
+                    return False
+        return True
 
     def length(self, first, last, line):
         along = np.array([-line[0][1], line[0][0]])

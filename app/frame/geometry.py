@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from lineseg import Recording, Scan
+from lineseg.region_growing.points import TIMES
 
 # x₁, y₁, x₂, y₂
 Bounds = tuple[float, float, float, float]
 FRAMES_FOR_BOUNDS = 60
+# Narrower voids are not shown [m].
+LEAST_VOID = 0.1
 
 
 def bounds_of(recording: Recording) -> Bounds:
@@ -36,6 +40,21 @@ def extent_of(scan: Scan, bounds: Bounds) -> Bounds:
 def united(one: Bounds, other: Bounds) -> Bounds:
     """The smallest box around both."""
     return min(one[0], other[0]), min(one[1], other[1]), max(one[2], other[2]), max(one[3], other[3])
+
+
+def voids(scan: Scan, beams: NDArray[np.intp]) -> NDArray[np.intp]:
+    """(voids, 2) the beams on both sides of each void in a line with these rising beams.
+
+    A void is a gap of more than LEAST_VOID in which other beams ended, or one more than TIMES as wide as the gaps next
+    to it.
+    """
+    if scan.full_circle and len(beams):
+        beams = np.roll(beams, -int(np.argmax((beams - np.roll(beams, 1)) % scan.around)))
+    steps = np.diff(beams) % max(scan.around, len(scan))
+    gaps = np.hypot(*np.diff(scan.xy[beams], axis=0).T)
+    each = np.concatenate(([0.0], gaps / steps, [0.0]))
+    wide = (gaps > LEAST_VOID) & ((steps > 1) | (gaps > TIMES * np.maximum(each[:-2], each[2:])))
+    return np.column_stack((beams[:-1][wide], beams[1:][wide]))
 
 
 def beam_near(scan: Scan, point: tuple[float, float], radius: float) -> int | None:

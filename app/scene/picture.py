@@ -13,11 +13,11 @@ from lineseg import Decision, Recording, Scan, Segment, difference
 from lineseg.survey.difference import KEPT
 
 from ..frame.findings import Findings
-from ..frame.geometry import Bounds
+from ..frame.geometry import Bounds, voids
 from ..frame.judge import Judged
 from ..view import View
 from .palette import DARK, LIGHT, Colours, Theme
-from .replay import State, decision_geometry, state_at
+from .replay import NO_XY, State, decision_geometry, foot_between, state_at
 from .shapes import Lines, Points, dashed, joined, lines_between, points_at
 
 DASH = 0.10
@@ -89,7 +89,7 @@ def _lines(
     if layers.invalid:
         lines["invalid"] = invalid_beams(found.scan, bounds, theme)
     if layers.segments:
-        lines["segments"] = lines_between(state.starts, state.ends, state.colours)
+        lines["segments"] = segments(found.scan, state)
     if layers.dropped:
         lines["dropped"] = dropped_lines(found, state.drops, theme)
     if layers.normals and view.step is None:
@@ -109,6 +109,17 @@ def seed_points(found: Findings, state: State, theme: Theme) -> Points:
     windows = [found.trace.beams(*found.seeds[candidate]) for candidate in state.candidates if candidate in found.seeds]
     beams = np.concatenate(windows) if windows else np.empty(0, dtype=int)
     return points_at(found.scan.xy[beams], theme.strong)
+
+
+def segments(scan: Scan, state: State) -> Lines:
+    """The lines, dashed across voids."""
+    pieces, dashes = [], []
+    for line, (start, end) in enumerate(zip(state.starts, state.ends, strict=True)):
+        cuts = foot_between(scan.xy[voids(scan, np.flatnonzero((state.labels == line) & scan.valid))], start, end)
+        solid = np.vstack((start, cuts.reshape(-1, 2), end)).reshape(-1, 2, 2)
+        pieces.append(lines_between(solid[:, 0], solid[:, 1], state.colours[line]))
+        dashes.append(dashed(cuts[:, 0], cuts[:, 1], DASH, state.colours[line]))
+    return joined(*pieces, *dashes) if pieces else lines_between(NO_XY, NO_XY, state.colours)
 
 
 def dropped_lines(found: Findings, drops: Sequence[Decision], theme: Theme) -> Lines:

@@ -150,6 +150,12 @@ def foot(xy: NDArray, line: Line | NDArray) -> NDArray:
     return xy - distance[..., None] * np.array([a, b]).T
 
 
+def foot_between(xy: NDArray, start: NDArray, end: NDArray) -> NDArray:
+    """Points (…, 2) projected onto the line through two points."""
+    along = (end - start) / max(float(np.linalg.norm(end - start)), 1e-12)
+    return start + ((xy - start) @ along)[..., None] * along
+
+
 def is_line(line: Line | NDArray) -> NDArray[np.bool_]:
     """Whether the line exists, or which of (3, n) do: a seed refused before its fit has none."""
     return np.isfinite(line).all(axis=0) & (np.hypot(line[0], line[1]) > 0.5)

@@ -45,7 +45,12 @@ def joined(*parts: Lines) -> Lines:
 
 
 def dashed(starts: NDArray, ends: NDArray, dash: float, colour: Colour, most: int = 4000) -> Lines:
-    """The lines dashed, with gaps as long as the dashes; very long lines get longer dashes."""
+    """The lines dashed, with gaps as long as the dashes; very long lines get longer dashes.
+
+    Lines that are not finite are left out.
+    """
+    finite = np.isfinite(starts).all(axis=1) & np.isfinite(ends).all(axis=1)
+    starts, ends = starts[finite], ends[finite]
     lengths = np.linalg.norm(ends - starts, axis=1)
     dash = max(dash, float(lengths.sum()) / (2 * most))
     pieces_from, pieces_to = [], []

@@ -6,7 +6,7 @@ from ..kernel import inlined_kernel, kernel
 from ..total_least_squares import at, is_nearer, line_through, signed_distance, with_point
 from ..tracing.log import note
 from .checks import END, EPSILON, GROWTH_STOPPED, NONE, POINT_ADDED
-from .points import breach
+from .points import MAX_VOID, breach
 
 
 @inlined_kernel
@@ -58,7 +58,8 @@ def note_stop(points, first, last, here, edge, direction, scatter, limits, candi
         return
     there = here + direction
     check, value, limit = breach(points, here, there, limits)
-    if check == NONE:
-        check, limit = EPSILON, limits.epsilon
-        value = abs(signed_distance(line, points.x[there], points.y[there]))
+    away = abs(signed_distance(line, points.x[there], points.y[there]))
+    # Every jump to another surface is a void; what keeps its points out is ε.
+    if check == NONE or (check == MAX_VOID and away >= limits.epsilon):
+        check, value, limit = EPSILON, away, limits.epsilon
     note(log, GROWTH_STOPPED, check, candidate, direction, (first, last), there, line, value, limit)

@@ -13,7 +13,11 @@ from ..total_least_squares import at
 from .checks import NONE, number_of
 from .occluder import look_past, square
 
-MAX_DROPOUT, MAX_GAP = number_of("max_dropout"), number_of("max_gap")
+MAX_DROPOUT, MAX_GAP, MAX_VOID = number_of("max_dropout"), number_of("max_gap"), number_of("max_void")
+
+# On a wall seen at a grazing angle each gap between its points is at most 3 times as wide as the gap before. A gap
+# between neighbouring beams is a void if it is more than this many times as wide as the gaps next to it on its line.
+TIMES = 4.0
 
 
 class Points(NamedTuple):
@@ -65,7 +69,7 @@ def points_of(ranges, rays, range_min, range_max, around, limits, xy, numbers):
         lay_round(x, y, beam, numbers[4], n, around, xy, numbers[0], breaks, looking, limits)
     else:
         m = n
-        find_breaks(xy[0], xy[1], numbers[0], breaks, m, looking, limits)
+        find_breaks(xy[0], xy[1], numbers[0], breaks, m, circle, looking, limits)
     return Points(xy[0, :m], xy[1, :m], numbers[0, :m], breaks[:m], start, n, around, returns)
 
 
@@ -146,7 +150,7 @@ def lay_round(x, y, beam, passed, n, around, to, to_beam, breaks, looked, limits
     repeat(to_beam, n, around)
     turn(passed, n, opening, 0, breaks)
     breaks[n] = breaks[0]
-    find_breaks(to[0], to[1], to_beam, breaks, min(n + 1, 4 * n), looked, limits)
+    find_breaks(to[0], to[1], to_beam, breaks, min(n + 1, 4 * n), True, looked, limits)
     repeat(breaks, n, breaks[n])
 
 
@@ -172,21 +176,51 @@ def shifted(values, shift, to):
 
 
 @kernel
-def find_breaks(x, y, beam, breaks, n, looked, limits):
-    """Number the breaks: more than max_dropout beams without a return, or a gap wider than max_gap (extensions).
+def find_breaks(x, y, beam, breaks, n, circle, looked, limits):
+    """Number the breaks: more than max_dropout beams without a return, a gap wider than max_gap, a void (extensions).
 
-    looked: whether `look_past` ran before: at its 1s, the missing beams belong to an object and are not a dropout.
+    looked: whether `look_past` ran before: at its 1s, the missing beams belong to an object and are neither a dropout
+    nor a void.
     """
     widest = limits.max_gap * limits.max_gap
+    void = limits.max_void * limits.max_void if limits.max_void > 0.0 else math.inf
     breaks[0] = total = 0
     for k in range(1, n):
-        lost = (at(beam, k) - at(beam, k - 1) - 1 > limits.max_dropout) & ((breaks[k] == 0) | (not looked))
-        breaks[k] = lost | (square(x, y, k - 1, k) > widest)
+        gap, beams = square(x, y, k - 1, k), at(beam, k) - at(beam, k - 1)
+        seen = (breaks[k] == 0) | (not looked)
+        breaks[k] = (seen & (beams - 1 > limits.max_dropout)) | (gap > widest) | (2 * (seen & (gap > void)))
         total += breaks[k]
     # Most scans have none.
     if total > 0:
         for k in range(1, n):
-            breaks[k] += breaks[k - 1]
+            if breaks[k] == 2:
+                breaks[k] = is_void(x, y, beam, k, n, circle, limits.epsilon)
+            breaks[k] = breaks[k - 1] + (breaks[k] > 0)
+
+
+@kernel
+def is_void(x, y, beam, k, n, circle, epsilon):
+    """Whether a wide gap before point k is a void.
+
+    It is one if other beams lie between; without these, unless a gap next to it continues it. A jump from one surface
+    to another counts, too, which no line crosses anyway.
+    """
+    if at(beam, k) - at(beam, k - 1) > 1:
+        return True
+    if circle and k == 1:
+        # The points of a full circle are stored again after the last.
+        k = n
+    before = k > 1 and continues(x, y, beam, k, k - 1, k - 2, epsilon)
+    return not (before or ((circle or k < n - 1) and continues(x, y, beam, k - 1, k, k + 1, epsilon)))
+
+
+@kernel
+def continues(x, y, beam, i, j, k, epsilon):
+    """Whether the gap from point j to k continues that from i to j: nearly straight on, and not TIMES narrower."""
+    xa, ya, xb, yb = at(x, j) - at(x, i), at(y, j) - at(y, i), at(x, k) - at(x, j), at(y, k) - at(y, j)
+    gap, away, beams = xa * xa + ya * ya, xa * yb - ya * xb, float(at(beam, k) - at(beam, j))
+    straight = away * away <= 4.0 * epsilon * epsilon * gap
+    return straight and TIMES * TIMES * (xb * xb + yb * yb) >= gap * beams * beams
 
 
 @kernel
@@ -198,4 +232,6 @@ def breach(points, k, neighbour, limits):
     # Behind an ignored object, only a gap makes a break.
     if dropout > limits.max_dropout and not (limits.max_occluder > 0.0 and gap > limits.max_gap):
         return MAX_DROPOUT, float(dropout), float(limits.max_dropout)
-    return MAX_GAP, gap, limits.max_gap
+    if gap > limits.max_gap:
+        return MAX_GAP, gap, limits.max_gap
+    return MAX_VOID, gap, limits.max_void

@@ -8,7 +8,7 @@ from ..kernel import inlined_kernel, kernel
 from ..total_least_squares import NO_SCATTER, at, halved, line_through, scatter_of_few, signed_distance
 from ..tracing.log import note
 from .checks import DELTA, EPSILON, NONE, SEED_FOUND, SEED_REJECTED
-from .points import breach
+from .points import MAX_VOID, breach
 from .prediction import predicted_distance
 
 NOWHERE = (0.0, 0.0, 0.0)
@@ -101,11 +101,17 @@ def fails(x, y, test):
 
 @kernel
 def note_refusal(points, first, last, scatter, limits, candidate, log):
-    """Find the first point of the window that fails, and the check that it fails."""
+    """Find the first point of the window that fails, and the check that it fails.
+
+    A void is told only if nothing else is wrong: every jump to another surface is one.
+    """
     span = first, last
+    void, width = -1, 0.0
     for k in range(first + 1, last + 1):
         check, value, limit = breach(points, k - 1, k, limits)
-        if check != NONE:
+        if check == MAX_VOID and void < 0:
+            void, width = k, value
+        elif check != NONE and check != MAX_VOID:
             note(log, SEED_REJECTED, check, candidate, 0, span, k, NOWHERE, value, limit)
             return
     line, test = line_through(scatter), test_of(scatter, limits)
@@ -119,3 +125,4 @@ def note_refusal(points, first, last, scatter, limits, candidate, log):
             value = abs(signed_distance(line, points.x[k], points.y[k]))
             note(log, SEED_REJECTED, EPSILON, candidate, 0, span, k, line, value, limits.epsilon)
             return
+    note(log, SEED_REJECTED, MAX_VOID, candidate, 0, span, void, line, width, limits.max_void)

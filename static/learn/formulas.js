@@ -86,7 +86,7 @@ function formulasOf(event, trace, text) {
   if (check === "merge_rms") return [spread(event, text)];
   if (kind === "overlap cut") return [cut(event, text)];
   if (kind === "endpoints" && line) return [endpoint(event, trace, line, text)];
-  if (check === "max_gap" || check === "max_dropout") return [broken(event, text)];
+  if (["max_gap", "max_dropout", "max_void"].includes(check)) return [broken(event, text)];
   return [];
 }
 
@@ -290,8 +290,8 @@ function endpoint({ first, ends }, trace, [a, b, c], text) {
 
 /** @param {Event} event @param {Text} text @returns {Formula} */
 function broken({ check, value, limit }, text) {
-  const gap = check === "max_gap";
-  const [name, unit] = gap ? [words(text.gap), " m"] : [words(text.dropout), ""];
-  const digits = gap ? 3 : 0;
-  return { title: text.broken, rows: [math(name, "=", num(value, digits), ">", num(limit, digits), words(unit))] };
+  const beams = check === "max_dropout";
+  const [name, unit] = beams ? [text.dropout, ""] : [check === "max_gap" ? text.gap : text.void, " m"];
+  const digits = beams ? 0 : 3;
+  return { title: text.broken, rows: [math(words(name), "=", num(value, digits), ">", num(limit, digits), words(unit))] };
 }

@@ -13,6 +13,7 @@ const SYMBOL = /** @type {Record<string, string>} */ ({
   min_length: "L_min",
   max_dropout: "D_max",
   max_gap: "G_max",
+  max_void: "V_max",
 });
 
 const LEAST = new Set(["min_points", "min_length"]);

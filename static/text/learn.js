@@ -115,6 +115,7 @@ export const learnText = {
     endpoint: (/** @type {number} */ beam) => `Endpoint from beam ${beam} (Eqs. 7, 8)`,
     broken: "A gap that is too wide (not in the paper)",
     gap: "gap",
+    void: "void",
     dropout: "beams without a return",
     joins: "it joins",
     stops: "growth stops",

@@ -25,6 +25,7 @@ def thresholds(draw):
         merge_angle=draw(st.sampled_from([0.0, 0.1, 0.5])),
         merge_rms=draw(st.sampled_from([0.0, 1.0, 1.2, 3.0])),
         max_occluder=draw(st.sampled_from([0.0, 0.1, 0.3, 1.0])),
+        max_void=draw(st.sampled_from([0.0, 0.05, 0.3, 1.0])),
     )
 
 
@@ -118,6 +119,7 @@ def test_scaling_the_scene_and_the_distances_changes_nothing_else(scan, params, 
         min_length=params.min_length * scale,
         max_gap=params.max_gap * scale,
         max_occluder=params.max_occluder * scale,
+        max_void=params.max_void * scale,
     )
     assert spans(Scan(scan.ranges * scale, scan.bearings), scaled) == spans(scan, params)
 
@@ -125,7 +127,7 @@ def test_scaling_the_scene_and_the_distances_changes_nothing_else(scan, params, 
 @lively
 @given(scans(), thresholds(), st.data())
 def test_beams_without_a_return_only_shift_the_numbers_when_dropouts_may_be_crossed(scan, params, data):
-    params = params.but(max_dropout=1000)
+    params = params.but(max_dropout=1000, max_void=0.0)
     start = Scan(scan.ranges[scan.valid], scan.bearings[scan.valid])
     if start.full_circle or scan.full_circle:
         return

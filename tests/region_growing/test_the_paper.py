@@ -48,7 +48,7 @@ def test_delta_keeps_a_break_out_of_a_seed_where_epsilon_cannot_see_it():
     # Along a wall that the beams graze, a recess of 4 cm is a metre along the beam.
     walls = [(4.9, -0.2, 5, -0.2), (6, -0.24, 9, -0.24)]
     scan = scan_of(walls, beams=400, field_of_view=0.16)
-    sharp, blunt = (trace(scan, Params(delta=delta)) for delta in (0.1, 1000.0))
+    sharp, blunt = (trace(scan, Params(delta=delta, max_void=0.0)) for delta in (0.1, 1000.0))
     refused = [sharp[i] for i in sharp.indices("seed rejected")]
     assert {decision.check for decision in refused} == {"delta"}
     assert len(blunt.indices("seed rejected")) == 0

@@ -47,6 +47,19 @@ def test_the_same_view_is_drawn_alike(corners):
     assert arrays(draw(view, corners)) == arrays(draw(view, corners))
 
 
+def test_a_void_in_a_line_is_dashed():
+    scan = scan_of([(2, -1, 2, 0.1), (2, 0.5, 2, 1)], beams=60, field_of_view=1.0)
+    recording = Recording.from_scans([scan])
+    crossing = View(params=Params(max_void=0.0, max_dropout=20))
+    (whole,) = findings(recording, 0, crossing.method, crossing.params).extraction.segments
+    lengths = np.linalg.norm(np.diff(draw(crossing, recording).lines["segments"].xyz, axis=1)[:, 0], axis=1)
+    void = np.diff(np.array([whole.start, whole.end])[:, 1])[0] - lengths[:2].sum()
+    assert void > 0.3
+    assert len(lengths) > 3 and lengths[2:].max() <= 0.1 + 1e-6
+    assert lengths[2:].sum() == pytest.approx(void / 2, abs=0.1)
+    assert draw(View(), recording).lines["segments"].xyz[..., 1].max() < 0.2
+
+
 def test_replay_forward_and_back_returns_to_the_same_pictures(corners):
     view = View()
     found = findings(corners, 0, view.method, view.params)

@@ -32,6 +32,7 @@ def test_the_welcome_describes_every_threshold(page: Page):
         "merge_angle",
         "merge_rms",
         "max_occluder",
+        "max_void",
     ]
 
 
