@@ -293,5 +293,8 @@ function broken({ check, value, limit }, text) {
   const beams = check === "max_dropout";
   const [name, unit] = beams ? [text.dropout, ""] : [check === "max_gap" ? text.gap : text.void, " m"];
   const digits = beams ? 0 : 3;
-  return { title: text.broken, rows: [math(words(name), "=", num(value, digits), ">", num(limit, digits), words(unit))] };
+  return {
+    title: text.broken,
+    rows: [math(words(name), "=", num(value, digits), ">", num(limit, digits), words(unit))],
+  };
 }
