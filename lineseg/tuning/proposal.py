@@ -37,6 +37,8 @@ LOWEST, HIGHEST = 2.5, 4.5
 USUAL, PULL = 3.2, 0.1
 # Steadiness that the present values may lack before others are proposed.
 AS_GOOD = 0.01
+# Below this ε [m] walls break, however good the laser: plaster, skirting boards and doors are no straighter.
+LEAST_EPSILON = 0.02
 # Above this ε [m], walls and what stands before them become one line.
 MOST_EPSILON = 0.5
 
@@ -124,8 +126,9 @@ class _Search:
         self.scatter = math.hypot(self._white, self.noise.roughness)
         self.scales = np.empty(0)
         if math.isfinite(self._white) and self._white > 0:
-            steps = math.ceil(math.log(HIGHEST * self.scatter / (LOWEST * self._white)) / math.log(STEP))
-            self.scales = LOWEST * self._white * STEP ** np.arange(steps + 3)
+            lowest = max(LOWEST * self._white, LEAST_EPSILON)
+            steps = math.ceil(math.log(HIGHEST * self.scatter / lowest) / math.log(STEP))
+            self.scales = lowest * STEP ** np.arange(max(steps, 0) + 3)
 
     def why_not(self) -> str:
         """Why nothing can be proposed, in a sentence; "" if something can."""

@@ -64,9 +64,10 @@ def test_in_a_room_of_boards_the_proposal_is_as_good_as_any_epsilon(board_room):
         ("flat", 0.075, RPLIDAR_A2),
         ("office", 0.03, UTM_30LX),
         ("warehouse", 0.02, UTM_30LX),
+        ("warehouse", 0.002, RPLIDAR_A2),
     ],
 )
-def test_for_a_coarse_laser_the_proposal_is_as_good_as_any_epsilon(name, sigma, laser):
+def test_for_a_coarse_or_fine_laser_the_proposal_is_as_good_as_any_epsilon(name, sigma, laser):
     recording = world(name, sigma, laser)
     assert score(recording, propose(recording).params) > 0.97 * best_score(recording)
 
