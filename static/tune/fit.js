@@ -63,19 +63,27 @@ export class Fit {
     return knob ? `${knob.symbol.replace("_", " ")} = ${withUnit(knob, value)}` : "";
   }
 
+  /** Whether something better than the present thresholds is known. */
+  get #better() {
+    const { fits, better } = this.#answer ?? {};
+    return Boolean(better && Object.entries(fits ?? {}).some(([name, value]) => this.#params[name] !== value));
+  }
+
   #show() {
-    const { text, fits, better, scatter, noise, message } = this.#answer ?? {};
+    const { text, fits, scatter, noise, message } = this.#answer ?? {};
+    const better = this.#better;
     const [first] = Object.keys(fits ?? {});
     const suits = first && this.#text.suits(this.#text.mm(scatter ?? 0), this.#value(first, this.#params[first]));
-    setText(this.#says, this.#answer ? message || text || suits || "" : this.#text.measuring);
+    setText(this.#says, this.#answer ? message || (better || !first ? text : suits) || "" : this.#text.measuring);
     this.#use.hidden = !better;
-    this.element.classList.toggle("better", Boolean(better));
+    this.element.classList.toggle("better", better);
     this.#frame.hidden = Boolean(this.#answer && !(noise && first));
     this.#draw();
   }
 
   #draw() {
-    const { noise, fits, better } = this.#answer ?? {};
+    const { noise, fits } = this.#answer ?? {};
+    const better = this.#better;
     const knob = this.#knobs.find(({ name }) => name === Object.keys(fits ?? {})[0]);
     if (!noise || !fits || !knob) return;
     const { mm, m, noise: scatter, rough, limit, proposed } = this.#text;
@@ -96,7 +104,7 @@ export class Fit {
   /** @param {Params} params */
   setParams(params) {
     this.#params = params;
-    this.#draw();
+    this.#show();
   }
 
   /** Asks again if something else is shown, but not while a slider moves. @param {State} state */

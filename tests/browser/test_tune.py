@@ -7,7 +7,7 @@ import pytest
 
 def test_dragging_epsilon_changes_the_segments_before_the_button_is_released(tab):
     before = tab.state
-    tab.drag("epsilon", by=-100)
+    tab.drag("epsilon", by=-150)
     during = tab.until(f"s.params.epsilon < 0.02 && s.rev > {before['rev']}")
     assert during["segments"] != before["segments"]
     tab.page.mouse.up()
@@ -16,7 +16,7 @@ def test_dragging_epsilon_changes_the_segments_before_the_button_is_released(tab
 
 def test_one_drag_is_one_step_of_undo(tab):
     before = tab.state
-    tab.drag("epsilon", by=-80)
+    tab.drag("epsilon", by=-120)
     tab.page.mouse.up()
     dragged = tab.until("s.params.epsilon < 0.025")
     tab.page.keyboard.press("Control+z")
