@@ -20,7 +20,7 @@ Understand a result
     which threshold would change it; `why`, `Remark`: what looks wrong in a frame; `misses`, `Miss`: lines not found.
 Judge results
     Without truth: `SCORES`, `with_stability`, and by `WEIGHTS` the `doubts`, the `suspicion`, the frames `worst_first`.
-    Against truth: `true_lines`, `true_ends`; `match`, `Matching`; `agreement`, `agreements`, `Agreement`.
+    Against truth: `true_lines`, `near_lines`, `true_ends`; `match`, `Matching`; `agreement`, `agreements`, `Agreement`.
     Against each other: `difference`, `differences`, `Difference`.
 Say what is true
     `label_file`, `read_labels`, `save_labels`; `FrameLabels` of `TrueLine`s; `ConflictError`.
@@ -50,7 +50,7 @@ from .survey.difference import Difference, difference, differences
 from .survey.stability import with_stability
 from .survey.why import Remark, why
 from .tracing.decisions import Decision, Explanation, Trace, TracedLine
-from .truth import Agreement, Matching, agreement, agreements, match, true_ends, true_lines
+from .truth import Agreement, Matching, agreement, agreements, match, near_lines, true_ends, true_lines
 from .truth.label_file import ConflictError, label_file, read_labels, save_labels
 from .truth.labels import FrameLabels, TrueLine
 from .what_if import WhatIf, what_if
@@ -107,6 +107,7 @@ __all__ = [
     "label_file",
     "match",
     "misses",
+    "near_lines",
     "open_recording",
     "params_text",
     "read_labels",

@@ -415,6 +415,8 @@ export interface Agreement {
   matches: number | null;
   trueRate: number | null;
   falseRate: number | null;
+  neutral: number | null;
+  neutralFalseRate: number | null;
   completeness: number | null;
   splits: number | null;
   merges: number | null;

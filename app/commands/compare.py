@@ -34,14 +34,14 @@ def compare(
 ) -> None:
     """Compare methods as in the paper's tables: TR, FR, completeness, endpoint errors, time.
 
-    Each method is tuned on one half of the frames with the same number of evaluations, then judged on the other half,
-    with tuned and with default thresholds. Without truth, methods are only timed. Ctrl-C stops and writes the results
-    so far.
+    Each method is judged on one half of the frames with three settings: as installed; as proposed without truth, by the
+    same search on the other half for each; and tuned with the truth of the other half. Without truth, methods are only
+    timed. Ctrl-C stops and writes the results so far.
 
     Args:
         files: recordings, or names of samples and simulated worlds (default: all samples and worlds).
         methods: names of methods (default: all).
-        budget: number of settings to try for each method; 0 runs the defaults only.
+        budget: number of settings to try for each method, without and with truth; 0 runs the defaults only.
         how: how to read the files.
         most_frames: number of frames to use from each recording; half of them are for tuning.
         out: file to write, .md, .csv or .json (default: Markdown on standard output).
@@ -99,7 +99,7 @@ def _tell(comparison: Comparison) -> None:
     text = f"{comparison.recording.name}: {training} frames for tuning, {judged} for judging"
     if comparison.truth:
         best = ranked(comparison.rows)[0]
-        text += f"; with the defaults {best.label} leads, {best.score:.3f}"
+        text += f"; as installed {best.label} leads, {best.score:.3f}"
     tqdm.write(text, file=sys.stderr)
 
 

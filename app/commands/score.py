@@ -20,6 +20,8 @@ from .progress import counted, open_with_progress
 from .reading import ReadingFlags, each_file, files_of, reading_of
 from .thresholds import Choice
 
+RATES = ("true_rate", "false_rate", "neutral_false_rate", "completeness")
+
 
 def score(
     files: Positional[Several[str]],
@@ -31,6 +33,9 @@ def score(
     csv: Switch = False,
 ) -> None:
     """Compare the segments of recordings with their true lines.
+
+    A neutral segment lies on a wall that misses P_min or L_min by at most 30 %. It counts as false in FR, and not at
+    all in "FR without neutral".
 
     Args:
         files: recordings to read; * and ? stand for several.
@@ -119,8 +124,11 @@ def _labelled(file: Path, recording: Recording) -> tuple[Callable, Callable]:
 def _numbers(agreement: Agreement) -> dict[str, float | None]:
     """The numbers for JSON and CSV, with None for NaN."""
     numbers = {
-        **{name: getattr(agreement, name) for name in ("true_lines", "segments", "matches", "splits", "merges")},
-        **{name: getattr(agreement, name) for name in ("true_rate", "false_rate", "completeness")},
+        **{
+            name: getattr(agreement, name)
+            for name in ("true_lines", "segments", "matches", "neutral", "splits", "merges")
+        },
+        **{name: getattr(agreement, name) for name in RATES},
         "endpoint_error_median": agreement.endpoint_error(),
         "endpoint_error_p95": agreement.endpoint_error(95),
     }
@@ -128,10 +136,11 @@ def _numbers(agreement: Agreement) -> dict[str, float | None]:
 
 
 def _facts(total: Agreement) -> Iterator[tuple[str, str]]:
-    for name in ("true_lines", "segments", "matches"):
+    for name in ("true_lines", "segments", "matches", "neutral"):
         yield name.replace("_", " "), str(getattr(total, name))
     yield "true rate (TR)", f"{total.true_rate:.2%}"
     yield "false rate (FR)", f"{total.false_rate:.2%}"
+    yield "FR without neutral", f"{total.neutral_false_rate:.2%}"
     yield "completeness", f"{total.completeness:.2%}"
     yield "lines split", str(total.splits)
     yield "segments merging lines", str(total.merges)

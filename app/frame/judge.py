@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lineseg import Agreement, FrameLabels, Recording, Thresholds, agreements
-from lineseg.truth import Matching, demands_of, match, true_ends, true_lines
+from lineseg.truth import Matching, demands_of, match, near_lines, true_ends, true_lines
 from lineseg.truth.labels import Labels
 from lineseg.writers.finite import finite_or_none
 
@@ -66,7 +66,8 @@ def judged(found: Findings, said: FrameLabels | None = None) -> Judged | None:
         return None
     lines = true_lines(found.scan, demands_of(found.trace.params))
     ends = true_ends(found.scan, lines)
-    return Judged(match(found.extraction, lines, ends), ends)
+    near = near_lines(found.scan, demands_of(found.trace.params))
+    return Judged(match(found.extraction, lines, ends, near), ends)
 
 
 def judged_recording(
@@ -95,6 +96,8 @@ def agreement_told(agreement: Agreement) -> told.Agreement:
         "matches": finite_or_none(agreement.matches),
         "trueRate": finite_or_none(agreement.true_rate),
         "falseRate": finite_or_none(agreement.false_rate),
+        "neutral": finite_or_none(agreement.neutral),
+        "neutralFalseRate": finite_or_none(agreement.neutral_false_rate),
         "completeness": finite_or_none(agreement.completeness),
         "splits": finite_or_none(agreement.splits),
         "merges": finite_or_none(agreement.merges),

@@ -109,6 +109,8 @@ class Agreement(TypedDict):
     matches: float | None
     trueRate: float | None
     falseRate: float | None
+    neutral: float | None
+    neutralFalseRate: float | None
     completeness: float | None
     splits: float | None
     merges: float | None

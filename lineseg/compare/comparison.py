@@ -1,33 +1,39 @@
-"""All methods on one recording: first with their defaults, then tuned."""
+"""All methods on one recording: as installed, as proposed without truth, and tuned with the truth."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..extractors import EXTRACTORS, Extractor
 from ..knobs import Thresholds
+from ..noise import noise
 from ..scan import Recording
 from ..truth import Agreement
 from ..tuning.objective import Objective
+from ..tuning.proposal import scaled
 from .halves import Halves, Judge, halves
-from .search import search, tunable
-from .timing import Setting, times_of
+from .search import WISHES, search, tunable
+from .timing import Timed, times_of
 
 FRAMES = 60
 BUDGET = 150
 REFERENCE = "region-growing"
 OBJECTIVE = Objective("truth")
+Setting = Literal["installed", "proposed", "tuned"]
 
 
 @dataclass(frozen=True, eq=False)
 class Row:
-    """The result of a method on the judged half of a recording; evaluations: settings tried on the other half, or 0.
+    """The result of a method on the judged half of a recording.
 
+    setting: the defaults, or what was best on the other half, by the lines of `judges` ("proposed") or by the truth
+    ("tuned"). evaluations: number of settings tried there. about: the laser of the recording in a few words.
     agreement: None if no truth is known. times: (frames,) [µs], None until timed; reference: times of region growing
     with its defaults, measured in alternation.
     """
@@ -36,14 +42,12 @@ class Row:
     method: str
     label: str
     params: Thresholds
+    setting: Setting = "installed"
     evaluations: int = 0
+    about: str = ""
     agreement: Agreement | None = None
     times: NDArray[np.float64] | None = None
     reference: NDArray[np.float64] | None = None
-
-    @property
-    def tuned(self) -> bool:
-        return self.evaluations > 0
 
     @property
     def score(self) -> float:
@@ -60,15 +64,27 @@ class Row:
         return float(self.times.sum() / self.reference.sum())
 
 
-def score_of(agreement: Agreement) -> float:
-    """Harmonic mean of TR and 1 − FR, times completeness: the objective of tuning."""
-    return OBJECTIVE.of_rates(agreement.true_rate, agreement.false_rate, agreement.completeness)
+def score_of(agreement: Agreement, neutral: bool = False) -> float:
+    """Harmonic mean of TR and 1 − FR, times completeness: the objective of tuning. neutral: leave these out."""
+    false = agreement.neutral_false_rate if neutral else agreement.false_rate
+    return OBJECTIVE.of_rates(agreement.true_rate, false, agreement.completeness)
+
+
+def laser_of(recording: Recording) -> str:
+    """The laser of a recording in a few words: its beams, its field of view, and how much its points scatter."""
+    scan, found = recording[0], noise(recording)
+    beams = f"{len(scan)} beams over {np.degrees(np.ptp(scan.bearings)):.0f}°"
+    if not found.known or not scan.valid.any():
+        return beams
+    scatter = math.hypot(float(found.at(float(np.median(scan.ranges[scan.valid])))), found.roughness)
+    return f"{beams}, points scatter by {1000 * scatter:.0f} mm"
 
 
 class Comparison:
     """Compares methods on a recording; `rows` holds the results so far, even if `run` was interrupted.
 
-    methods: names (default: all). budget: settings to try for each method, starting with the defaults; 0 tunes none.
+    methods: names (default: all). budget: settings to try for each method, starting with the defaults, once without
+    and once with the truth; 0 tries none.
     frames: largest number of frames, half of them for tuning. Without truth, methods are only timed.
     """
 
@@ -89,41 +105,66 @@ class Comparison:
         self.recording = recording
         self.truth = recording.wall is not None
         self.budget = budget if self.truth else 0
+        self.about = laser_of(recording)
         self.rows: list[Row] = []
 
     @property
     def steps(self) -> int:
         """Number of times that `run` yields."""
-        tuned = sum(1 + self.budget for method in self.methods if self.budget and tunable(method))
-        rounds = 2 if tuned else 1
+        tuned = 2 * sum(1 + self.budget for method in self.methods if self.budget and tunable(method))
+        rounds = 3 if tuned else 1
         return len(self.methods) + tuned + rounds * len(self.halves.judged)
 
     def run(self) -> Iterator[None]:
-        """Judge and time the defaults, then tune, judge and time; yields after every step."""
-        judge = Judge(self.recording, self.halves.judged) if self.truth else None
+        """Judge and time the defaults, then propose, judge and time, then tune; yields after every step."""
+        judge = Judge.by_truth(self.recording, self.halves.judged) if self.truth else None
         for method in self.methods:
-            self.rows.append(self._row(method, method.params_type(), 0, judge))
+            self.rows.append(self._row(method, method.params_type(), "installed", 0, judge))
             yield
         yield from self._timed(0)
         if judge is None or not self.budget:
             return
-        learner = Judge(self.recording, self.halves.training)
+        blind = self._blind()
+        scale = blind.scale if blind else 0.0
+        yield from self._searched("proposed", blind, judge, scale, WISHES)
+        yield from self._searched("tuned", Judge.by_truth(self.recording, self.halves.training), judge, scale, ())
+
+    def _blind(self) -> Judge | None:
+        """None if nothing fits the noise of the recording."""
+        try:
+            return Judge.blind(self.recording, self.halves.training)
+        except ValueError:
+            return None
+
+    def _searched(
+        self, setting: Setting, learner: Judge | None, judge: Judge, scale: float, fixed: Sequence[str]
+    ) -> Iterator[None]:
+        """The best setting of each method on the training half by `learner`; the defaults without one.
+
+        scale: the ε that fits the noise, with which the search begins; 0 if unknown.
+        """
+        start, budget = len(self.rows), self.budget if learner else 0
         for method in filter(tunable, self.methods):
-            best = yield from self._tuned(method, learner)
-            self.rows.append(self._row(method, best, self.budget, judge))
+            best = method.params_type()
+            if learner is not None:
+                best = yield from self._found(method, learner, scaled(best, scale) if scale else best, fixed)
+            self.rows.append(self._row(method, best, setting, budget, judge))
             yield
-        yield from self._timed(len(self.methods))
+        yield from self._timed(start)
 
-    def _row(self, method: Extractor, params: Thresholds, evaluations: int, judge: Judge | None) -> Row:
+    def _row(
+        self, method: Extractor, params: Thresholds, setting: Setting, evaluations: int, judge: Judge | None
+    ) -> Row:
         found = None if judge is None else judge.agreement(method, params)
-        return Row(self.recording.name, method.name, method.label, params, evaluations, found)
+        name = self.recording.name
+        return Row(name, method.name, method.label, params, setting, evaluations, self.about, found)
 
-    def _tuned(self, method: Extractor, learner: Judge) -> Iterator[None]:
+    def _found(self, method: Extractor, learner: Judge, start: Thresholds, fixed: Sequence[str]) -> Iterator[None]:
         def score(params: Thresholds) -> float:
             return score_of(learner.agreement(method, params, ends=False))
 
         best, most = method.params_type(), -math.inf
-        for params, found in search(method, score, self.budget):
+        for params, found in search(method, score, self.budget, start, fixed):
             if found > most:
                 best, most = params, found
             yield
@@ -132,8 +173,8 @@ class Comparison:
     def _timed(self, start: int) -> Iterator[None]:
         """Time the rows from `start` on, in alternation with region growing with its defaults."""
         rows = self.rows[start:]
-        reference: Setting = (EXTRACTORS[REFERENCE], EXTRACTORS[REFERENCE].params_type())
-        settings: list[Setting] = [(EXTRACTORS[row.method], row.params) for row in rows]
+        reference: Timed = (EXTRACTORS[REFERENCE], EXTRACTORS[REFERENCE].params_type())
+        settings: list[Timed] = [(EXTRACTORS[row.method], row.params) for row in rows]
         settings += [reference] if reference not in settings else []
         columns = []
         for column in times_of(self.recording, self.halves.judged, settings):

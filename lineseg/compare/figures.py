@@ -13,8 +13,8 @@ from .comparison import Row
 
 
 def write_figures(rows: Sequence[Row], recording: Recording, frames: Sequence[int], folder: Path) -> list[Path]:
-    """Write NAME_times.svg, and NAME_lines.svg for the middle frame, both for the untuned rows."""
-    rows = [row for row in rows if row.recording == recording.name and not row.tuned]
+    """Write NAME_times.svg, and NAME_lines.svg for the middle frame, both as installed."""
+    rows = [row for row in rows if row.recording == recording.name and row.setting == "installed"]
     stem, kind = Path(recording.name).stem, figure_type()
     files = [folder / f"{stem}_times.svg", folder / f"{stem}_lines.svg"]
     for path, figure in zip(files, (_times(kind, rows, frames), _lines(kind, rows, recording, frames)), strict=True):

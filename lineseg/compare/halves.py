@@ -1,16 +1,18 @@
-"""Splits frames into those for tuning and those for judging a method."""
+"""Splits frames into those for tuning and those for judging a method, and judges it on them."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
+from typing import NamedTuple, Self
 
 import numpy as np
+from numpy.typing import NDArray
 
-from ..extractors import Extractor
+from ..extractors import Extractor, extract
 from ..knobs import Thresholds
-from ..scan import Recording
-from ..truth import Agreement, agreement, true_ends, true_lines
+from ..scan import Recording, Scan
+from ..truth import Agreement, agreement, near_lines, true_ends, true_lines
+from ..tuning.judges import judges
 from ..tuning.parts import BLOCKS, stretches
 
 
@@ -42,17 +44,46 @@ def _spread(start: int, stop: int, most: int) -> list[int]:
     return np.unique((start + (np.arange(count) + 0.5) * (stop - start) / count).astype(int)).tolist()
 
 
-class Judge:
-    """True lines of some frames, found once, with the default P_min and L_min for every method."""
+class Lines(NamedTuple):
+    """Lines that should be found in a scan, see `match`."""
 
-    def __init__(self, recording: Recording, frames: Sequence[int]) -> None:
-        self._scans = [recording[frame] for frame in frames]
-        self._truths = [true_lines(scan) for scan in self._scans]
-        self._ends = [true_ends(scan, truth) for scan, truth in zip(self._scans, self._truths, strict=True)]
+    labels: NDArray[np.int32]
+    ends: NDArray[np.float64] | None = None
+    near: NDArray[np.int32] | None = None
+
+
+class Judge:
+    """Scores methods on some scans, each with the lines that should be found, with P_min and L_min of the defaults.
+
+    scale: the ε that fits the noise [m]; 0 if it was not looked for.
+    """
+
+    def __init__(self, scans: Sequence[Scan], expected: Sequence[Sequence[Lines]], scale: float = 0.0) -> None:
+        self._scans, self._expected, self.scale = scans, expected, scale
+
+    @classmethod
+    def by_truth(cls, recording: Recording, frames: Sequence[int]) -> Self:
+        """Compares with the true lines of these frames."""
+        scans = [recording[frame] for frame in frames]
+        labels = [true_lines(scan) for scan in scans]
+        return cls(
+            scans,
+            [[Lines(each, true_ends(scan, each), near_lines(scan))] for scan, each in zip(scans, labels, strict=True)],
+        )
+
+    @classmethod
+    def blind(cls, recording: Recording, frames: Sequence[int]) -> Self:
+        """Compares with the lines of `judges`, found from these frames alone. Raises ValueError if nothing fits."""
+        part = recording.only(np.array(frames))
+        panel, scans = judges(part), list(part)
+        lines = [[Lines(extract(scan, params).labels) for params in panel] for scan in scans]
+        return cls(scans, lines, panel[len(panel) // 2].epsilon)
 
     def agreement(self, method: Extractor, params: Thresholds, ends: bool = True) -> Agreement:
-        """The agreement over all frames; ends: whether to compute endpoint errors, which takes time."""
-        each = zip(self._scans, self._truths, self._ends, strict=True)
+        """The agreement over all scans; ends: whether to compute endpoint errors, which takes time."""
+        found = [method.extract(scan, params) for scan in self._scans]
         return Agreement.of_all(
-            agreement(method.extract(scan, params), truth, true if ends else None) for scan, truth, true in each
+            agreement(each, lines.labels, lines.ends if ends else None, lines.near)
+            for each, expected in zip(found, self._expected, strict=True)
+            for lines in expected
         )

@@ -7,16 +7,21 @@ import io
 import json
 import math
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
 from typing import Any
 
 from ..truth import Agreement
 from ..writers.finite import finite_or_none
-from .comparison import OBJECTIVE, Row, score_of
+from .comparison import OBJECTIVE, Row, Setting, score_of
 
+SETTINGS: dict[Setting, str] = {"installed": "as installed", "proposed": "as proposed", "tuned": "tuned"}
 NOTE = (
-    "Judged on stretches of frames that no method was tuned on; true lines have the default P_min and L_min. "
-    "Ranked by the harmonic mean of TR and 1 − FR, times completeness. Times are for one core of one machine, "
-    "with all methods alternating on every frame; × is the ratio to region growing with its defaults."
+    "As installed: the defaults. As proposed: the best of the tried settings by the lines that fit the noise of the "
+    "laser, without truth. Tuned: the best of as many settings by the truth. All are judged by the truth, on stretches "
+    "of frames that no method was tuned on; true lines have the default P_min and L_min. Ranked by the harmonic mean "
+    "of TR and 1 − FR, times completeness. Neutral: segments on walls that miss P_min or L_min by at most 30 % count "
+    "neither as right nor as false. Times are for one core of one machine, with all methods alternating on every "
+    "frame; × is the ratio to region growing with its defaults."
 )
 
 
@@ -25,7 +30,8 @@ def numbers(row: Row) -> dict[str, Any]:
     return {
         "recording": row.recording,
         "method": row.method,
-        "tuned": row.tuned,
+        "laser": row.about,
+        "setting": row.setting,
         "evaluations": row.evaluations,
         **_of_agreement(row.agreement),
         **_of_times(row),
@@ -44,7 +50,7 @@ def to_json(rows: Sequence[Row]) -> str:
 
 
 def to_csv(rows: Sequence[Row]) -> str:
-    """A row for each method, recording and half; thresholds as JSON in the last column."""
+    """A row for each method, recording and setting; thresholds as JSON in the last column."""
     table = [numbers(row) for group in groups(rows) for row in group]
     text = io.StringIO()
     writer = csv.DictWriter(text, table[0], lineterminator="\n")
@@ -54,41 +60,79 @@ def to_csv(rows: Sequence[Row]) -> str:
 
 
 def to_markdown(rows: Sequence[Row]) -> str:
-    """Two tables for each recording, like Tables 4 and 3 of the paper; then all recordings together."""
+    """Scores of each recording in all settings; two tables for each setting, like Tables 4 and 3 of the paper; then all
+    recordings together.
+    """
     parts = [NOTE]
-    for group in groups(rows):
-        parts += [f"## {group[0].recording}, {_kind(group[0])}", *_tables(group)]
-    together = [total(rows, tuned) for tuned in (True, False)]
-    parts += [part for each in together if each for part in each]
-    return "\n\n".join(parts) + "\n"
+    for name in dict.fromkeys(row.recording for row in rows):
+        own = [row for row in rows if row.recording == name]
+        about = f" ({own[0].about})" if own[0].about else ""
+        parts += [f"## {name}{about}", *_scores(own)]
+        for group in groups(own):
+            parts += [f"### {name}, {_kind(group[0])}", *_tables(group)]
+    return "\n\n".join(parts + _together(rows)) + "\n"
 
 
 def groups(rows: Sequence[Row]) -> list[list[Row]]:
-    """The rows of each recording, ranked, the tuned ones first."""
-    keys = dict.fromkeys((row.recording, tuned) for row in rows for tuned in (True, False))
-    found = ([row for row in rows if (row.recording, row.tuned) == key] for key in keys)
+    """The rows of each recording and setting, ranked."""
+    keys = dict.fromkeys((row.recording, setting) for row in rows for setting in SETTINGS)
+    found = ([row for row in rows if (row.recording, row.setting) == key] for key in keys)
     return [ranked(group) for group in found if group]
 
 
-def total(rows: Sequence[Row], tuned: bool) -> list[str]:
-    """All recordings with truth together, if there are two or more and every method has results for all."""
-    rows = [row for row in rows if row.tuned == tuned and row.agreement is not None]
+def _together(rows: Sequence[Row]) -> list[str]:
+    """All recordings with truth together, if there are two or more."""
+    sums = [each for setting in SETTINGS for each in total(rows, setting)]
+    if not sums:
+        return []
+    count = len({row.recording for row in rows if row.agreement is not None})
+    parts = [f"## All {count} recordings", *_scores(sums)]
+    for group in groups(sums):
+        parts += [f"### All {count} recordings, {_kind(group[0])}", *_tables(group)]
+    return parts
+
+
+def total(rows: Sequence[Row], setting: Setting) -> list[Row]:
+    """A row for each method with all recordings that have truth together; none if a method lacks one of them."""
+    rows = [row for row in rows if row.setting == setting and row.agreement is not None]
     by_method: dict[str, list[Row]] = {}
     for row in rows:
-        by_method.setdefault(row.label, []).append(row)
+        by_method.setdefault(row.method, []).append(row)
     count = len({row.recording for row in rows})
     if count < 2 or any(len(each) != count for each in by_method.values()):
         return []
-    sums = {
-        label: Agreement.of_all(row.agreement for row in each if row.agreement) for label, each in by_method.items()
-    }
-    order = sorted(sums, key=lambda label: -_or(score_of(sums[label]), -1.0))
-    lines = [_quality(place, label, sums[label]) for place, label in enumerate(order, 1)]
-    return [f"## All {count} recordings, {_kind(rows[0])}", _table(QUALITY, lines)]
+    sums = [Agreement.of_all(row.agreement for row in each if row.agreement) for each in by_method.values()]
+    return [
+        replace(each[0], recording=f"All {count} recordings", about="", agreement=found, times=None)
+        for each, found in zip(by_method.values(), sums, strict=True)
+    ]
+
+
+def _scores(rows: Sequence[Row]) -> Iterator[str]:
+    """The score of each method in each setting, the best as proposed first; nothing if there is only one setting."""
+    settings: list[Setting] = [
+        setting for setting in SETTINGS if any(row.setting == setting and row.agreement for row in rows)
+    ]
+    if len(settings) < 2:
+        return
+    by_method: dict[str, dict[Setting, Row]] = {}
+    for row in rows:
+        by_method.setdefault(row.label, {})[row.setting] = row
+    order = sorted(by_method.items(), key=lambda entry: -_score(entry[1], settings[1]))
+    lines = [
+        [str(place), label, *(f"{found[each].score:.3f}" if each in found else "" for each in settings)]
+        for place, (label, found) in enumerate(order, 1)
+    ]
+    yield _table(("", "method", *(SETTINGS[each] for each in settings)), lines)
+
+
+def _score(found: dict[Setting, Row], setting: Setting) -> float:
+    return _or(found[setting].score, -1.0) if setting in found else -1.0
 
 
 QUALITY = (
-    "", "method", "score", "TR", "FR", "completeness", "splits", "merges", "endpoint error: median", "95 % [mm]",
+    "", "method", "score", "TR", "FR", "completeness", "neutral: score", "FR", "splits", "merges",
+    "endpoint error: median", "95 % [mm]",
 )  # fmt: skip
 TIME = ("method", "mean [µs]", "std", "min", "max", "×")
 
@@ -106,14 +150,16 @@ def _tables(group: list[Row]) -> Iterator[str]:
 
 
 def _kind(row: Row) -> str:
-    return f"tuned with {row.evaluations} evaluations" if row.tuned else "defaults"
+    evaluations = f", {row.evaluations} settings tried" if row.evaluations else ""
+    return f"{SETTINGS[row.setting]}{evaluations}"
 
 
 def _quality(place: int, label: str, found: Agreement) -> list[str]:
     rates = [_percent(value) for value in (found.true_rate, found.false_rate)]
     ends = [f"{1000 * found.endpoint_error(share):.1f}" for share in (50, 95)]
     score, complete = f"{score_of(found):.3f}", f"{found.completeness:.3f}"
-    return [str(place), label, score, *rates, complete, str(found.splits), str(found.merges), *ends]
+    neutral = [f"{score_of(found, neutral=True):.3f}", _percent(found.neutral_false_rate)]
+    return [str(place), label, score, *rates, complete, *neutral, str(found.splits), str(found.merges), *ends]
 
 
 def _time(row: Row) -> list[str]:
@@ -128,14 +174,18 @@ def _table(head: Sequence[str], lines: Sequence[Sequence[str]]) -> str:
 
 
 def _of_agreement(found: Agreement | None) -> dict[str, float | None]:
-    counts = ("true_lines", "segments", "matches", "splits", "merges")
+    counts = ("true_lines", "segments", "matches", "neutral", "splits", "merges")
     found_or_none = found or Agreement()
     values = {name: float(getattr(found_or_none, name)) for name in counts}
-    rates = {name: getattr(found_or_none, name) for name in ("true_rate", "false_rate", "completeness")}
+    names = ("true_rate", "false_rate", "neutral_false_rate", "completeness")
+    rates = {name: getattr(found_or_none, name) for name in names}
     ends = {
         f"endpoint_error_{name}": found_or_none.endpoint_error(share) for name, share in (("median", 50), ("p95", 95))
     }
-    row: dict[str, float | None] = {"score": finite_or_none(score_of(found_or_none))}
+    row: dict[str, float | None] = {
+        "score": finite_or_none(score_of(found_or_none)),
+        "neutral_score": finite_or_none(score_of(found_or_none, neutral=True)),
+    }
     row |= {name: finite_or_none(value) for name, value in (rates | ends).items()}
     return row | {name: int(value) if found else None for name, value in values.items()}
 

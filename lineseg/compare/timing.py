@@ -14,10 +14,10 @@ from ..scan import Recording
 
 ROUNDS = 3
 
-Setting = tuple[Extractor, Thresholds]
+Timed = tuple[Extractor, Thresholds]
 
 
-def times_of(recording: Recording, frames: Sequence[int], settings: Sequence[Setting]) -> Iterator[NDArray[np.float64]]:
+def times_of(recording: Recording, frames: Sequence[int], settings: Sequence[Timed]) -> Iterator[NDArray[np.float64]]:
     """(settings,) [µs] for each frame in turn: the minimum over ROUNDS, since other work of the machine only adds time.
 
     All methods run on a frame before the next frame, so drift of the machine affects all equally. The order changes

@@ -20,6 +20,8 @@ from ..scan import Recording, Scan
 from ..segment import Extraction
 
 OCCLUSION = 0.3
+# Share of P_min or L_min by which a wall may miss it and still make a segment on it neutral.
+SHORT = 0.3
 
 
 def true_lines(scan: Scan, params: Params | None = None, occlusion: float = OCCLUSION) -> NDArray[np.int32]:
@@ -30,6 +32,21 @@ def true_lines(scan: Scan, params: Params | None = None, occlusion: float = OCCL
     and their points are more than `occlusion` apart [m]; a thinner chair leg or a few lost beams do not cut it.
     On a full circle a run may cross the seam, where beams may be missing. Raises ValueError if the walls are not known.
     """
+    return _runs_labelled(scan, params, occlusion, lambda share: share >= 1.0)
+
+
+def near_lines(scan: Scan, params: Params | None = None, occlusion: float = OCCLUSION) -> NDArray[np.int32]:
+    """For each beam its near line, or −1: a visible run that misses P_min or L_min by at most 30 %.
+
+    Such a run is no true line, but whoever finds a segment there is not wrong either. Otherwise as `true_lines`.
+    """
+    return _runs_labelled(scan, params, occlusion, lambda share: 1.0 - SHORT <= share < 1.0)
+
+
+def _runs_labelled(
+    scan: Scan, params: Params | None, occlusion: float, wanted: Callable[[float], bool]
+) -> NDArray[np.int32]:
+    """Numbers the visible runs whose share of P_min and L_min, whichever is smaller, is wanted."""
     need_scan(scan)
     if scan.wall is None:
         raise ValueError("this scan has no true walls; `wall` gives the wall of each beam")
@@ -40,7 +57,8 @@ def true_lines(scan: Scan, params: Params | None = None, occlusion: float = OCCL
     for wall in np.unique(scan.wall[scan.valid & (scan.wall >= 0)]):
         for run in _visible_runs(scan, np.flatnonzero(scan.valid & (scan.wall == wall)), occlusion):
             length = float(np.hypot(*(scan.xy[run[-1]] - scan.xy[run[0]])))
-            if len(run) >= params.min_points and length >= params.min_length:
+            share = min(len(run) / params.min_points, length / params.min_length if params.min_length else math.inf)
+            if wanted(share):
                 labels[run] = found
                 found += 1
     return labels
@@ -98,7 +116,7 @@ class Agreement:
     """How well segments agree with true lines, in one frame, or in many by `+` or `of_all`.
 
     true_lines, segments, matches, splits, merges: counts; shared: sum of the intersections over union of the
-    matches. endpoint_errors: two for each match [m].
+    matches. endpoint_errors: two for each match [m]. neutral: number of segments on near lines, see `near_lines`.
     """
 
     true_lines: int = 0
@@ -108,6 +126,7 @@ class Agreement:
     splits: int = 0
     merges: int = 0
     endpoint_errors: tuple[float, ...] = ()
+    neutral: int = 0
 
     def __add__(self, other: Self) -> Agreement:
         return Agreement.of_all((self, other))
@@ -116,7 +135,7 @@ class Agreement:
     def of_all(cls, parts: Iterable[Agreement]) -> Agreement:
         """The sum of all."""
         parts = list(parts)
-        numbers = ("true_lines", "segments", "matches", "shared", "splits", "merges")
+        numbers = ("true_lines", "segments", "matches", "shared", "splits", "merges", "neutral")
         errors = tuple(chain.from_iterable(part.endpoint_errors for part in parts))
         return cls(**{name: sum(getattr(part, name) for part in parts) for name in numbers}, endpoint_errors=errors)
 
@@ -129,6 +148,12 @@ class Agreement:
     def false_rate(self) -> float:
         """FR = (segments − matches) / segments (Eq. 10); NaN if there is no segment."""
         return (self.segments - self.matches) / self.segments if self.segments else math.nan
+
+    @property
+    def neutral_false_rate(self) -> float:
+        """FR without the neutral segments, which are neither right nor false; NaN if there is no other."""
+        counted = self.segments - self.neutral
+        return (counted - self.matches) / counted if counted else math.nan
 
     @property
     def completeness(self) -> float:
@@ -146,17 +171,19 @@ class Matching:
 
     shared: (lines, segments) number of beams in common; line_beams, segment_beams: number of beams of each.
     endpoint_errors: (lines, 2) [m] from the ends of a true line to those of its match; NaN without a match.
+    neutral: (segments,) whether a segment is neither right nor false, because it matches a near line.
     """
 
     shared: NDArray[np.int64]
     line_beams: NDArray[np.int64]
     segment_beams: NDArray[np.int64]
     endpoint_errors: NDArray[np.float64]
+    neutral: NDArray[np.bool_]
 
     @cached_property
     def overlap(self) -> NDArray[np.float64]:
         """(lines, segments) intersection over union of their beams."""
-        return self.shared / np.maximum(self.line_beams[:, None] + self.segment_beams - self.shared, 1)
+        return _overlap(self.shared, self.line_beams, self.segment_beams)
 
     @cached_property
     def segment_of(self) -> NDArray[np.intp]:
@@ -189,23 +216,28 @@ class Matching:
             splits=int(self.split.sum()),
             merges=int(self.merged.sum()),
             endpoint_errors=tuple(errors.tolist()),
+            neutral=int(self.neutral.sum()),
         )
 
 
-def match(extraction: Extraction, truth: NDArray[np.integer], ends: NDArray[np.float64] | None = None) -> Matching:
+def match(
+    extraction: Extraction,
+    truth: NDArray[np.integer],
+    ends: NDArray[np.float64] | None = None,
+    near: NDArray[np.integer] | None = None,
+) -> Matching:
     """Segments and true lines (n,), as `true_lines` gives them, matched one to one.
 
     A segment matches a true line if the intersection over union of their beams is more than one half. Two segments
     share no beam, nor do two true lines, so no other can match either of them.
     ends: (lines, 2, 2) [m] the endpoints of the true lines, see `true_ends`; None: no endpoint errors.
+    near: (n,) the lines that make a segment neutral instead of false, see `near_lines`; None: no segment is neutral.
     """
-    lines, segments = int(truth.max(initial=-1)) + 1, len(extraction.segments)
-    both = (truth >= 0) & (extraction.labels >= 0)
-    pairs = truth[both].astype(np.int64) * segments + extraction.labels[both]
-    shared = np.bincount(pairs, minlength=lines * segments).reshape(lines, segments)
-    line_beams = np.bincount(truth[truth >= 0], minlength=lines)
-    segment_beams = np.bincount(extraction.labels[extraction.labels >= 0], minlength=segments)
-    matching = Matching(shared, line_beams, segment_beams, np.full((lines, 2), np.nan))
+    counts = _shared_beams(extraction, truth)
+    neutral = np.zeros(len(extraction.segments), np.bool_)
+    if near is not None:
+        neutral |= (_overlap(*_shared_beams(extraction, near)) > 0.5).any(axis=0)
+    matching = Matching(*counts, np.full((len(counts[0]), 2), np.nan), neutral)
     if ends is not None:
         for line in np.flatnonzero(matching.segment_of >= 0):
             segment = extraction.segments[matching.segment_of[line]]
@@ -213,12 +245,37 @@ def match(extraction: Extraction, truth: NDArray[np.integer], ends: NDArray[np.f
     return matching
 
 
-def agreement(extraction: Extraction, truth: NDArray[np.integer], ends: NDArray[np.float64] | None = None) -> Agreement:
+def _shared_beams(
+    extraction: Extraction, truth: NDArray[np.integer]
+) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
+    """(lines, segments) number of beams in common, and the number of beams of each line and of each segment."""
+    lines, segments = int(truth.max(initial=-1)) + 1, len(extraction.segments)
+    both = (truth >= 0) & (extraction.labels >= 0)
+    pairs = truth[both].astype(np.int64) * segments + extraction.labels[both]
+    shared = np.bincount(pairs, minlength=lines * segments).reshape(lines, segments)
+    line_beams = np.bincount(truth[truth >= 0], minlength=lines)
+    segment_beams = np.bincount(extraction.labels[extraction.labels >= 0], minlength=segments)
+    return shared, line_beams, segment_beams
+
+
+def _overlap(
+    shared: NDArray[np.int64], line_beams: NDArray[np.int64], segment_beams: NDArray[np.int64]
+) -> NDArray[np.float64]:
+    return shared / np.maximum(line_beams[:, None] + segment_beams - shared, 1)
+
+
+def agreement(
+    extraction: Extraction,
+    truth: NDArray[np.integer],
+    ends: NDArray[np.float64] | None = None,
+    near: NDArray[np.integer] | None = None,
+) -> Agreement:
     """How well the segments of one scan agree with its true lines. See `match` for which segment matches which.
 
-    truth: (n,) int, the true line of each beam or −1; ends: (lines, 2, 2) [m], see `true_ends`.
+    truth: (n,) int, the true line of each beam or −1; ends: (lines, 2, 2) [m], see `true_ends`; near: (n,) int, see
+    `near_lines`.
     """
-    return match(extraction, truth, ends).agreement
+    return match(extraction, truth, ends, near).agreement
 
 
 def agreements(
@@ -230,8 +287,9 @@ def agreements(
 ) -> Iterator[Agreement | None]:
     """How well a method agrees with the truth, frame by frame.
 
-    truth: the true line of each beam of a frame, or None for a frame without labels; default: `true_lines` with
-    the method's P_min and L_min. ends: the endpoints of a frame's true lines; default: `true_ends`.
+    truth: the true line of each beam of a frame, or None for a frame without labels; then no segment is neutral.
+    Default: `true_lines` and `near_lines` with the method's P_min and L_min. ends: the endpoints of a frame's true
+    lines; default: `true_ends`.
     """
     extractor = EXTRACTORS[method]
     need_recording(recording)
@@ -244,7 +302,8 @@ def agreements(
             yield None
         else:
             known_ends = true_ends(scan, lines) if ends is None else ends(frame)
-            yield agreement(extractor.extract(scan, params), lines, known_ends)
+            near = near_lines(scan, demands_of(params)) if truth is None else None
+            yield agreement(extractor.extract(scan, params), lines, known_ends, near)
 
 
 def _index_where(table: NDArray[np.bool_], axis: int) -> NDArray[np.intp]:

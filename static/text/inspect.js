@@ -68,6 +68,13 @@ export const inspectText = {
       ["matches", "matched", "Segments that match a true line", "count"],
       ["trueRate", "TR", "True rate: matched / true lines (Eq. 9)", "share"],
       ["falseRate", "FR", "False rate: segments that match no true line / segments (Eq. 10)", "share"],
+      ["neutral", "just short", "Segments on a wall that misses P_min or L_min by at most 30 %", "count"],
+      [
+        "neutralFalseRate",
+        "FR without these",
+        "False rate if segments on walls that are just short count neither as right nor as false",
+        "share",
+      ],
       ["completeness", "completeness", "Mean intersection over union of the matches", "share"],
       ["splits", "split", "True lines covered by two or more segments", "count"],
       ["merges", "merged", "Segments that cover two or more true lines", "count"],

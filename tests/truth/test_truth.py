@@ -9,7 +9,7 @@ from hypothesis import given
 from scenes import chipped, corner, room, scan_of, scans, wall_ahead
 
 from lineseg import Extraction, Params, Recording, Scan, Segment, extract, open_recording
-from lineseg.truth import Agreement, agreement, agreements, match, true_ends, true_lines
+from lineseg.truth import Agreement, agreement, agreements, match, near_lines, true_ends, true_lines
 
 SAMPLES = Path(__file__).parents[2] / "sample_scans"
 
@@ -65,6 +65,40 @@ def test_beams_missing_at_the_seam_cut_a_wall_only_where_a_dropout_does():
 def test_scans_of_a_real_room_are_full_circles_although_beams_are_missing_at_the_seam(data_dir):
     scan = open_recording(data_dir.parent / "truth" / "lroom_a.npz")[0]
     assert (len(scan), scan.around) == (897, 898)
+
+
+@pytest.mark.parametrize(
+    ("params", "near", "true"),
+    [
+        (Params(min_length=4.0), False, True),
+        (Params(min_length=5.0), True, False),
+        (Params(min_length=9.0), False, False),
+    ],
+)
+def test_a_segment_on_a_wall_that_is_just_short_is_neither_right_nor_false(params, near, true):
+    scan = walled(scan_of([(3, -2.2, 3, 2.2)], beams=180, field_of_view=2.0), np.zeros(180, int))
+    assert (true_lines(scan, params).max() >= 0, near_lines(scan, params).max() >= 0) == (true, near)
+    found = agreement(extract(scan), true_lines(scan, params), near=near_lines(scan, params))
+    assert (found.segments, found.matches, found.neutral) == (1, int(true), int(near))
+    assert found.false_rate == 1 - true
+    assert near == math.isnan(found.neutral_false_rate)
+
+
+def test_too_few_points_make_a_wall_near_as_too_little_length_does():
+    scan = walled(wall_ahead(), np.zeros(180, int))
+    seen = int(scan.valid.sum())
+    assert near_lines(scan, Params(min_points=seen)).max() == -1
+    assert near_lines(scan, Params(min_points=seen + 1)).max() == 0
+    assert near_lines(scan, Params(min_points=int(seen / 0.69))).max() == -1
+
+
+def test_a_recording_is_scored_with_its_near_lines_and_by_labels_without():
+    recording = open_recording(SAMPLES / "hallway.npz").only(np.arange(0, 300, 15))
+    found = Agreement.of_all(each for each in agreements(recording) if each)
+    assert 0 < found.neutral < found.segments
+    assert found.neutral_false_rate < found.false_rate
+    by_labels = agreements(recording, truth=lambda frame: true_lines(recording[frame]))
+    assert sum(each.neutral for each in by_labels if each) == 0
 
 
 def test_scoring_requires_truth():

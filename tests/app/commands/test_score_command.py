@@ -27,7 +27,8 @@ def test_the_table_has_the_numbers_of_the_library(score):
     code, out, _ = score(HALLWAY)
     assert code == 0
     assert out.startswith("hallway.npz, 300 frames with true lines, region-growing\n")
-    for value in (f"{total.true_rate:.2%}", f"{total.false_rate:.2%}", f"{total.endpoint_error(95):.4f} m"):
+    rates = total.true_rate, total.false_rate, total.neutral_false_rate
+    for value in (*(f"{rate:.2%}" for rate in rates), str(total.neutral), f"{total.endpoint_error(95):.4f} m"):
         assert value in out
 
 
