@@ -145,7 +145,17 @@ def test_an_interrupted_comparison_can_be_written(hallway: Recording):
 
 def test_the_command_compares_samples_and_files(hallway: Recording, tmp_path: Path, capsys):
     save_npz(hallway, tmp_path / "mine.npz")
-    call = ["compare", str(tmp_path / "mine.npz"), "laboratory", "--methods", *TWO, "--frames", "8", "--budget", "2"]
+    call = [
+        "compare",
+        str(tmp_path / "mine.npz"),
+        "laboratory",
+        "--methods",
+        *TWO,
+        "--most-frames",
+        "8",
+        "--budget",
+        "2",
+    ]
     assert main([*call, "-o", str(tmp_path / "out.json"), "--figures", str(tmp_path)]) == 0
     pictures = sorted(path.name for path in tmp_path.glob("*.svg"))
     assert pictures == [f"{name}_{what}.svg" for name in ("laboratory", "mine") for what in ("lines", "times")]
@@ -162,7 +172,7 @@ def test_the_command_compares_samples_and_files(hallway: Recording, tmp_path: Pa
     [
         (["gone"], "gone: there is no such file, sample or world"),
         (["hallway", "--methods", "guess"], "there is no method 'guess'; choose from region-growing"),
-        (["hallway", "--frames", "3"], "3 frames are too few for a comparison"),
+        (["hallway", "--most-frames", "3"], "3 frames are too few for a comparison"),
         (["hallway", "--budget", "-1"], "the budget is -1 evaluations"),
         (["hallway", "-o", "out.pdf"], "out.pdf: use a name that ends in .md, .csv, .json"),
         (["hallway", "-o", "nowhere/out.md"], "the folder nowhere does not exist"),
