@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import namedtuple
 from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
@@ -117,6 +118,8 @@ SCORES = {
         ),
     ]
 }  # fmt: skip
+# The column of each score, as a named tuple because kernels cannot look up names in a dict.
+COLUMN = namedtuple("Columns", SCORES)(*range(len(SCORES)))
 
 
 class Spans(NamedTuple):
@@ -342,13 +345,13 @@ def shared_by(now, before, turn):
 
 @kernel
 def score_frame(lines, count, points, beams, limits, dropped, now, before, scores):
-    """Write the SCORES of a frame that do not need the next frame to `scores` (9,), in order."""
-    scores[0] = count
-    scores[1] = coverage_of(lines, count, points)
-    scores[2] = invalid_share(points, beams)
-    scores[3] = largest_rms(lines, count)
-    scores[4] = over_split(lines, count, points.around > 0, limits.epsilon, points.beam[:0])
-    scores[5] = widest_gap(lines, count, points)
-    scores[6] = probable_misses(lines, count, points, limits, dropped)
-    scores[7] = change_of(now, before, points.around > 0)
-    scores[8] = fits_near_epsilon(lines, count, limits)
+    """Write the SCORES of a frame that do not need the next frame to `scores` (len(SCORES),)."""
+    scores[COLUMN.segments] = count
+    scores[COLUMN.coverage] = coverage_of(lines, count, points)
+    scores[COLUMN.invalid] = invalid_share(points, beams)
+    scores[COLUMN.rms] = largest_rms(lines, count)
+    scores[COLUMN.splits] = over_split(lines, count, points.around > 0, limits.epsilon, points.beam[:0])
+    scores[COLUMN.gap] = widest_gap(lines, count, points)
+    scores[COLUMN.misses] = probable_misses(lines, count, points, limits, dropped)
+    scores[COLUMN.change] = change_of(now, before, points.around > 0)
+    scores[COLUMN.near] = fits_near_epsilon(lines, count, limits)

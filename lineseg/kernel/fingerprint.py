@@ -72,7 +72,8 @@ def _value(value: Any, used: list[Any]) -> str:
     if isinstance(value, _PLAIN):
         return repr(value)
     if isinstance(value, tuple | list):
-        return f"{type(value).__name__}[{', '.join(_value(each, used) for each in value)}]"
+        fields = getattr(value, "_fields", "")
+        return f"{type(value).__name__}{fields}[{', '.join(_value(each, used) for each in value)}]"
     if isinstance(value, dict):
         return _value(sorted(value.items(), key=repr), used)
     if isinstance(value, set | frozenset):

@@ -25,6 +25,10 @@ from .threads import survey
 
 # A score that every frame has is mentioned from this doubt on.
 STANDS_OUT = 1.0
+# The other scores are told by their label and value.
+WITH_SENTENCE = frozenset(
+    "segments coverage invalid rms splits gap misses change near brief gone jump jolt unstable".split()
+)
 
 
 @dataclass(frozen=True)
@@ -192,6 +196,10 @@ def _whole(scene: _Scene, doubt: dict[str, float]) -> Iterator[Remark]:
         row = scene.rows[np.argmax(scene.rows["rms"])]
         text = f"the worst fit has an rms of {row['rms']:.3f} m; nearby frames: {scene.around('rms'):.3f} m"
         yield Remark("rms", text, int(row["first"]), int(row["last"]))
+    for name, score in SCORES.items():
+        if name not in WITH_SENTENCE and doubt[name] >= STANDS_OUT:
+            value, around = (f"{each:.3g} {score.unit}".strip() for each in (scene.score(name), scene.around(name)))
+            yield Remark(name, f"{score.label}: {value}; nearby frames: {around}")
 
 
 def _stability(scene: _Scene) -> Iterator[Remark]:

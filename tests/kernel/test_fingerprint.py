@@ -12,6 +12,7 @@ from lineseg.kernel.fingerprint import fingerprint
 from lineseg.kernel.kept import KeptKernel
 
 SOURCE = '''
+from collections import namedtuple
 from typing import NamedTuple
 import numpy as np
 from lineseg.kernel import entry_kernel, kernel, summing_kernel, intrinsic, types
@@ -22,12 +23,13 @@ class Pair(NamedTuple):
 
 FACTOR = 2.0
 TABLE = np.arange(3.0)
+COLUMN = namedtuple("Columns", ["near", "far"])(0, 1)
 
 @entry_kernel
 def entry(x):
     """Twice."""
     pair = Pair(inner(x, 1), one())
-    return FACTOR * pair.left * pair.right + TABLE[1]
+    return FACTOR * pair.left * pair.right + TABLE[COLUMN.far]
 
 @kernel
 def inner(x, power=3):
@@ -79,6 +81,7 @@ def test_the_fingerprint_stays_if_the_compiled_code_stays(before, after):
         ("power=3", "power=4"),
         ("left: float\n    right: float", "right: float\n    left: float"),
         ("types.float64, 1.0", "types.float64, 1.5"),
+        ('"near", "far"', '"far", "near"'),
     ],
 )
 def test_the_fingerprint_changes_with_any_compiled_code(before, after):

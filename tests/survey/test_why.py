@@ -1,5 +1,7 @@
 """What looks wrong in a frame is said in words, with its beams."""
 
+import re
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -52,6 +54,13 @@ def test_the_most_doubtful_comes_first(case):
     recording, where, scores = case
     assert why(recording, where["shifted_sensor"], scores=scores)[0].score == "jolt"
     assert why(recording, where["dropped_sector"], scores=scores)[0].score in ("invalid", "gone")
+
+
+def test_a_score_without_a_sentence_of_its_own_is_told_by_label_and_value(case, monkeypatch):
+    recording, where, scores = case
+    monkeypatch.setattr(sys.modules["lineseg.survey.why"], "WITH_SENTENCE", frozenset(SCORES) - {"invalid"})
+    texts = [remark.text for remark in why(recording, where["lost_beams"], scores=scores)]
+    assert any(re.fullmatch(r"invalid beams: 0\.\d+; nearby frames: 0(\.\d+)?", text) for text in texts), texts
 
 
 def test_every_probable_miss_is_told_with_its_reason(case):
