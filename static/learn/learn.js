@@ -42,6 +42,7 @@ class Learn {
   /** @type {Trace | null} */ #trace = null;
   /** @type {number | null} */ #step = null;
   /** @type {import("../wire.js").Params} */ #params = {};
+  /** @type {import("../wire.js").Knob[]} */ #knobs = [];
   /** Whether the method is region growing, which pseudocode, formulas and charts belong to. */ #own = true;
   #overlay;
   #formulas;
@@ -202,7 +203,7 @@ class Learn {
     this.#dock.classList.toggle("asking", this.#predict.asked !== null);
     this.#formulas.set(explained, this.#trace);
     this.#charts.set(explained, this.#trace, this.#params);
-    this.#listing?.set(explained, event ? variables(event) : [], event ? compared(event) : "");
+    this.#listing?.set(explained, event ? variables(event) : [], event ? compared(event, this.#knobs) : "");
   }
 
   /** Shows the points of the decision, with some room around them. */
@@ -237,6 +238,7 @@ class Learn {
 
   /** @param {import("../wire.js").Method} method the chosen one @param {import("../wire.js").Method[]} methods the lessons are about the first */
   setMethod(method, [{ knobs }]) {
+    this.#knobs = knobs;
     this.#own = method.knobs === knobs;
     this.#listingPlace.hidden = this.#formulas.element.hidden = !this.#own;
     this.#other.hidden = this.#own;

@@ -1,6 +1,7 @@
 // @ts-check
 // The dock of mode Learn: the sentence of the current decision, and all ways to move to another.
 import { Decision } from "../stepping/decision.js";
+import { comparison } from "../stepping/comparison.js";
 import { Steps } from "../stepping/steps.js";
 import { h } from "../widgets/dom.js";
 import { iconButton } from "../widgets/icon.js";
@@ -9,7 +10,6 @@ import { createBeamField } from "./beam_field.js";
 import { Loop } from "./loop.js";
 import { createMarks } from "./marks.js";
 import { JUMPS } from "./trace.js";
-import { comparedOf } from "./values.js";
 
 /** @typedef {import("./trace.js").Trace} Trace */
 /** @typedef {import("./trace.js").Jump} Jump */
@@ -40,6 +40,7 @@ export class Stepper {
   #looping;
   #marks = createMarks();
   #mayStep;
+  /** @type {import("../wire.js").Knob[]} */ #knobs = [];
   /** What is said instead of the decision. @type {string | null} */ #instead = null;
 
   /**
@@ -147,7 +148,11 @@ export class Stepper {
     const event = at !== null && this.#trace && at < this.#trace.length ? this.#trace.at(at) : null;
     const sentence = this.#instead ?? event?.text ?? this.#idle();
     this.#decision.leave.disabled = at === null;
-    this.#decision.set(event?.phase ?? "whole", sentence, event && !this.#instead ? comparedOf(event) : null);
+    this.#decision.set(
+      event?.phase ?? "whole",
+      sentence,
+      event && !this.#instead ? comparison(event, this.#knobs) : null,
+    );
   }
 
   /** The sentence about the whole result. */
@@ -198,8 +203,10 @@ export class Stepper {
   }
 
   /** @param {import("../wire.js").Method} method */
-  setMethod({ begins }) {
+  setMethod({ begins, knobs }) {
+    this.#knobs = knobs;
     this.#steps.jumps.rename("seed", begins);
+    this.#show();
   }
 
   /** @param {Trace} trace */

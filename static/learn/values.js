@@ -4,20 +4,7 @@
 import { num } from "./mathml.js";
 
 /** @typedef {import("./trace.js").Event} Event */
-/** @typedef {import("./trace.js").Trace} Trace */
-
-const SYMBOL = /** @type {Record<string, string>} */ ({
-  epsilon: "ε",
-  delta: "δ",
-  min_points: "P_min",
-  min_length: "L_min",
-  max_dropout: "D_max",
-  max_gap: "G_max",
-  max_void: "V_max",
-});
-
-const LEAST = new Set(["min_points", "min_length"]);
-const WITHOUT_BAR = new Set(["lines merged", "lines kept apart", "overlap cut", "endpoints"]);
+/** @typedef {import("../wire.js").Knob} Knob */
 
 /** @param {Event} event @returns {[string, string][]} */
 export function variables(event) {
@@ -37,8 +24,8 @@ export function variables(event) {
   return [["beams", `${first}–${last}`], ["P_l", String(points)], ...normal];
 }
 
-/** @param {Event} event */
-export function compared(event) {
+/** @param {Event} event @param {Knob[]} knobs */
+export function compared(event, knobs) {
   const { kind, check, value, limit } = event;
   if (check === "merge_angle") return `${degrees(value)} ${value < limit ? "<" : "≥"} ${degrees(limit)}`;
   if (kind === "overlap cut") return `${number(value)} ${value < limit ? "<" : "≥"} ${number(limit)} m`;
@@ -46,22 +33,8 @@ export function compared(event) {
   if (kind === "endpoints") return `${number(value)} m long`;
   if (check === "" || check === "end" || check === "nearer") return "";
   const sign = value < limit ? "<" : value > limit ? ">" : "=";
-  const unit = check === "min_points" || check === "max_dropout" ? "" : " m";
-  return `${number(value)} ${sign} ${number(limit)}${unit}`;
-}
-
-/** @param {string} check */
-export function symbolOf(check) {
-  return SYMBOL[check] ?? "";
-}
-
-/** The value and limit that a decision compared; null if its sentence is enough. @param {Event} event */
-export function comparedOf({ kind, check: refused, value, limit }) {
-  if (WITHOUT_BAR.has(kind)) return null;
-  const check = kind === "line kept" ? "min_length" : refused;
-  if (!symbolOf(check)) return null;
-  const unit = check === "min_points" || check === "max_dropout" ? "" : "m";
-  return { value, limit, symbol: symbolOf(check).replace("_", " "), unit, least: LEAST.has(check) };
+  const unit = knobs.find(({ name }) => name === check)?.unit ?? "";
+  return `${number(value)} ${sign} ${number(limit)} ${unit}`.trim();
 }
 
 /** @param {number} value */

@@ -4,7 +4,7 @@ import { iconButton } from "../widgets/icon.js";
 import { withUnit } from "../widgets/scale.js";
 import { tooltip } from "../widgets/tooltip.js";
 import { createVersus } from "../widgets/versus.js";
-import { comparison } from "./comparison.js";
+import { comparison } from "../stepping/comparison.js";
 import { symbol } from "./symbol.js";
 
 /** @typedef {import("../wire.js").Explanation} Explanation */

@@ -4,7 +4,7 @@ import { Decision } from "../stepping/decision.js";
 import { Steps } from "../stepping/steps.js";
 import { h, setText } from "../widgets/dom.js";
 import { icon } from "../widgets/icon.js";
-import { comparison } from "./comparison.js";
+import { comparison } from "../stepping/comparison.js";
 
 /** @typedef {import("../wire.js").State} State */
 /** @typedef {import("../wire.js").Knob} Knob */
