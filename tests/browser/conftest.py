@@ -36,6 +36,12 @@ FLAGS = (
     "--no-first-run",
     "--disable-quic",
 )
+# Nobody looks at the scene of a test, so it is drawn less often, which leaves the processor to the test.
+LESS_OFTEN = """if (location.pathname.includes("/viser/")) {
+    const ask = window.requestAnimationFrame.bind(window);
+    window.requestAnimationFrame = (draw) => setTimeout(() => ask(draw), 30);
+    window.cancelAnimationFrame = clearTimeout;
+}"""
 SLIDER = "[data-knob={}] input[type=range]"
 FIELD = "[data-knob={}] input.number"
 
@@ -177,6 +183,7 @@ def new_tab(browser: Browser, address: Address) -> Iterator[Callable[..., Tab]]:
     """Open tabs of one browser profile; at the end none may have reported an error."""
     context = browser.new_context(viewport={"width": 1280, "height": 800}, accept_downloads=True)
     context.set_default_timeout(1000 * SECONDS)
+    context.add_init_script(LESS_OFTEN)
     tabs: list[Tab] = []
 
     def open_tab(hash: str = "", at: str = f"{address.http}/") -> Tab:

@@ -18,6 +18,7 @@ LONG = 240_000
 
 def test_the_tab_shows_the_recording_and_its_cursor_and_the_pages_frame_follow_each_other(tab: Tab):
     page = tab.page
+    page.set_viewport_size({"width": 900, "height": 600})
     page.get_by_role("button", name="Rerun", exact=True).click()
     follows = page.get_by_text("lineseg shows the frame at the cursor")
     follows.wait_for(timeout=LONG)
