@@ -27,7 +27,22 @@ from .threads import survey
 STANDS_OUT = 1.0
 # The other scores are told by their label and value.
 WITH_SENTENCE = frozenset(
-    ["segments", "coverage", "invalid", "rms", "splits", "gap", "misses", "change", "near", "brief", "gone", "jump", "jolt", "unstable"]
+    [
+        "segments",
+        "coverage",
+        "invalid",
+        "rms",
+        "splits",
+        "gap",
+        "misses",
+        "change",
+        "near",
+        "brief",
+        "gone",
+        "jump",
+        "jolt",
+        "unstable",
+    ]
 )
 
 

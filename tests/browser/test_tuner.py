@@ -5,11 +5,8 @@ from __future__ import annotations
 import csv
 import io
 import re
-<<<<<<< HEAD
-from dataclasses import replace
-=======
 from collections.abc import Iterator
->>>>>>> ff53c0a (The slow tests of the page start first, with a scene drawn less often and with thinned recordings)
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -18,16 +15,9 @@ from lineseg_app.__main__ import main
 from lineseg_app.server import Settings
 from live import Address, serving
 
-<<<<<<< HEAD
-from lineseg import open_recording
-from lineseg.readers import save_npz
-
-HALLWAY = Path(__file__).parents[2] / "sample_scans" / "hallway.npz"
-=======
 from lineseg import open_recording, save_npz
 
 SAMPLES = Path(__file__).parents[2] / "sample_scans"
->>>>>>> ff53c0a (The slow tests of the page start first, with a scene drawn less often and with thinned recordings)
 # Kernels may have to be compiled first, and the work is done behind everything else.
 PATIENCE_MS = 120_000
 
@@ -191,7 +181,7 @@ def test_auto_tuning_shows_its_trials_stops_goes_on_and_is_adopted(tab):
 @pytest.fixture(scope="module")
 def coarse(tmp_path_factory) -> Path:
     """The hallway, seen by a laser that scatters by 22 mm."""
-    hallway = open_recording(HALLWAY).only(np.arange(0, 300, 12))
+    hallway = open_recording(SAMPLES / "hallway.npz").only(np.arange(0, 300, 12))
     noise = np.random.default_rng(0).normal(0, 0.02, len(hallway.ranges))
     file = tmp_path_factory.mktemp("coarse") / "coarse.npz"
     save_npz(replace(hallway, ranges=(hallway.ranges + noise).astype(np.float32)), file)
