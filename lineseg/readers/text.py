@@ -1,51 +1,35 @@
-"""Plain text: one scan per row, columns of angle and distance, or a table with a column `ranges`."""
+"""Plain text: one scan per row, one beam per row, or a table with the ranges of each scan."""
 
 from __future__ import annotations
 
-import csv
-import math
 import re
-from collections.abc import Iterator
-from itertools import pairwise
-from typing import NamedTuple
+from collections.abc import Iterable, Iterator
+from itertools import chain, islice
+from typing import Any
 
-import numpy as np
+from ..scan import Recording
+from .beam_rows import read_beams
+from .dialect import COMMENTS, Dialect, Row, bracketed, dialect_of, labels_of, unlabelled
+from .headers import Name, array_columns, column_of, is_angle, is_distance, name_of
+from .numbers import is_number
+from .reading import Reading, columns_of
+from .scan_rows import read_scans
+from .source import Reader, Source
+from .table import echo_columns, read_table
 
-from ..scan import Floats, Recording, Topic
-from .numbers import all_numbers, is_number, split
-from .reading import Reading
-from .source import Reader, Source, Sweeps
-
-# angle_min and angle_increment, in degrees, of common lasers by number of beams.
-LASERS = {
-    180: (-90.0, 1.0),
-    181: (-90.0, 1.0),
-    360: (-180.0, 1.0),
-    361: (-90.0, 0.5),
-    541: (-135.0, 0.5),
-    682: (-120.0, 240.0 / 681),
-    721: (-90.0, 0.25),
-    726: (-135.0, 360.0 / 1024),
-    769: (-135.0, 360.0 / 1024),
-    1081: (-135.0, 0.25),
-}
-COMMENTS = (b"#", b"%", b"//")
 ECHO = b"%time,field."  # the first line of `rostopic echo -p`
 SETTING = re.compile(rb"(\w+)\s*[=:]\s*([^\s,;]+)")
-ANGLES = ("angle", "angles", "bearing", "theta", "angle_rad", "angle_deg", "azimuth")
-DISTANCES = ("distance", "distances", "range", "dist", "rho", "distance_m", "distance_mm", "range_m", "range_mm")
-
-
-class Row(NamedTuple):
-    number: int
-    text: bytes
+TEXT_FORMS = "use one scan per row, or columns of angle and distance, or a table with a column named ranges."
+SAMPLE = 40
+# Rows with fewer numbers than this are beams, if there are enough of them.
+FEW_COLUMNS, MANY_ROWS = 9, 10
 
 
 class Text(Reader):
     """The last reader to try: any file with lines of numbers."""
 
     format = "text"
-    suffixes = (".csv", ".txt", ".dat", ".tsv", ".asc", ".xy")
+    suffixes = (".csv", ".txt", ".dat", ".tsv", ".asc", ".xy", ".json", ".jsonl", ".ndjson", ".yaml", ".yml")
     expects = "lines of numbers"
 
     @staticmethod
@@ -56,25 +40,16 @@ class Text(Reader):
     def read(source: Source) -> Recording:
         rows = _rows(source)
         said: dict[str, str] = {}
-        first = next(rows, None)
+        comment, first = b"", next(rows, None)
         while first is not None and first.text.startswith(COMMENTS) and not first.text.startswith(ECHO):
-            said.update((key.decode(), value.decode()) for key, value in SETTING.findall(first.text))
-            first = next(rows, None)
+            said.update((key.decode(), value.decode("utf-8", "replace")) for key, value in SETTING.findall(first.text))
+            comment, first = first.text, next(rows, None)
         if first is None:
             raise ValueError(f"{source.name} has no line of numbers; {TEXT_FORMS}")
-        options = _with_comments(source, said)
-        names = _names(first.text)
-        if names and ("ranges" in names or "ranges0" in names):
-            return _read_table(source, names, rows, options)
-        if names:
-            return _read_columns(source, rows, options, names)
-        rows = _chain(first, rows)
-        if len(split(first.text)) == 2 and not options.skip_columns:
-            return _read_columns(source, rows, options, ["angle", "distance"])
-        return _read_scans(source, rows, options)
-
-
-TEXT_FORMS = "use one scan per row, or columns of angle and distance, or a table with a column named ranges."
+        reading = _with_comments(source, said)
+        head = [first, *islice((row for row in rows if not row.text.startswith(COMMENTS)), SAMPLE)]
+        rest = chain(head, (row for row in rows if not row.text.startswith(COMMENTS)))
+        return _read(source, reading, head, rest, comment)
 
 
 def _rows(source: Source) -> Iterator[Row]:
@@ -84,31 +59,9 @@ def _rows(source: Source) -> Iterator[Row]:
             yield Row(number, stripped if stripped.startswith(COMMENTS) else text)
 
 
-def _chain(first: Row, rest: Iterator[Row]) -> Iterator[Row]:
-    yield first
-    yield from (row for row in rest if not row.text.startswith(COMMENTS))
-
-
-def _names(text: bytes) -> list[str] | None:
-    """The column names in a line, None if it begins with a number."""
-    words = split(text)
-    if is_number(words[0]):
-        return None
-    return [word.decode("utf-8", "replace").strip("\"'%").removeprefix("field.").lower() for word in words]
-
-
-def _numbers(source: Source, row: Row, text: bytes) -> Floats:
-    values = all_numbers(text)
-    if values is None:
-        wrong = next(word for word in split(text) if not is_number(word))
-        shown = wrong[:40].decode("utf-8", "replace")
-        raise ValueError(f"{source.name}:{row.number}: {shown!r} is not a number; {TEXT_FORMS}")
-    return values
-
-
 def _with_comments(source: Source, said: dict[str, str]) -> Reading:
-    """The given options, completed from the comment lines of the file."""
-    found: dict[str, str | float | int] = {}
+    """The given Reading, completed from the comment lines of the file."""
+    found: dict[str, Any] = {}
     for name in said.keys() & Reading.declared().keys():
         if getattr(source.reading, name) is None:
             try:
@@ -119,176 +72,95 @@ def _with_comments(source: Source, said: dict[str, str]) -> Reading:
                     f"{source.name}: its comments say {name} = {said[name]!r}; it must be a number."
                 ) from None
     try:
-        options = source.reading.but(**found)
+        reading = source.reading.but(**found)
     except ValueError as error:
         raise ValueError(f"{source.name}: {error}") from None
     source.notes.found |= found
-    return options
+    return reading
 
 
-# One scan a row
+def _read(source: Source, reading: Reading, head: list[Row], rows: Iterable[Row], comment: bytes) -> Recording:
+    """Decides what the rows hold, from the first of them."""
+    lines = [row.text for row in head]
+    source.notes.kind = "text"
+    if lines[0].lstrip().startswith((b"[", b"(", b"array(")) and not is_number(lines[0].strip(b"[] ")):
+        rows, dialect = bracketed(rows, source.name), Dialect(b" ")
+        head = list(islice(rows, SAMPLE))
+        if not head:
+            raise ValueError(f"{source.name} has brackets, but no list of numbers in them; {TEXT_FORMS}")
+        return _read_numbers(source, reading, head, chain(head, rows), dialect, None)
+    if labels := labels_of(lines):
+        names = [name_of(label.decode("utf-8", "replace")) for label in labels]
+        return _read_named(source, reading, unlabelled(rows, len(names)), Dialect(b" "), names)
+    dialect = dialect_of(lines)
+    source.notes.kind = "CSV" if dialect.separator in b",;" else "text"
+    cells = dialect.cells(lines[0])
+    if column := echo_columns(dialect, head):
+        return read_table(source, reading, rows, dialect, column)
+    if _is_header(dialect, cells):
+        names = _names(dialect, head, cells)
+        return _read_named(source, reading, (row for row in rows if row is not head[0]), dialect, names)
+    names = [name_of(word.decode("utf-8", "replace")) for word in re.split(rb"[\s,;]+", comment.strip(b"#%/ ,;"))]
+    named = len(names) == len(cells) and any(map(is_distance, names)) and any(map(is_angle, names))
+    return _read_numbers(source, reading, head, rows, dialect, names if named else None)
 
 
-def _read_scans(source: Source, rows: Iterator[Row], options: Reading) -> Recording:
-    scans: list[Floats] = []
-    numbers: list[int] = []
-    skip = options.skip_columns
-    for row in rows:
-        if skip is None:
-            skip = _leading_columns(row.text)
-        values = _numbers(source, row, row.text)[skip:]
-        if scans and len(values) != len(scans[0]):
-            raise ValueError(
-                f"{source.name}:{row.number}: {len(values)} ranges, but earlier scans have {len(scans[0])}; "
-                "is the line complete?"
-            )
-        scans.append(values)
-        numbers.append(row.number)
-    if len(scans) > 1 and len(scans[0]) == 1:
-        scans = [np.concatenate(scans)]
-    if len(scans[0]) == 0:
-        raise ValueError(f"{source.name}:{numbers[0]}: no ranges are left after {skip} leading columns; skip fewer.")
-    angle_min, increment = _angles(source, len(scans[0]), options)
-    sweeps = Sweeps()
-    for scan in scans:
-        sweeps.add(scan, angle_min, increment)
-    return _finish(source, sweeps)
+def _is_header(dialect: Dialect, cells: list[bytes]) -> bool:
+    """Whether a line has names: its first cell is no number, or is empty and followed by names."""
+    cells = [cell for cell in cells if cell]
+    return bool(cells) and dialect.number(cells[0]) is None
 
 
-def _leading_columns(text: bytes) -> int:
-    """Number of values before the ranges: those before a double space, if the line has exactly one."""
-    parts = re.split(rb" {2,}", text.strip())
-    return len(split(parts[0])) if len(parts) == 2 and len(split(parts[1])) > len(split(parts[0])) else 0
+def _names(dialect: Dialect, head: list[Row], cells: list[bytes]) -> list[Name]:
+    """The names in a header; one of blanks is cut at wider gaps if that fits the rows better."""
+    if dialect.separator == b" " and len(head) > 1:
+        wide = re.split(rb"\t+| {2,}|\s*,\s*", head[0].text.strip())
+        if len(cells) != len(dialect.cells(head[1].text)) == len(wide):
+            cells = wide
+    return [name_of(cell.decode("utf-8", "replace")) for cell in cells]
 
 
-def _angles(source: Source, beams: int, options: Reading) -> tuple[float, float]:
-    """angle_min and angle_increment [rad]: as given, or of the common laser with this number of beams."""
-    low, step = (math.radians(angle) for angle in LASERS.get(beams, (math.nan, math.nan)))
-    step = step if options.angle_increment is None else options.angle_increment
-    low = low if options.angle_min is None else options.angle_min
-    if math.isnan(low) and not math.isnan(step):
-        low = -step * (beams - 1) / 2
-    if math.isnan(step):
-        raise ValueError(
-            f"{source.name}: rows of {beams} numbers without angles; give angle_increment, and angle_min unless 0° "
-            "is in the middle, and skip_columns if not all numbers are ranges."
-        )
-    return low, step
-
-
-# Columns of angle and distance
-
-
-def _read_columns(source: Source, rows: Iterator[Row], options: Reading, names: list[str]) -> Recording:
-    angle_at = _column(source, names, ANGLES)
-    distance_at = _column(source, names, DISTANCES)
-    table: list[Floats] = []
-    for row in rows:
-        if row.text.startswith(COMMENTS):
-            continue
-        words = split(row.text)
-        if len(words) < len(names):
-            raise ValueError(
-                f"{source.name}:{row.number}: {len(words)} of {len(names)} columns ({', '.join(names)}); "
-                "is the line complete?"
-            )
-        table.append(_numbers(source, row, words[angle_at] + b" " + words[distance_at]))
-    if not table:
-        raise ValueError(f"{source.name} has column names, but no line of numbers; {TEXT_FORMS}")
-    angles, distances = np.array(table).T
-    if not np.isfinite(angles).all():
-        raise ValueError(f"{source.name}: an angle is not a finite number; each beam needs its own.")
-    if names[distance_at].endswith("_mm"):
-        source.notes.found["unit"] = "mm"
-    if _in_degrees(angles, names[angle_at], options):
-        angles = np.deg2rad(angles)
-    source.notes.radians = True
-    sweeps = Sweeps()
-    for start, stop in _revolutions(angles):
-        bearings, ranges = angles[start:stop], distances[start:stop]
-        increment = (bearings[-1] - bearings[0]) / max(len(bearings) - 1, 1)
-        sweeps.add(ranges, bearings[0], increment, bearings=bearings)
-    return _finish(source, sweeps)
-
-
-def _column(source: Source, names: list[str], known: tuple[str, ...]) -> int:
-    for name in known:
-        if name in names:
-            return names.index(name)
+def _read_named(
+    source: Source, reading: Reading, rows: Iterable[Row], dialect: Dialect, names: list[Name]
+) -> Recording:
+    if reading.columns is not None:
+        given = columns_of(reading.columns)
+        return _read_columns(source, reading, rows, dialect, given)
+    ranges = column_of(names, lambda name: name.index < 0 and name.ends("ranges"))
+    beams = array_columns(names)
+    if ranges is not None or beams:
+        return read_table(source, reading, rows, dialect, names)
+    if any(map(is_distance, names)) and any(map(is_angle, names)):
+        return read_beams(source, reading, rows, dialect, names)
+    if {"x", "y"} <= {name.plain.split("_")[-1] for name in names}:
+        return read_beams(source, reading, rows, dialect, names)
+    shown = " ".join(name.plain for name in names)
     raise ValueError(
-        f"{source.name} begins with {' '.join(names)[:60]!r}, which names no column {known[0]}; {TEXT_FORMS}"
+        f"{source.name} begins with {shown[:60]!r}, which names no column angle; {TEXT_FORMS} "
+        "The flag --columns says what the columns hold."
     )
 
 
-def _in_degrees(angles: Floats, name: str, options: Reading) -> bool:
-    """The unit of angles: as given, from the column's name, or degrees if angles are too large for radians."""
-    if options.angle_unit:
-        return options.angle_unit == "deg"
-    if name.endswith(("_deg", "_rad")):
-        return name.endswith("_deg")
-    return bool(np.abs(angles).max() > 2 * np.pi + 0.2)
+def _read_columns(
+    source: Source, reading: Reading, rows: Iterable[Row], dialect: Dialect, given: tuple[str, ...]
+) -> Recording:
+    """Rows whose columns the Reading names."""
+    if "ranges" in given:
+        return read_scans(source, reading, rows, dialect, given[:-1])
+    return read_beams(source, reading, rows, dialect, [Name(word) for word in given], guess_direction=False)
 
 
-def _revolutions(angles: Floats) -> Iterator[tuple[int, int]]:
-    """Half-open spans of the scans in a column of angles: a new scan starts where the angle jumps back."""
-    leaps = np.flatnonzero(np.abs(np.diff(angles)) > np.pi) + 1
-    edges = [0, *leaps.tolist(), len(angles)]
-    yield from pairwise(edges)
-
-
-# A table with a column of lists, as written by `rostopic echo -p` and exporters
-
-
-def _read_table(source: Source, names: list[str], rows: Iterator[Row], options: Reading) -> Recording:
-    csv.field_size_limit(1 << 24)
-    sweeps = Sweeps()
-    for row in rows:
-        cells = next(csv.reader([row.text.decode("utf-8", "replace")]))
-        if len(cells) != len(names):
-            raise ValueError(f"{source.name}:{row.number}: {len(cells)} of {len(names)} columns; is the line complete?")
-        cell = dict(zip(names, cells, strict=True))
-        listed = cell.get("ranges") or " ".join(cell[name] for name in names if re.fullmatch(r"ranges\d+", name))
-        ranges = _numbers(source, row, listed.strip(" []()").encode())
-        angle_min = _value(source, row, cell, "angle_min", options.angle_min)
-        increment = _value(source, row, cell, "angle_increment", options.angle_increment)
-        range_min = _value(source, row, cell, "range_min", 0.0)
-        range_max = _value(source, row, cell, "range_max", math.inf) or math.inf
-        stamp, frame_id = _stamp(cell), _frame_id(cell)
-        sweeps.add(ranges, angle_min, increment, range_min, range_max, stamp, frame_id)
-    if not sweeps:
-        raise ValueError(f"{source.name} has column names, but no scans below them.")
-    return _finish(source, sweeps, limits=True)
-
-
-def _value(source: Source, row: Row, cell: dict[str, str], name: str, default: float | None) -> float:
-    """The number in the column `name`; `default` if the column is missing or the cell is empty."""
-    if cell.get(name, "").strip():
-        return float(_numbers(source, row, cell[name].encode())[0])
-    if default is None:
-        raise ValueError(f"{source.name}:{row.number}: {name} is missing; give it in a column or an option.")
-    return default
-
-
-def _stamp(cell: dict[str, str]) -> float:
-    """The stamp of a message in seconds, in any of the exporters' forms; 0 if there is none."""
-    header = cell.get("header", "")
-    seconds = re.search(r"\bsecs?'?\s*:\s*(-?\d+)", header)
-    nanoseconds = re.search(r"\bn(?:ano)?secs?'?\s*:\s*(\d+)", header)
-    if seconds:
-        return int(seconds[1]) + 1e-9 * int(nanoseconds[1] if nanoseconds else 0)
-    for name, unit in (("header.stamp", 1e-9), ("stamp", 1.0), ("timestamp", 1.0), ("time", 1.0)):
-        if is_number(cell.get(name, "").strip().encode()):
-            return float(cell[name]) * unit
-    return 0.0
-
-
-def _frame_id(cell: dict[str, str]) -> str:
-    found = re.search(r"'?frame_id'?\s*:\s*['\"]?([^'\",}]*)", cell.get("header", ""))
-    return found[1] if found else cell.get("header.frame_id", cell.get("frame_id", ""))
-
-
-def _finish(source: Source, sweeps: Sweeps, limits: bool = False) -> Recording:
-    topics = (Topic("scan", len(sweeps)),)
-    if not limits:
-        source.notes.unstated |= {"unit", "range_max"} - source.notes.found.keys()
-    return sweeps.recording(source, topic=source.choose(list(topics)), topics=topics, format=Text.format)
+def _read_numbers(
+    source: Source, reading: Reading, head: list[Row], rows: Iterable[Row], dialect: Dialect, names: list[Name] | None
+) -> Recording:
+    """Rows of numbers without a header: of a scan or of a beam each."""
+    if reading.columns is not None:
+        return _read_columns(source, reading, rows, dialect, columns_of(reading.columns))
+    if names is not None:
+        return read_beams(source, reading, rows, dialect, names)
+    widths = [len(dialect.cells(row.text)) for row in head]
+    width = max(widths)
+    few = width == 2 or (2 < width < FEW_COLUMNS and len(head) >= MANY_ROWS)
+    if few and reading.skip_columns is None and reading.angle_increment is None:
+        return read_beams(source, reading, rows, dialect, None)
+    return read_scans(source, reading, rows, dialect, None)

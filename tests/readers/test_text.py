@@ -104,7 +104,6 @@ def test_output_of_rostopic_echo_opens(text):
 @pytest.mark.parametrize(
     ("content", "sentence"),
     [
-        (rows(181) + "\n1.0, 2.0", r"scan.csv:4: 2 ranges, but earlier scans have 181; is the line complete\?"),
         ("0.0, 1.0\n0.1\n", r"scan.csv:2: 1 of 2 columns \(angle, distance\); is the line complete\?"),
         ("1.0, 2.0, x\n", "scan.csv:1: 'x' is not a number; use one scan per row"),
         ("Dear reader,\nthis is a letter.\n", "scan.csv begins with 'dear reader', which names no column angle"),
@@ -118,6 +117,13 @@ def test_output_of_rostopic_echo_opens(text):
 def test_a_table_without_scans_is_named_with_its_line(text, content, sentence):
     with pytest.raises(ValueError, match=f"^{sentence}"):
         open_recording(text(content))
+
+
+def test_a_row_that_breaks_off_is_skipped_and_named(text):
+    recording = open_recording(text(rows(181) + "\n1.0, 2.0"))
+    (skipped,) = recording.account.skipped
+    assert (len(recording), skipped.place) == (3, "scan.csv:4")
+    assert skipped.why == "2 ranges, but other scans have 181; is the line complete?"
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,196 @@
+"""Text with one beam per row: angle and distance, or x and y, perhaps with other columns."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from itertools import pairwise
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..scan import Floats, Recording, Topic
+from .dialect import Dialect, Row
+from .guessing import angle_unit_of
+from .headers import LENGTHS, SCANS, STAMPS, TIMES, TURNS, Name, column_of, is_angle, is_distance
+from .reading import Reading
+from .source import Source, Sweeps
+from .stamping import stamp_unit
+from .turns import regularity, turns
+
+# The steps of real angles are about equal; those of other columns are not.
+LEAST_REGULAR = 0.5
+# Fewer beams show nothing about their columns.
+FEW_ROWS = 8
+LONGEST_NAME = 24
+
+
+class Roles(NamedTuple):
+    """The columns of a beam; polar: angle and distance instead of x and y; scan, stamp: None without them."""
+
+    polar: bool
+    first: int
+    second: int
+    scan: int | None = None
+    stamp: int | None = None
+
+
+def read_beams(
+    source: Source, reading: Reading, rows: Iterable[Row], dialect: Dialect, names: list[Name] | None,
+    guess_direction: bool = True,
+) -> Recording:  # fmt: skip
+    """The scans of rows that hold a beam each. names: of the columns, None to guess what they hold."""
+    roles = None if names is None else _named(names)
+    table = _table(source, rows, dialect, names, roles)
+    if roles is None:
+        roles = _guessed(source, table)
+    notes = source.notes
+    if names is not None:
+        _take_units(source, reading, names, roles)
+    if "unit" not in notes.found:
+        notes.unstated.add("unit")
+    first, second = table[:, roles.first], table[:, roles.second]
+    bearings, ranges = _polar(source, reading, first, second) if roles.polar else _from_points(first, second)
+    if roles.polar and guess_direction and reading.direction is None:
+        notes.guess(
+            "direction", "counter-clockwise", "the file does not say in which sense its angles count",
+            direction="clockwise",
+        )  # fmt: skip
+    notes.radians = True
+    notes.unstated.add("range_max")
+    return _recording(source, reading, table, roles, bearings, ranges, names)
+
+
+def _named(names: list[Name]) -> Roles:
+    scan = column_of(names, lambda name: name.plain in SCANS)
+    stamp = column_of(names, lambda name: name.plain in STAMPS)
+    angle, distance = column_of(names, is_angle), column_of(names, is_distance)
+    if angle is not None and distance is not None:
+        return Roles(True, angle, distance, scan, stamp)
+    x, y = (column_of(names, lambda name, axis=axis: name.plain.split("_")[-1] == axis) for axis in "xy")
+    assert x is not None and y is not None
+    return Roles(False, x, y, scan, stamp)
+
+
+def _table(
+    source: Source, rows: Iterable[Row], dialect: Dialect, names: list[Name] | None, roles: Roles | None
+) -> NDArray[np.float64]:
+    """(rows, columns): the numbers of all rows, NaN for other words in columns that are not needed."""
+    table: list[list[float]] = []
+    width = 0 if names is None else len(names)
+    for row in rows:
+        cells = dialect.cells(row.text)
+        width = width or len(cells)
+        if len(cells) < width:
+            shown = ", ".join(name.plain[:LONGEST_NAME] for name in names) if names else "angle, distance"
+            source.notes.skip(
+                f"{source.name}:{row.number}", f"{len(cells)} of {width} columns ({shown}); is the line complete?"
+            )
+            continue
+        values = [dialect.number(cell) for cell in cells[:width]]
+        needed = range(width) if roles is None else (roles.first, roles.second)
+        wrong = next((at for at in needed if values[at] is None), None)
+        if wrong is not None and (roles is not None or wrong < 2):
+            shown = cells[wrong][:40].decode("utf-8", "replace")
+            source.notes.skip(f"{source.name}:{row.number}", f"{shown!r} is not a number")
+            continue
+        table.append([math.nan if value is None else value for value in values])
+    if len(table) <= source.notes.skips:
+        source.notes.nothing_left()
+        raise ValueError(f"{source.name} has column names, but no line of numbers below them.")
+    return np.array(table)
+
+
+def _guessed(source: Source, table: NDArray[np.float64]) -> Roles:
+    """What columns without names hold: the angle is the one whose steps are about equal; or bearings of x and y are."""
+    columns = [column for column in range(table.shape[1]) if np.isfinite(table[:, column]).mean() > 0.5]
+    found: list[tuple[float, Roles]] = []
+    for angle in columns:
+        if np.nanmax(np.abs(table[:, angle])) <= 725:
+            partner = _distance_beside(table, columns, angle)
+            if partner is not None:
+                found.append((regularity(_radians(table[:, angle])), Roles(True, angle, partner)))
+    if len(columns) >= 2:
+        bearings, _ = _from_points(table[:, columns[0]], table[:, columns[1]])
+        found.append((regularity(bearings), Roles(False, columns[0], columns[1])))
+    score, roles = min(found, key=lambda each: each[0], default=(math.inf, Roles(True, 0, 1)))
+    if len(table) < FEW_ROWS:
+        score, roles = 0.0, Roles(True, 0, 1)
+    if score > LEAST_REGULAR:
+        raise ValueError(
+            f"{source.name} has rows of {table.shape[1]} numbers of which none is an angle that rises or falls evenly; "
+            "say what the columns hold with --columns, such as angle,distance or x,y."
+        )
+    words = ["-"] * table.shape[1]
+    words[roles.first], words[roles.second] = ("angle", "distance") if roles.polar else ("x", "y")
+    named = ",".join(words)
+    source.notes.found["columns"] = named
+    other = ["-"] * table.shape[1]
+    other[roles.first], other[roles.second] = ("x", "y") if roles.polar else ("angle", "distance")
+    source.notes.guess("columns", named, "the columns have no names", columns=",".join(other))
+    return roles
+
+
+def _distance_beside(table: NDArray[np.float64], columns: list[int], angle: int) -> int | None:
+    """The column of distances: the first after the angle, or else before it, that varies and is not negative."""
+    order = sorted((at for at in columns if at != angle), key=lambda at: (at < angle, abs(at - angle)))
+    for at in order:
+        column = table[:, at][np.isfinite(table[:, at])]
+        if (column < 0).mean() < 0.2 and len(np.unique(column)) > min(3, len(column) - 1):
+            return at
+    return order[0] if order else None
+
+
+def _radians(angles: Floats) -> Floats:
+    return np.deg2rad(angles) if angle_unit_of(angles) == "deg" else angles
+
+
+def _take_units(source: Source, reading: Reading, names: list[Name], roles: Roles) -> None:
+    found = source.notes.found
+    if reading.unit is None and (unit := LENGTHS.get(names[roles.second].unit)):
+        found["unit"] = unit
+    if roles.polar and reading.angle_unit is None and (turn := TURNS.get(names[roles.first].unit)):
+        found["angle_unit"] = turn
+
+
+def _polar(source: Source, reading: Reading, angles: Floats, distances: Floats) -> tuple[Floats, Floats]:
+    if not np.isfinite(angles).all():
+        raise ValueError(f"{source.name}: an angle is not a finite number; each beam needs its own.")
+    unit = reading.angle_unit or source.notes.found.get("angle_unit")
+    if unit is None:
+        unit = angle_unit_of(angles)
+        other = "rad" if unit == "deg" else "deg"
+        why = f"no unit is stated, and the angles go from {angles.min():.4g} to {angles.max():.4g}"
+        source.notes.guess("angle_unit", "degrees" if unit == "deg" else "radians", why, angle_unit=other)
+        source.notes.found["angle_unit"] = unit
+    return np.deg2rad(angles) if unit == "deg" else angles, distances
+
+
+def _from_points(x: Floats, y: Floats) -> tuple[Floats, Floats]:
+    return np.arctan2(y, x), np.hypot(x, y)
+
+
+def _recording(
+    source: Source, reading: Reading, table: NDArray[np.float64], roles: Roles, bearings: Floats, ranges: Floats,
+    names: list[Name] | None,
+) -> Recording:  # fmt: skip
+    if roles.scan is not None:
+        edges = [0, *(np.flatnonzero(np.diff(table[:, roles.scan]) != 0) + 1).tolist(), len(table)]
+    else:
+        edges = turns(bearings)
+    stamps = np.zeros(len(table))
+    if roles.stamp is not None and np.isfinite(table[:, roles.stamp]).all():
+        unit = TIMES.get(names[roles.stamp].unit) if names else None
+        beams = table[:, roles.stamp]
+        scale = unit or stamp_unit(beams[edges[:-1]] if len(edges) > 2 else beams)
+        stamps, source.notes.stamps = beams * scale, f"column {roles.stamp + 1}"
+    sweeps = Sweeps()
+    for start, stop in pairwise(edges):
+        angles = np.unwrap(bearings[start:stop])
+        if angles.max() > 2 * np.pi + 0.01:
+            angles -= 2 * np.pi
+        increment = (angles[-1] - angles[0]) / max(len(angles) - 1, 1)
+        sweeps.add(ranges[start:stop], angles[0], increment, stamp=float(stamps[start]), bearings=angles)
+    topics = (Topic("scan", len(sweeps)),)
+    return sweeps.recording(source, topic=source.choose(list(topics)), topics=topics, format="text")

@@ -1,0 +1,144 @@
+"""How a text file writes numbers: its separator, its decimal sign, brackets, labels and comments."""
+
+from __future__ import annotations
+
+import csv
+import re
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from ..scan import Floats
+from .numbers import all_numbers, is_number
+
+COMMENTS = (b"#", b"%", b"//")
+DECIMAL_COMMA = re.compile(rb"[-+]?\d+,\d+")
+PAIR = re.compile(rb"([A-Za-z_][\w ]*?)\s*[:=]\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)(?![\w:])")
+INNERMOST = re.compile(rb"([^\[\]()]*)[\[(]([^\[\]()]*)[\])]")
+MISSING = (b"", b"-", b"--", b"null", b"none", b"na", b"n/a", b"#n/a", b"nan")
+LONGEST_ROW = 1 << 24
+
+
+class Row(NamedTuple):
+    """A line with data, and its number from 1."""
+
+    number: int
+    text: bytes
+
+
+@dataclass(frozen=True)
+class Dialect:
+    """separator: of the cells, b" " for blanks; comma: whether the decimal sign is a comma."""
+
+    separator: bytes = b","
+    comma: bool = False
+
+    def cells(self, text: bytes) -> list[bytes]:
+        """The cells of a line, without quotes; an empty cell after the last separator is dropped."""
+        if b'"' in text:
+            csv.field_size_limit(LONGEST_ROW)
+            mark = {b"\t": "\t", b" ": " "}.get(self.separator, self.separator.decode())
+            found = next(csv.reader([text.decode("utf-8", "replace")], delimiter=mark, skipinitialspace=True))
+            cells = [cell.strip().encode() for cell in found]
+        elif self.separator == b" ":
+            return text.split()
+        else:
+            cells = [cell.strip() for cell in text.split(self.separator)]
+        return cells[:-1] if cells and not cells[-1] else cells
+
+    def numbers(self, text: bytes) -> Floats | None:
+        """All numbers of a line, NaN for empty cells; None if one of its words is not a number."""
+        if b'"' not in text and (self.separator == b" " or not self._has_gaps(text)):
+            values = all_numbers(self._plain(text))
+            if values is not None:
+                return values
+        cells = self.cells(text)
+        values = [self.number(cell) for cell in cells]
+        return None if None in values else np.array(values, dtype=np.float64)
+
+    def number(self, cell: bytes) -> float | None:
+        """The number in a cell, NaN if it is empty, None if it holds something else."""
+        try:
+            return float(cell.replace(b",", b".") if self.comma else cell)
+        except ValueError:
+            return float("nan") if cell.strip().lower() in MISSING else None
+
+    def _plain(self, text: bytes) -> bytes:
+        """The line with decimal points, and blanks between the numbers."""
+        if self.comma:
+            text = text.replace(self.separator, b" ") if self.separator != b" " else text
+            return text.replace(b",", b".")
+        return text.replace(self.separator, b" ") if self.separator not in b",; \t" else text
+
+    def _has_gaps(self, text: bytes) -> bool:
+        bare = text.strip(b" \r\n")
+        mark = self.separator
+        return mark * 2 in bare or bare.startswith(mark) or mark + b" " + mark in bare
+
+
+def dialect_of(lines: list[bytes]) -> Dialect:
+    """The dialect of some lines, of which the first may be a header."""
+    named = not is_number(re.split(rb"[\s,;|]", lines[0].strip(b'" \t'))[0].strip(b'"'))
+    data = (lines[1:] if named else lines) or lines
+    for mark in (b";", b"\t", b"|"):
+        if sum(mark in line for line in data) > len(data) / 2:
+            return Dialect(mark, _decimal_commas(re.split(re.escape(mark), b"\n".join(data).replace(b"\n", mark))))
+    if not any(b"," in line for line in data):
+        return Dialect(b" ")
+    words = b" ".join(data).split()
+    if len(words) > len(data) and all(DECIMAL_COMMA.fullmatch(word) for word in words):
+        return Dialect(b" ", comma=True)
+    return Dialect(b",")
+
+
+def _decimal_commas(cells: Iterable[bytes]) -> bool:
+    """Whether numbers have a decimal comma: some cells do, and none has a decimal point."""
+    cells = [cell.strip().strip(b'"') for cell in cells]
+    pointed = any(re.fullmatch(rb"[-+]?\d*\.\d+", cell) for cell in cells)
+    return not pointed and any(DECIMAL_COMMA.fullmatch(cell) for cell in cells)
+
+
+def bracketed(rows: Iterable[Row], name: str) -> Iterator[Row]:
+    """The innermost lists in brackets, which may span lines, with the numbers before them on their line.
+
+    Raises ValueError for a list that its printer has shortened.
+    """
+    pending, first = b"", 0
+    for number, text in rows:
+        if b"..." in text:
+            raise ValueError(
+                f"{name}:{number}: '...' stands where numbers were left out; print all of them, "
+                "as with numpy.set_printoptions(threshold=sys.maxsize)."
+            )
+        first = first if pending.strip() else number
+        pending += b" " + text
+        end = 0
+        for match in INNERMOST.finditer(pending):
+            before = b" ".join(re.findall(rb"(?<![\w.])[-+]?\d+\.?\d*(?:[eE][-+]?\d+)?", match[1]))
+            if match[2].strip():
+                yield Row(first, before + b" " + match[2].replace(b",", b" ").replace(b";", b" "))
+            end, first = match.end(), number
+        pending = pending[end:]
+        if len(pending) > LONGEST_ROW:
+            raise ValueError(f"{name}:{first}: a bracket is not closed.")
+
+
+def labels_of(lines: list[bytes]) -> list[bytes] | None:
+    """The names in lines such as "theta: 1.00 Dist: 3492.00 Q: 47"; None if the lines do not look like that."""
+    found = [PAIR.findall(line) for line in lines]
+    found = [pairs for pairs in found if len(pairs) >= 2]
+    if len(found) < 0.5 * len(lines) or not found:
+        return None
+    names = [name.strip().split()[-1] for name, _ in found[-1]]
+    alike = sum([name.strip().split()[-1] for name, _ in pairs] == names for pairs in found)
+    return names if alike > 0.8 * len(found) else None
+
+
+def unlabelled(rows: Iterable[Row], count: int) -> Iterator[Row]:
+    """The numbers of labelled lines; lines without labels are passed over."""
+    for number, text in rows:
+        values = [value for _, value in PAIR.findall(text)]
+        if len(values) == count:
+            yield Row(number, b" ".join(values))

@@ -1,0 +1,288 @@
+"""Text with one scan per row, perhaps after leading columns, and perhaps below a row of angles or of settings."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections import Counter
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..scan import Floats, Recording, Topic
+from .dialect import Dialect, Row
+from .guessing import angle_unit_of
+from .reading import Reading
+from .source import Source, Sweeps
+from .stamping import stamp_unit
+
+# angle_min and angle_increment, in degrees, of common lasers by number of beams.
+LASERS = {
+    180: (-90.0, 1.0),
+    181: (-90.0, 1.0),
+    360: (-180.0, 1.0),
+    361: (-90.0, 0.5),
+    541: (-135.0, 0.5),
+    682: (-120.0, 240.0 / 681),
+    721: (-90.0, 0.25),
+    726: (-135.0, 360.0 / 1024),
+    769: (-135.0, 360.0 / 1024),
+    1081: (-135.0, 0.25),
+}
+# Fields of view and steps [deg] of lasers that are not in the table.
+VIEWS, STEPS = (180.0, 190.0, 200.0, 240.0, 270.0, 275.0), (1.0, 0.5, 1 / 3, 0.25, 0.2, 1 / 6, 0.125, 0.1)
+MOST_LEADING = 8
+# Rows may vary by this share; those that differ more are broken.
+VARIES = 0.1
+LEAST_BEAMS = 10
+
+
+@dataclass(frozen=True)
+class Geometry:
+    """angle_min and increment [rad] of `beams` beams; source: where it comes from."""
+
+    angle_min: float
+    increment: float
+    beams: int
+    source: str
+
+
+def read_scans(
+    source: Source, reading: Reading, rows: Iterable[Row], dialect: Dialect, leading: tuple[str, ...] | None
+) -> Recording:
+    """The scans of rows of numbers. leading: what the columns before the ranges hold, None to find out."""
+    numbers, values, double = _parsed(source, rows, dialect)
+    if len(values) > 1 and all(len(row) == 1 for row in values):
+        numbers, values = numbers[:1], [np.concatenate(values)]
+    geometry = None
+    if len(values) > 1:
+        geometry = _angle_row(source, reading, values) or _settings_row(values)
+        if geometry is not None:
+            numbers, values = numbers[1:], values[1:]
+    numbers, values = _whole(source, numbers, values)
+    skip = _skipped(source, reading, values, leading, geometry, double)
+    if min(map(len, values)) <= skip:
+        raise ValueError(f"{source.name}:{numbers[0]}: no ranges are left after {skip} leading columns; skip fewer.")
+    beams = Counter(len(row) - skip for row in values).most_common(1)[0][0]
+    angle_min, increment = _angles(source, reading, beams, geometry)
+    stamps = _stamps(source, values, skip, leading)
+    sweeps = Sweeps()
+    for row, stamp in zip(values, stamps.tolist(), strict=True):
+        sweeps.add(row[skip:], angle_min, increment, stamp=stamp)
+    lengths = [len(row) - skip for row in values]
+    if min(lengths) != max(lengths):
+        source.notes.notice(
+            "rows vary", f"Rows have {min(lengths)} to {max(lengths)} ranges, all from the same angle on."
+        )
+    source.notes.unstated |= {"unit", "range_max"} - source.notes.found.keys()
+    topics = (Topic("scan", len(sweeps)),)
+    return sweeps.recording(source, topic=source.choose(list(topics)), topics=topics, format="text")
+
+
+def _parsed(source: Source, rows: Iterable[Row], dialect: Dialect) -> tuple[list[int], list[Floats], int]:
+    """(line numbers, numbers of each row, numbers before the only double space of the first row or 0)."""
+    numbers: list[int] = []
+    values: list[Floats] = []
+    double = None
+    for number, text in rows:
+        if double is None:
+            double = _before_double_space(text)
+        found = dialect.numbers(text)
+        if found is None:
+            wrong = next(cell for cell in dialect.cells(text) if dialect.number(cell) is None)
+            shown = wrong[:40].decode("utf-8", "replace")
+            source.notes.skip(f"{source.name}:{number}", f"{shown!r} is not a number; {FORMS}")
+        elif len(found):
+            numbers.append(number)
+            values.append(found)
+    if len(values) <= source.notes.skips:
+        source.notes.nothing_left()
+        raise ValueError(f"{source.name} has no line of numbers; {FORMS}")
+    return numbers, values, double or 0
+
+
+FORMS = "use one scan per row, or columns of angle and distance, or a table with a column named ranges"
+
+
+def _before_double_space(text: bytes) -> int:
+    """Number of values before a double space, if the line has exactly one."""
+    parts = re.split(rb" {2,}", text.strip())
+    before, after = (len(part.split()) for part in parts) if len(parts) == 2 else (0, 0)
+    return before if after > before else 0
+
+
+def _angle_row(source: Source, reading: Reading, values: list[Floats]) -> Geometry | None:
+    """The angles in the first row, if it has evenly rising numbers as long as the other rows, which do not."""
+    first, second = values[0], values[1]
+    for lead in range(min(4, len(first))):
+        angles, others = first[lead:], second[lead:]
+        if len(first) not in (len(second), len(second) - lead) or len(angles) < LEAST_BEAMS:
+            continue
+        if not np.isfinite(angles).all() or not _even(angles) or (len(others) == len(angles) and _even(others)):
+            continue
+        unit = reading.angle_unit or angle_unit_of(angles)
+        turn = math.radians(1) if unit == "deg" else 1.0
+        if abs(angles[-1] - angles[0]) * turn > 2 * math.pi + 0.1:
+            continue
+        source.notes.found["angle_unit"] = unit
+        source.notes.radians = True
+        step = float(angles[-1] - angles[0]) / (len(angles) - 1)
+        return Geometry(float(angles[0]) * turn, step * turn, len(angles), "the first row")
+    return None
+
+
+def _even(numbers: Floats) -> bool:
+    steps = np.diff(numbers)
+    middle = float(np.median(steps))
+    return middle != 0 and bool(np.abs(steps - middle).max() <= 0.3 * abs(middle))
+
+
+def _settings_row(values: list[Floats]) -> Geometry | None:
+    """The geometry in a short first row that names the number of beams, and a step or the first and the last angle."""
+    first, usual = values[0], len(values[1])
+    if len(first) >= 0.5 * usual or len(first) < 3 or usual < LEAST_BEAMS:
+        return None
+    beams = next((int(n) for n in first if n == int(n) and usual - MOST_LEADING <= n <= usual and n > 1), None)
+    if beams is None:
+        return None
+    for low in first:
+        for high in first:
+            for step in first:
+                in_degrees = abs(high) > 2 * math.pi + 0.2 or abs(low) > 2 * math.pi + 0.2
+                turn = math.radians(1) if in_degrees else 1.0
+                if 0 < step * turn < 0.2 and abs(low + step * (beams - 1) - high) < 2 * step:
+                    return Geometry(float(low) * turn, float(step) * turn, beams, "the first row")
+    return None
+
+
+def _whole(source: Source, numbers: list[int], values: list[Floats]) -> tuple[list[int], list[Floats]]:
+    """The rows whose length is about the usual one; others are skipped."""
+    usual = Counter(map(len, values)).most_common(1)[0][0]
+    near = [abs(len(row) - usual) <= VARIES * usual for row in values]
+    for number, row, good in zip(numbers, values, near, strict=True):
+        if not good:
+            why = f"{len(row)} ranges, but other scans have {usual}; is the line complete?"
+            source.notes.skip(f"{source.name}:{number}", why)
+    if sum(near) <= len(near) / 2:
+        source.notes.nothing_left()
+    return (
+        [number for number, good in zip(numbers, near, strict=True) if good],
+        [row for row, good in zip(values, near, strict=True) if good],
+    )
+
+
+# Leading columns
+
+
+def _skipped(
+    source: Source, reading: Reading, values: list[Floats], leading: tuple[str, ...] | None,
+    geometry: Geometry | None, double: int,
+) -> int:  # fmt: skip
+    """The number of columns before the ranges."""
+    if leading is not None:
+        return len(leading)
+    if reading.skip_columns is not None:
+        return reading.skip_columns
+    usual = Counter(map(len, values)).most_common(1)[0][0]
+    if geometry is not None and 0 <= usual - geometry.beams <= MOST_LEADING:
+        return usual - geometry.beams
+    skip = double or _unlike(values)
+    if not skip and reading.angle_increment is None and usual_angles(usual) is None:
+        skip = next((lead for lead in range(1, MOST_LEADING) if usual - lead in LASERS and _leaps(values, lead)), 0)
+    if skip:
+        why = "they differ from the numbers after them"
+        source.notes.guess("skip_columns", f"{skip} leading column{'' if skip == 1 else 's'}", why, skip_columns=0)
+    source.notes.found["skip_columns"] = skip
+    return skip
+
+
+def _unlike(values: list[Floats]) -> int:
+    """The number of leading columns that are no ranges: stamps, which rise from row to row, or are far too large."""
+    width = min(map(len, values))
+    table = np.array([row[: min(width, MOST_LEADING + 3)] for row in values])
+    tops = np.array(
+        [np.nanmax(np.abs(np.where(np.isfinite(row), row, np.nan))[len(row) // 4 :], initial=0) for row in values]
+    )
+    skip = 0
+    for lead in range(min(MOST_LEADING, table.shape[1] - 3)):
+        column = table[:, lead]
+        rises = len(column) >= 3 and bool((np.diff(column) > 0).all())
+        huge = bool((np.abs(column) > 50 * np.maximum(tops, 1e-9)).mean() > 0.5)
+        if huge or (rises and _leaps(values, lead + 1)):
+            skip = lead + 1
+    return skip
+
+
+def _leaps(values: list[Floats], lead: int) -> bool:
+    """Whether the last of `lead` columns differs from the first range much more than neighbouring ranges do."""
+    gaps = np.array([abs(row[lead - 1] - row[lead]) for row in values])
+    usual = np.array([np.nanmedian(np.abs(np.diff(row[lead:]))) for row in values])
+    return bool(np.nanmedian(gaps) > 8 * max(float(np.nanmedian(usual)), 1e-9))
+
+
+def _stamps(source: Source, values: list[Floats], skip: int, leading: tuple[str, ...] | None) -> Floats:
+    """(rows,) [s]: the leading column of stamps, or the first that rises from row to row; 0 without one."""
+    if leading is not None:
+        at = leading.index("stamp") if "stamp" in leading else None
+    else:
+        columns = [np.array([row[lead] for row in values]) for lead in range(min(skip, MOST_LEADING))]
+        rising = (lead for lead, column in enumerate(columns) if len(column) > 1 and bool((np.diff(column) > 0).all()))
+        at = next(rising, None)
+    if at is None:
+        return np.zeros(len(values))
+    column = np.array([row[at] for row in values])
+    unit = stamp_unit(column)
+    source.notes.stamps = f"column {at + 1}"
+    if leading is None:
+        name = {1.0: "seconds", 1e-3: "milliseconds", 1e-6: "microseconds", 1e-9: "nanoseconds"}[unit]
+        source.notes.guess("stamps", f"column {at + 1} as {name}", "it rises from row to row", stamps="none")
+    return column * unit
+
+
+# Angles
+
+
+def _angles(source: Source, reading: Reading, beams: int, geometry: Geometry | None) -> tuple[float, float]:
+    """angle_min and angle_increment [rad]: as given, as the file says, or of the common laser with so many beams."""
+    usual = usual_angles(beams)
+    low, step = (math.nan, math.nan) if usual is None else map(math.radians, usual)
+    if geometry is not None:
+        low, step = geometry.angle_min, geometry.increment
+    stated = reading.angle_min is not None and reading.angle_increment is not None
+    step = step if reading.angle_increment is None else reading.angle_increment
+    low = low if reading.angle_min is None else reading.angle_min
+    if geometry is None and usual is None and not math.isnan(step) and math.isnan(low):
+        low = -step * (beams - 1) / 2
+    if math.isnan(step) or math.isnan(low):
+        raise ValueError(
+            f"{source.name}: rows of {beams} numbers without angles; give angle_increment, and angle_min unless 0° "
+            "is in the middle, and skip_columns if not all numbers are ranges."
+        )
+    if not stated or reading.direction is None:
+        _tell_angles(source, low, step, beams, geometry, stated)
+    return low, step
+
+
+def _tell_angles(source: Source, low: float, step: float, beams: int, geometry: Geometry | None, stated: bool) -> None:
+    first, last = math.degrees(low), math.degrees(low + step * (beams - 1))
+    if geometry is not None or stated:
+        why = "the file does not say in which sense its angles count"
+        source.notes.guess("direction", "counter-clockwise", why, direction="clockwise")
+        return
+    why = f"the rows have {beams} ranges and no angles"
+    text = f"{first:.4g}…{last:.4g}°".replace("-", "−")
+    source.notes.guess("angle_min", text, why, angle_min=round(low, 6), angle_increment=round(step, 8))
+    source.notes.guess("direction", "counter-clockwise", why, direction="clockwise")
+
+
+def usual_angles(beams: int) -> tuple[float, float] | None:
+    """angle_min and angle_increment [deg] of a laser with so many beams: from the table, or even steps of a view."""
+    if beams in LASERS:
+        return LASERS[beams]
+    for step in STEPS:
+        for view in VIEWS:
+            if abs((beams - 1) * step - view) < 1e-6:
+                return -view / 2, step
+    whole = next((step for step in (0.5, 0.25, 0.2, 0.1) if beams * step == 360), None)
+    return None if whole is None else (-180.0, whole)

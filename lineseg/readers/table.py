@@ -1,0 +1,198 @@
+"""Tables with the ranges of each scan in a row, its geometry and stamp beside them, as exporters of ROS write them."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Iterable
+from typing import NamedTuple
+
+import numpy as np
+
+from ..scan import Floats, Recording, Topic
+from .dialect import Dialect, Row
+from .headers import LENGTHS, TIMES, Name, array_columns, column_of
+from .numbers import all_numbers
+from .reading import Reading
+from .scan_rows import usual_angles
+from .source import Source, Sweeps
+from .stamping import stamp_unit
+
+# What precedes the ranges in `ros2 topic echo --csv`.
+BEFORE_RANGES = (
+    "header_stamp_sec", "header_stamp_nanosec", "header_frame_id", "angle_min", "angle_max", "angle_increment",
+    "time_increment", "scan_time", "range_min", "range_max",
+)  # fmt: skip
+FIELDS = ("angle_min", "angle_max", "angle_increment", "range_min", "range_max")
+SECONDS, NANOSECONDS = ("stamp_sec", "stamp_secs"), ("stamp_nanosec", "stamp_nsecs", "stamp_nsec", "stamp_nanosecs")
+
+
+class Layout(NamedTuple):
+    """Where a row has what: a list of ranges, or a column for each; a field's column, None without it."""
+
+    listed: int | None
+    beams: list[int]
+    at: dict[str, int]
+    frame_id: int | None
+    header: int | None
+    seconds: int | None
+    nanoseconds: int | None
+    stamp: int | None
+    names: list[Name]
+
+
+def echo_columns(dialect: Dialect, head: list[Row]) -> list[Name]:
+    """The columns of `ros2 topic echo --csv`, which has no header; [] if these rows are something else."""
+    cells = dialect.cells(head[0].text)
+    at = len(BEFORE_RANGES)
+    numbers = [dialect.number(cell) for cell in cells]
+    if len(cells) <= at or (numbers[2] is not None and cells[2]):
+        return []
+    before = numbers[:2] + numbers[3:at]
+    if any(number is None or not math.isfinite(number) for number in before):
+        return []
+    low, high, step = (numbers[place] or 0.0 for place in (3, 4, 5))
+    if step == 0:
+        return []
+    announced, there = round((high - low) / step) + 1, len(cells) - at
+    likely = (announced, announced - 1, announced + 1, there)
+    beams = next((count for count in likely if there in (count, 2 * count)), 0)
+    names = [*map(Name, BEFORE_RANGES), *(Name("ranges", "", beam) for beam in range(beams))]
+    return [*names, *(Name("intensities", "", beam) for beam in range(there - beams))]
+
+
+def read_table(source: Source, reading: Reading, rows: Iterable[Row], dialect: Dialect, names: list[Name]) -> Recording:
+    """The scans of a table, whose columns have these names."""
+    layout = _layout(names)
+    sweeps = Sweeps()
+    stamps: list[float] = []
+    for row in rows:
+        try:
+            stamps.append(_add(source, reading, sweeps, row, dialect, layout))
+        except ValueError as error:
+            source.notes.skip(f"{source.name}:{row.number}", str(error))
+    if not sweeps:
+        source.notes.nothing_left()
+        raise ValueError(f"{source.name} has column names, but no scans below them.")
+    times = np.array(stamps)
+    if layout.stamp is not None and layout.seconds is None and layout.header is None:
+        unit = TIMES.get(names[layout.stamp].unit) or (1e-9 if names[layout.stamp].ends("header_stamp") else None)
+        times *= unit or stamp_unit(times)
+    if times.any():
+        at = next(place for place in (layout.seconds, layout.header, layout.stamp) if place is not None)
+        source.notes.stamps = f"column {at + 1}"
+    ranges = names[layout.beams[0] if layout.listed is None else layout.listed]
+    if unit := LENGTHS.get(ranges.unit):
+        source.notes.found.setdefault("unit", unit)
+    elif "angle_min" not in layout.at and "unit" not in source.notes.found:
+        source.notes.unstated.add("unit")
+    if "range_max" not in layout.at and "range_max" not in source.notes.found:
+        source.notes.unstated.add("range_max")
+    topics = (Topic("scan", len(sweeps)),)
+    topic = source.choose(list(topics))
+    return sweeps.recording(source, topic=topic, topics=topics, format="text", stamps=times)
+
+
+def _layout(names: list[Name]) -> Layout:
+    def column(*known: str) -> int | None:
+        return column_of(names, lambda name: name.index < 0 and name.ends(*known))
+
+    at = {name: found for name in FIELDS if (found := column(name)) is not None}
+    listed = column("ranges")
+    stamp = column("header_stamp", "stamp")
+    return Layout(
+        listed,
+        array_columns(names) if listed is None else [],
+        at,
+        column("frame_id"),
+        column_of(names, lambda name: name.plain.split("_")[-1] == "header"),
+        column(*SECONDS),
+        column(*NANOSECONDS),
+        column("timestamp", "time") if stamp is None else stamp,
+        names,
+    )
+
+
+def _add(source: Source, reading: Reading, sweeps: Sweeps, row: Row, dialect: Dialect, layout: Layout) -> float:
+    """Add the scan of a row; returns its stamp. Raises ValueError if the row is not whole."""
+    cells = dialect.cells(row.text)
+    names = layout.names
+    # Scans of some exporters vary in length, and the last cells may be missing, with their separators.
+    needed = max([*layout.at.values(), *([] if layout.listed is None else [layout.listed]), *layout.beams[:1]])
+    if len(cells) <= needed or (layout.listed is not None and len(cells) not in (len(names), len(names) - 1)):
+        raise ValueError(f"{len(cells)} of {len(names)} columns; is the line complete?")
+    ranges = _ranges(dialect, cells, layout)
+    field = {name: _number(dialect, cells[at], name) for name, at in layout.at.items()}
+    low, step = _angles(source, reading, field, len(ranges))
+    frame_id = _frame_id(cells, layout)
+    sweeps.add(ranges, low, step, field.get("range_min") or 0.0, field.get("range_max") or math.inf, 0.0, frame_id)
+    return _stamp(dialect, cells, layout)
+
+
+def _ranges(dialect: Dialect, cells: list[bytes], layout: Layout) -> Floats:
+    if layout.listed is not None:
+        text = re.sub(rb"[\[\](){}'\"]|array|[dD]type=\w+", b" ", cells[layout.listed])
+        values = all_numbers(text.replace(b"None", b"nan").replace(b"null", b"nan"))
+        if values is None:
+            wrong = next((word for word in re.split(rb"[\s,;]+", text.strip()) if dialect.number(word) is None), b"?")
+            raise ValueError(f"{wrong[:40].decode('utf-8', 'replace')!r} among the ranges is not a number")
+        return values
+    found = [dialect.number(cells[at]) if at < len(cells) else math.nan for at in layout.beams]
+    if None in found:
+        wrong = cells[layout.beams[found.index(None)]][:40].decode("utf-8", "replace")
+        raise ValueError(f"{wrong!r} among the ranges is not a number")
+    return np.array(found, dtype=np.float64)
+
+
+def _number(dialect: Dialect, cell: bytes, name: str) -> float | None:
+    number = dialect.number(cell)
+    if number is None:
+        raise ValueError(f"{cell[:40].decode('utf-8', 'replace')!r} is not a number; {name} must be one")
+    return None if math.isnan(number) else number
+
+
+def _angles(source: Source, reading: Reading, field: dict[str, float | None], beams: int) -> tuple[float, float]:
+    """angle_min and increment of a row: as given, from its columns, or of a common laser with so many beams."""
+    low = field.get("angle_min") if reading.angle_min is None else reading.angle_min
+    step = field.get("angle_increment") if reading.angle_increment is None else reading.angle_increment
+    high = field.get("angle_max")
+    if not step and low is not None and high is not None and beams > 1:
+        step = (high - low) / (beams - 1)
+    usual = usual_angles(beams)
+    if (low is None or not step) and usual is not None and "angle_min" not in field:
+        guessed_low, guessed_step = map(math.radians, usual)
+        low, step = guessed_low if low is None else low, step or guessed_step
+        if not any(guess.field == "angle_min" for guess in source.notes.guesses):
+            why = f"the table has {beams} ranges and no angles"
+            text = f"{math.degrees(low):.4g}…{math.degrees(low + step * (beams - 1)):.4g}°"
+            source.notes.guess("angle_min", text.replace("-", "−"), why, angle_min=low, angle_increment=step)
+    if low is None:
+        raise ValueError("angle_min is missing; give it in a column or an option")
+    if not step and beams > 1:
+        raise ValueError("angle_increment is missing; give it in a column or an option")
+    return low, step or 0.0
+
+
+def _stamp(dialect: Dialect, cells: list[bytes], layout: Layout) -> float:
+    """The stamp of a message, in any of the exporters' forms; 0 if there is none."""
+
+    def number(at: int | None) -> float:
+        return (dialect.number(cells[at]) or 0.0) if at is not None else 0.0
+
+    if layout.seconds is not None:
+        return number(layout.seconds) + 1e-9 * number(layout.nanoseconds)
+    header = cells[layout.header].decode("utf-8", "replace") if layout.header is not None else ""
+    seconds = re.search(r"\bsecs?'?\s*[:=]\s*(-?\d+)", header)
+    nanoseconds = re.search(r"\bn(?:ano)?secs?'?\s*[:=]\s*(\d+)", header)
+    if seconds:
+        return int(seconds[1]) + 1e-9 * int(nanoseconds[1] if nanoseconds else 0)
+    found = number(layout.stamp)
+    return found if math.isfinite(found) else 0.0
+
+
+def _frame_id(cells: list[bytes], layout: Layout) -> str:
+    if layout.frame_id is not None:
+        return cells[layout.frame_id].decode("utf-8", "replace").strip("\"' ")
+    header = cells[layout.header].decode("utf-8", "replace") if layout.header is not None else ""
+    found = re.search(r"'?frame_id'?\s*[:=]\s*['\"]?([^'\",})]*)", header)
+    return found[1] if found else ""

@@ -1,0 +1,61 @@
+"""Cuts a run of bearings into scans: turns that begin anywhere, and parts of a turn."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ..scan import Floats
+
+# A beam so far ahead, where the angle also leaps back, begins the next scan rather than following a gap.
+WIDE = np.deg2rad(30)
+
+
+def turns(bearings: Floats) -> list[int]:
+    """Half-open edges of the scans in `bearings` [rad]: 0, the start of each further scan, and the number of beams.
+
+    A scan ends before the beam that would pass the direction of its first beam again, or where the angle leaps back.
+    """
+    if len(bearings) < 2:
+        return [0, len(bearings)]
+    raw = np.diff(bearings)
+    step = _step(raw)
+    if step < 0:
+        raw = -raw
+    step = abs(step)
+    ahead = raw % (2 * np.pi)
+    back = np.minimum(WIDE, 10 * step)
+    # Angles jitter, so that a small step back is one.
+    ahead = np.where(ahead > 2 * np.pi - back, ahead - 2 * np.pi, ahead)
+    leaps = (raw < -back) & (ahead > WIDE)
+    travelled = np.concatenate(([0.0], np.cumsum(ahead)))
+    limit = 2 * np.pi - step / 2
+    hard = (np.flatnonzero(leaps) + 1).tolist()
+    edges, start = [0], 0
+    farthest = np.maximum.accumulate(travelled)
+    while True:
+        passed = int(np.searchsorted(farthest, travelled[start] + limit))
+        next_hard = next((at for at in hard if at > start), len(bearings))
+        start = min(passed, next_hard)
+        if start >= len(bearings):
+            return [*edges, len(bearings)]
+        edges.append(start)
+        hard = hard[hard.index(next_hard) :] if next_hard in hard else []
+
+
+def regularity(bearings: Floats) -> float:
+    """How unequal the steps of bearings [rad] are: 0 if all are equal, large if they are not those of a laser."""
+    bearings = bearings[np.isfinite(bearings)]
+    if len(bearings) < 3:
+        return 0.0
+    steps = (np.diff(bearings) + np.pi) % (2 * np.pi) - np.pi
+    middle = float(np.median(steps))
+    if middle == 0:
+        return np.inf
+    sideways = np.mean(np.sign(steps) != np.sign(middle))
+    return float(np.median(np.abs(steps - middle)) / abs(middle) + (sideways if sideways > 0.1 else 0.0))
+
+
+def _step(raw: Floats) -> float:
+    """The usual step between beams, without the leaps of the seam."""
+    small = raw[np.abs(raw) < np.pi]
+    return float(np.median(small)) if small.size and np.median(small) else float(np.median(raw)) or 1e-3
