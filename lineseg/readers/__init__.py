@@ -14,10 +14,13 @@ from ..arguments import need_path
 from ..scan import Recording
 from .account import Account, Guess, Notice, Skipped
 from .applying import applied
+from .arrays import Npy
 from .carmen import CarmenLog
 from .folder import bag_of_metadata, recording_in
+from .messages import EchoYaml, JsonMessages
 from .npz import Npz, save_npz
 from .pack import FailurePack
+from .player import PlayerLog
 from .reading import Reading
 from .ros1 import Ros1Bag
 from .ros2 import Mcap, Ros2Bag
@@ -34,7 +37,9 @@ HEAD_BYTES = 1 << 16
 
 
 # Readers are asked in this order: a failure pack is a zip like NPZ, and text accepts any lines, so it comes last.
-READERS: tuple[type[Reader], ...] = (Ros1Bag, Ros2Bag, Mcap, FailurePack, Npz, CarmenLog, Text)
+READERS: tuple[type[Reader], ...] = (
+    Ros1Bag, Ros2Bag, Mcap, FailurePack, Npz, Npy, CarmenLog, PlayerLog, JsonMessages, EchoYaml, Text,
+)  # fmt: skip
 
 
 def open_recording(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
@@ -11,19 +11,30 @@ from typing import Any
 import numpy as np
 
 from ..scan import Recording, Topic
-from . import laser_scan
-from .laser_scan import LaserScan
+from .decoders import MULTI_ECHO, POINT_CLOUDS, Decoder, decoder_of, is_laser
 from .source import Source, Sweeps
 
 
 @dataclass(frozen=True)
 class Stream:
-    """The messages of one publisher; several may share a topic. `handle` identifies it for its reader."""
+    """The messages of one publisher; several may share a topic. `handle` identifies it for its reader.
+
+    encoding, schema: of its messages.
+    """
 
     topic: str
     type: str
     messages: int
     handle: Any
+    encoding: str = "cdr"
+    schema: bytes = b""
+
+    def decoder(self, source: Source) -> Decoder:
+        """Raises ValueError if its messages cannot be read."""
+        try:
+            return decoder_of(self.type, self.encoding, self.schema, source.reading.echo or 0)
+        except ValueError as error:
+            raise ValueError(f"{source.name}: {self.topic}: {error}.") from None
 
 
 @contextmanager
@@ -32,52 +43,80 @@ def guarded(source: Source, what: str, hint: str) -> Iterator[None]:
     try:
         yield
     except Exception as error:
-        detail = re.sub(r"\('(.*?)\.?',?\)", r"\1", str(error)).strip().rstrip(".") or type(error).__name__
-        raise ValueError(f"{source.name}: a damaged {what} ({detail}); {hint}") from None
+        raise ValueError(f"{source.name}: a damaged {what} ({_detail(error)}); {hint}") from None
+
+
+@contextmanager
+def cut_off(source: Source, what: str, hint: str) -> Iterator[None]:
+    """Ends the reading at the first damage, and notes it: what came before stays."""
+    try:
+        yield
+    except Exception as error:
+        tell_cut(source, what, _detail(error), hint)
+
+
+def tell_cut(source: Source, what: str, why: str, hint: str) -> None:
+    source.notes.notice("breaks off", f"A damaged {what} ({why}), read up to there; {hint}")
+
+
+def _detail(error: Exception) -> str:
+    return re.sub(r"\('(.*?)\.?',?\)", r"\1", str(error)).strip().rstrip(".") or type(error).__name__
 
 
 def choose_streams(source: Source, streams: list[Stream]) -> tuple[str, tuple[Topic, ...], list[Stream]]:
     """The topic to read, all laser topics, and the streams of the chosen one."""
-    laser = [stream for stream in streams if stream.type in laser_scan.TYPES]
+    laser = [stream for stream in streams if is_laser(stream.type, stream.encoding)]
     if not laser:
         others = ", ".join(sorted({f"{stream.topic} ({_short(stream.type)})" for stream in streams}))
-        raise ValueError(f"{source.name} has no sensor_msgs/LaserScan topic; it has {others or 'no topic at all'}.")
+        clouds = any(stream.type in POINT_CLOUDS for stream in streams)
+        way = " A node such as pointcloud_to_laserscan makes scans of a point cloud." if clouds else ""
+        sentence = f"{source.name} has no sensor_msgs/LaserScan topic; it has {others or 'no topic at all'}.{way}"
+        raise ValueError(sentence)
     counts: dict[str, int] = {}
     for stream in laser:
         counts[stream.topic] = counts.get(stream.topic, 0) + stream.messages
     topics = tuple(Topic(name, count) for name, count in counts.items())
     topic = source.choose(list(topics))
-    return topic, topics, [stream for stream in laser if stream.topic == topic]
+    chosen = [stream for stream in laser if stream.topic == topic]
+    if source.reading.echo is not None and not any(stream.type in MULTI_ECHO for stream in chosen):
+        raise ValueError(f"{source.name}: echo cannot be used, because the beams of {topic} have one range each.")
+    return topic, topics, chosen
 
 
 def collect(
     source: Source,
-    messages: Iterable[tuple[int, bytes]],
+    messages: Iterable[tuple[Decoder, int, bytes]],
     total: int,
-    decode: Callable[[bytes], LaserScan],
     topic: str,
     topics: tuple[Topic, ...],
     format: str,
 ) -> Recording:
-    """A Recording from (recording time in nanoseconds, bytes) pairs; these times are used if no message has a stamp."""
+    """A Recording from (decoder, recording time in nanoseconds, bytes); messages that cannot be read are skipped."""
     sweeps = Sweeps()
     recorded: list[float] = []
-    for done, (nanoseconds, data) in enumerate(messages):
+    for done, (decode, nanoseconds, data) in enumerate(messages):
         if done % 64 == 0:
             source.progress(done, total)
         try:
             scan = decode(data)
         except Exception as error:
-            raise ValueError(f"{source.name}: message {done} of {topic} cannot be read: {error}.") from None
+            source.notes.skip(f"{source.name}: message {done} of {topic}", f"it cannot be read, {error}")
+            continue
         recorded.append(1e-9 * nanoseconds)
         sweeps.add(
             scan.ranges, scan.angle_min, scan.angle_increment, scan.range_min, scan.range_max, scan.stamp, scan.frame_id
         )  # fmt: skip
     source.progress(total, total)
     if not sweeps:
+        source.notes.nothing_left()
         raise ValueError(f"{source.name}: the topic {topic} has no messages; choose another topic.")
     recording = sweeps.recording(source, topic=topic, topics=topics, format=format)
-    source.notes.recorded = np.array(recorded)
+    times = np.array(recorded)
+    if (np.diff(times) < 0).any():
+        order = np.argsort(times, kind="stable")
+        recording, times = recording.only(order), times[order]
+    source.notes.recorded = times
+    source.notes.stamps = "the messages" if recording.stamps.any() else "the recorder"
     return recording
 
 

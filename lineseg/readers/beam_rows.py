@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
+from dataclasses import replace
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -42,7 +43,15 @@ def read_beams(
 ) -> Recording:  # fmt: skip
     """The scans of rows that hold a beam each. names: of the columns, None to guess what they hold."""
     roles = None if names is None else _named(names)
-    table = _table(source, rows, dialect, names, roles)
+    return beams_of(source, reading, _table(source, rows, dialect, names, roles), names, guess_direction)
+
+
+def beams_of(
+    source: Source, reading: Reading, table: NDArray[np.float64], names: list[Name] | None,
+    guess_direction: bool = True, format: str = "text",
+) -> Recording:  # fmt: skip
+    """The scans of a table (beams, columns)."""
+    roles = None if names is None else _named(names)
     if roles is None:
         roles = _guessed(source, table)
     notes = source.notes
@@ -59,7 +68,7 @@ def read_beams(
         )  # fmt: skip
     notes.radians = True
     notes.unstated.add("range_max")
-    return _recording(source, reading, table, roles, bearings, ranges, names)
+    return replace(_recording(source, table, roles, bearings, ranges, names), format=format)
 
 
 def _named(names: list[Name]) -> Roles:
@@ -172,7 +181,7 @@ def _from_points(x: Floats, y: Floats) -> tuple[Floats, Floats]:
 
 
 def _recording(
-    source: Source, reading: Reading, table: NDArray[np.float64], roles: Roles, bearings: Floats, ranges: Floats,
+    source: Source, table: NDArray[np.float64], roles: Roles, bearings: Floats, ranges: Floats,
     names: list[Name] | None,
 ) -> Recording:  # fmt: skip
     if roles.scan is not None:

@@ -1,4 +1,4 @@
-"""CARMEN logs: the older FLASER and RLASER, the newer ROBOTLASER1 and 2, plain or compressed with gzip."""
+"""CARMEN logs: the older FLASER and RLASER, the newer ROBOTLASER and RAWLASER, and LASER_READING of GMapping."""
 
 from __future__ import annotations
 
@@ -9,14 +9,19 @@ import numpy as np
 from ..scan import Floats, Recording, Topic
 from .numbers import leading_numbers
 from .range_limits import longest_return
+from .scan_rows import usual_angles
 from .source import Reader, Source, Sweeps
 
 WORDS = (
     b"FLASER", b"RLASER", b"ROBOTLASER1", b"ROBOTLASER2", b"RAWLASER1", b"RAWLASER2", b"RAWLASER3", b"RAWLASER4",
-    b"PARAM", b"ODOM", b"SYNC", b"TRUEPOS", b"NEFF", b"VERTEX2", b"EDGE2",
+    b"LASER_READING", b"PARAM", b"ODOM", b"SYNC", b"TRUEPOS", b"NEFF", b"VERTEX2", b"EDGE2",
 )  # fmt: skip
-LASERS = {b"FLASER": "FLASER", b"RLASER": "RLASER", b"ROBOTLASER1": "ROBOTLASER1", b"ROBOTLASER2": "ROBOTLASER2"}
+# The words before the stamp, after the ranges (and for the last two, the remissions).
+TAILS = {"FLASER": 6, "RLASER": 6, "LASER_READING": 3, "ROBOTLASER": 11, "RAWLASER": 0}
+WITHOUT_ANGLES = ("FLASER", "RLASER", "LASER_READING")
 MAXIMA = {"FLASER": b"robot_front_laser_max", "RLASER": b"robot_rear_laser_max"}
+# Lasers with these numbers of beams look over half a turn, as the format assumes of all.
+HALF_TURN = (180, 181, 360, 361)
 
 
 class Line(NamedTuple):
@@ -33,7 +38,7 @@ class CarmenLog(Reader):
     """Lines of words, starting with the name of the message. For FLASER, the angles follow from the number of beams."""
 
     format = "CARMEN log"
-    suffixes = (".log", ".clf", ".carmen")
+    suffixes = (".log", ".clf", ".carmen", ".gfs")
     expects = "lines that begin with FLASER, RLASER, ROBOTLASER1 or ROBOTLASER2"
 
     @staticmethod
@@ -47,11 +52,11 @@ class CarmenLog(Reader):
         settings: dict[bytes, bytes] = {}
         for number, text in source.lines():
             word = text.split(None, 1)[:1]
-            laser = LASERS.get(word[0]) if word else None
+            laser = _laser(word[0]) if word else None
             if laser:
-                decode = _decode_flaser if laser in MAXIMA else _decode_robotlaser
+                decode = _decode_flaser if laser in WITHOUT_ANGLES else _decode_robotlaser
                 try:
-                    line = decode(text)
+                    line = decode(text, TAILS[laser.rstrip("1234")])
                 except ValueError as error:
                     source.notes.skip(f"{source.name}:{number}", str(error))
                 else:
@@ -62,9 +67,15 @@ class CarmenLog(Reader):
         if not lasers:
             source.notes.nothing_left()
             raise ValueError(f"{source.name} has no laser line; a CARMEN log has {CarmenLog.expects}.")
-        topics = [Topic(name, len(lines)) for name, lines in lasers.items()]
+        # What CARMEN's drivers publish raw, it publishes again with the robot's pose.
+        names = sorted(lasers, key=lambda name: name.startswith("RAW"))
+        topics = [Topic(name, len(lasers[name])) for name in names]
         topic = source.choose(topics, "message")
-        return _recording(source, lasers[topic], topic, tuple(topics), _number(settings.get(MAXIMA.get(topic, b""))))
+        lines = lasers[topic]
+        if topic in WITHOUT_ANGLES:
+            lines = _with_view(source, lines, settings, topic)
+        source.notes.stamps = "the log"
+        return _recording(source, lines, topic, tuple(topics), _number(settings.get(MAXIMA.get(topic, b""))))
 
 
 def _recording(
@@ -79,17 +90,46 @@ def _recording(
     return recording
 
 
-def _decode_flaser(text: bytes) -> Line:
-    """FLASER n r₁ … rₙ x y θ odom_x odom_y odom_θ stamp host logger_stamp"""
+def _laser(word: bytes) -> str | None:
+    name = word.decode("ascii", "replace")
+    return name if name in TAILS or (name[-1] in "1234" and name[:-1] in ("ROBOTLASER", "RAWLASER")) else None
+
+
+def _with_view(source: Source, lines: list[Line], settings: dict[bytes, bytes], topic: str) -> list[Line]:
+    """The lines with the field of view of the laser; if their number of beams is not that of half a turn, a guess."""
+    beams = len(lines[0].ranges)
+    if beams in HALF_TURN or beams < 2:
+        return lines
+    side = b"rear" if topic == "RLASER" else b"front"
+    stated = (value for key, value in settings.items() if side in key and key.endswith(b"fov"))
+    view = next((number for value in stated if (number := _number(value)) and 0 < number <= 360), None)
+    usual = usual_angles(beams)
+    if view is not None:
+        low, step, where = -view / 2, view / (beams - 1), f"a PARAM line says {view:g}°"
+    elif usual is not None:
+        (low, step), where = usual, f"lasers with {beams} beams usually have it"
+    else:
+        (low, step), where = (-90.0, 180.0 / (beams - 1)), "the beams are spread over half a turn"
+    text = f"{low:g}…{low + step * (beams - 1):g}°".replace("-", "−")
+    why = f"{topic} lines do not say the field of view; {where}"
+    change = {"angle_min": round(-np.pi / 2, 6), "angle_increment": round(np.pi / (beams - 1), 8)}
+    source.notes.guess("angle_min", text, why, **change)
+    low, step = np.deg2rad(low), np.deg2rad(step)
+    return [line._replace(angle_min=low, angle_increment=step) for line in lines]
+
+
+def _decode_flaser(text: bytes, tail: int) -> Line:
+    """FLASER n r₁ … rₙ x y θ odom_x odom_y odom_θ stamp host logger_stamp; of GMapping, x y θ stamp"""
     message, count, values = _words(text, 3)
     ranges, rest = _ranges(message, count, values)
     angle_min, angle_increment = flaser_angles(len(ranges))
-    return Line(ranges, angle_min, angle_increment, None, _stamp(rest, 6))
+    return Line(ranges, angle_min, angle_increment, None, _stamp(rest, tail))
 
 
-def _decode_robotlaser(text: bytes) -> Line:
+def _decode_robotlaser(text: bytes, tail: int) -> Line:
     """ROBOTLASER1 type start field_of_view increment range_max accuracy remission_mode n r₁ … rₙ m s₁ … sₘ poses …
-    stamp host logger_stamp. The field of view is not used: logs state n·increment as well as (n − 1)·increment.
+    stamp host logger_stamp; RAWLASER has no poses.
+    The field of view is not used: logs state n·increment as well as (n − 1)·increment.
     """
     message, _, start, view, increment, longest, _, _, count, values = _words(text, 10)
     angle_min, step, range_max = (_float(word, message) for word in (start, increment, longest))
@@ -97,7 +137,7 @@ def _decode_robotlaser(text: bytes) -> Line:
     if step == 0 and len(ranges) > 1:
         step = _float(view, message) / (len(ranges) - 1)
     remissions = int(rest[0]) if rest and rest[0].isdigit() else 0
-    return Line(ranges, angle_min, step, range_max, _stamp(rest, 1 + remissions + 11))
+    return Line(ranges, angle_min, step, range_max, _stamp(rest, 1 + remissions + tail))
 
 
 def flaser_angles(count: int) -> tuple[float, float]:

@@ -13,12 +13,27 @@ MOST_LASERS = 8
 FEW_BEAMS, FEW_DEGREES = 0.2, 10.0
 # A geometry with fewer scans than these is a slip, not a laser; two that change over once are one laser, set anew.
 RARE, FEW_SCANS = 0.1, 3
+STUMP, MANY_BEAMS, FEW_STUMPS = 0.1, 20, 0.25
 
 
 def one_laser(recording: Recording, reading: Reading, notes: Notes) -> Recording:
-    """The scans of one laser. Raises ValueError if the wanted one does not exist."""
+    """The scans of one laser, without broken ones. Raises ValueError if the wanted one does not exist."""
+    recording = _without_stumps(recording, notes)
     recording = _one_frame_id(recording, reading, notes)
     return _one_geometry(recording, reading, notes)
+
+
+def _without_stumps(recording: Recording, notes: Notes) -> Recording:
+    """Without the few scans that have next to no beams, if the others have many."""
+    lengths = np.diff(recording.offsets)
+    usual = int(np.median(lengths)) if len(lengths) else 0
+    stumps = lengths < STUMP * usual
+    if usual < MANY_BEAMS or not stumps.any() or stumps.mean() > FEW_STUMPS:
+        return recording
+    for frame in np.flatnonzero(stumps).tolist():
+        beams = int(lengths[frame])
+        notes.skip(f"scan {frame}", f"it has {beams} beam{'' if beams == 1 else 's'}, but others have {usual}")
+    return _kept(recording, ~stumps, notes)
 
 
 def _one_frame_id(recording: Recording, reading: Reading, notes: Notes) -> Recording:

@@ -14,6 +14,8 @@ from numpy.typing import NDArray
 
 from ..arguments import need_recording
 from ..scan import Recording, Topic
+from .arrays import is_exchange, recording_of_arrays
+from .bounded import too_large
 from .source import Reader, Source
 
 MOST_BYTES = 8 << 30
@@ -45,6 +47,8 @@ class Npz(Reader):
         """Read `file`, which is the file of `source` or an entry in it."""
         source.progress(0, 1)
         arrays = _load(file, source)
+        if not is_exchange(arrays):
+            return recording_of_arrays(source, arrays, Npz.format)
         try:
             recording = _recording(source, arrays)
         except (TypeError, ValueError) as error:
@@ -90,9 +94,7 @@ def _load(file: Path | BinaryIO, source: Source) -> dict[str, NDArray]:
         with zipfile.ZipFile(file) as archive:
             size = sum(each.file_size for each in archive.infolist())
         if size > MOST_BYTES:
-            raise ValueError(
-                f"it would have {size / 2**30:.1f} GB unpacked; the limit is {MOST_BYTES >> 30} GB, so split it"
-            )
+            raise ValueError(too_large(source.name, MOST_BYTES).rstrip("."))
         with np.load(file, allow_pickle=False) as archive:
             return {name: _array(archive, name) for name in archive.files}
     except (zipfile.BadZipFile, zlib.error, EOFError, OSError) as error:

@@ -49,7 +49,7 @@ class Span(NamedTuple):
     high: float
 
 
-TEXT_FORMATS = ("text", "CSV", "JSON")
+TEXT_FORMATS = ("text", "JSON", "NPY", "NPZ")
 BAG_FORMATS = ("ROS 1 bag", "ROS 2 bag", "MCAP")
 
 

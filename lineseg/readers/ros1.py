@@ -9,8 +9,8 @@ from contextlib import ExitStack
 from typing import Any
 
 from ..scan import Recording
-from .bags import Stream, choose_streams, collect, guarded
-from .laser_scan import decode_ros1
+from .bags import Stream, choose_streams, collect, cut_off, guarded
+from .decoders import Decoder
 from .source import Reader, Source
 
 
@@ -31,11 +31,10 @@ class Ros1Bag(Reader):
         with ExitStack() as stack:
             with guarded(source, "ROS bag", "`rosbag reindex` or `rosbag fix` may repair it."):
                 bag = stack.enter_context(_open_bag(source))
-            streams = [Stream(each.topic, each.msgtype, each.msgcount, each) for each in bag.connections]
+            streams = [Stream(each.topic, each.msgtype, each.msgcount, each, "ros1") for each in bag.connections]
             topic, topics, chosen = choose_streams(source, streams)
             total = sum(stream.messages for stream in chosen)
-            messages = _messages(source, bag, chosen)
-            return collect(source, messages, total, decode_ros1, topic, topics, Ros1Bag.format)
+            return collect(source, _messages(source, bag, chosen), total, topic, topics, Ros1Bag.format)
 
 
 def _check_version(source: Source) -> None:
@@ -72,9 +71,10 @@ def _open_bag(source: Source) -> Any:
     return Bag(source.path)
 
 
-def _messages(source: Source, bag: Any, streams: list[Stream]) -> Iterator[tuple[int, bytes]]:
+def _messages(source: Source, bag: Any, streams: list[Stream]) -> Iterator[tuple[Decoder, int, bytes]]:
     """`streams` must not be empty: `rosbags` treats an empty list as all connections."""
     assert streams
-    with guarded(source, "ROS bag", "`rosbag fix` may save part of it."):
-        for _, nanoseconds, data in bag.messages([stream.handle for stream in streams]):
-            yield nanoseconds, data
+    decoders = {stream.handle.id: stream.decoder(source) for stream in streams}
+    with cut_off(source, "ROS bag", "`rosbag fix` may save more of it."):
+        for connection, nanoseconds, data in bag.messages([stream.handle for stream in streams]):
+            yield decoders[connection.id], nanoseconds, data

@@ -8,14 +8,15 @@ import tempfile
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
-from typing import IO, Any, Protocol, cast
+from typing import IO, Protocol, cast
 from urllib.parse import quote
 
 from ..scan import Recording
-from .bags import Stream, choose_streams, collect, guarded
-from .bounded import expand, limit_of, unzstd
+from .bags import Stream, choose_streams, collect, cut_off, guarded, tell_cut
+from .bounded import expand, limit_of
+from .decoders import Decoder
 from .folder import storage_files
-from .laser_scan import decode_cdr, decode_ros1
+from .mcap_records import McapFile
 from .source import Reader, Source
 
 SQLITE_MAGIC = b"SQLite format 3\0"
@@ -28,7 +29,12 @@ class Storage(Protocol):
 
     streams: list[Stream]
 
-    def messages(self, streams: list[Stream]) -> Iterator[tuple[int, bytes]]: ...
+    @property
+    def broken(self) -> str:
+        """Why the file breaks off, "" if it is whole, as far as it was read."""
+        ...
+
+    def messages(self, streams: list[Stream]) -> Iterator[tuple[Stream, int, bytes]]: ...
 
 
 class Ros2Bag(Reader):
@@ -71,22 +77,23 @@ def _read(source: Source, files: list[Path], format: str) -> Recording:
             with guarded(source, format, hint):
                 storages.append(stack.enter_context(_storage(file, stack)))
         streams = [stream for storage in storages for stream in storage.streams]
+        broken = next((storage.broken for storage in storages if storage.broken), "")
+        if broken and not streams:
+            raise ValueError(f"{source.name}: a damaged {format} ({broken}); {hint}")
         topic, topics, chosen = choose_streams(source, streams)
-        encodings = {stream.handle.encoding for stream in chosen}
-        if not encodings <= {"cdr", "ros1"}:
-            raise ValueError(
-                f"{source.name}: {topic} is encoded as {', '.join(sorted(encodings))}; only cdr can be read."
-            )
+        decoders = {id(stream): stream.decoder(source) for stream in chosen}
 
-        def messages() -> Iterator[tuple[int, bytes]]:
+        def messages() -> Iterator[tuple[Decoder, int, bytes]]:
             for storage in storages:
                 wanted = [stream for stream in chosen if stream in storage.streams]
-                with guarded(source, format, hint):
-                    yield from storage.messages(wanted) if wanted else ()
+                with cut_off(source, format, hint):
+                    for stream, nanoseconds, data in storage.messages(wanted) if wanted else ():
+                        yield decoders[id(stream)], nanoseconds, data
+                if storage.broken:
+                    tell_cut(source, format, storage.broken, hint)
 
-        decode = decode_ros1 if encodings == {"ros1"} else lambda data: decode_cdr(_unpacked(data))
         total = sum(stream.messages for stream in chosen)
-        return collect(source, messages(), total, decode, topic, topics, format)
+        return collect(source, messages(), total, topic, topics, format)
 
 
 @contextmanager
@@ -98,59 +105,60 @@ def _storage(file: Path, stack: ExitStack) -> Iterator[Storage]:
         with file.open("rb") as opened:
             magic = opened.read(16)
     if magic.startswith(MCAP_MAGIC):
-        from rosbags.rosbag2.storage_mcap import McapReader
-
-        reader = McapReader(file)
-        reader.open()
-        try:
-            yield _McapFile(reader)
-        finally:
-            reader.close()
+        reader = McapFile(file)
+        stack.callback(reader.close)
+        yield _McapStorage(reader)
     elif magic.startswith(SQLITE_MAGIC):
         yield _Database(_connect(file, stack))
     else:
         raise ValueError(f"{file.name} begins with {magic[:8]!r}, which is neither SQLite nor MCAP")
 
 
-class _Channel:
-    """The id of a publisher in a storage file."""
-
-    def __init__(self, id: Any, encoding: str) -> None:
-        self.id, self.encoding = id, encoding
-
-
 class _Database:
     """The `sqlite3` storage."""
 
+    broken = ""
+
     def __init__(self, database: sqlite3.Connection) -> None:
         self.database = database
-        counts = dict(database.execute("SELECT topic_id, count(*) FROM messages GROUP BY topic_id"))
-        rows = database.execute("SELECT id, name, type, serialization_format FROM topics ORDER BY id")
+        rows = database.execute("SELECT id, name, type, serialization_format FROM topics ORDER BY id").fetchall()
+        cut = 0
+        try:
+            counts = dict(database.execute("SELECT topic_id, count(*) FROM messages GROUP BY topic_id"))
+        except sqlite3.DatabaseError:
+            counts, cut = {}, 1  # the file breaks off; its messages are read up to there
         self.streams = [
-            Stream(name, type, counts.get(id, 0), _Channel(id, encoding or "cdr")) for id, name, type, encoding in rows
+            Stream(name, type, counts.get(id, cut), id, encoding or "cdr") for id, name, type, encoding in rows
         ]
 
-    def messages(self, streams: list[Stream]) -> Iterator[tuple[int, bytes]]:
-        ids = [stream.handle.id for stream in streams]
-        marks = ",".join("?" * len(ids))
-        yield from self.database.execute(
-            f"SELECT timestamp, data FROM messages WHERE topic_id IN ({marks}) ORDER BY timestamp, id", ids
-        )
+    def messages(self, streams: list[Stream]) -> Iterator[tuple[Stream, int, bytes]]:
+        by_id = {stream.handle: stream for stream in streams}
+        marks = ",".join("?" * len(by_id))
+        for id, nanoseconds, data in self.database.execute(
+            f"SELECT topic_id, timestamp, data FROM messages WHERE topic_id IN ({marks}) ORDER BY timestamp, id",
+            list(by_id),
+        ):
+            yield by_id[id], nanoseconds, data
 
 
-class _McapFile:
-    """The `mcap` storage, through `rosbags`."""
+class _McapStorage:
+    """The `mcap` storage."""
 
-    def __init__(self, reader: Any) -> None:
-        self.reader = reader
+    def __init__(self, file: McapFile) -> None:
+        self._file = file
         self.streams = [
-            Stream(each.topic, each.msgtype, each.msgcount, _Channel(each, each.ext.serialization_format))
-            for each in reader.connections
+            Stream(each.topic, each.schema, file.counts.get(each.id, 0), each.id, each.encoding, each.schema_data)
+            for each in file.channels.values()
         ]
 
-    def messages(self, streams: list[Stream]) -> Iterator[tuple[int, bytes]]:
-        for _, nanoseconds, data in self.reader.messages([stream.handle.id for stream in streams]):
-            yield nanoseconds, data
+    @property
+    def broken(self) -> str:
+        return self._file.broken
+
+    def messages(self, streams: list[Stream]) -> Iterator[tuple[Stream, int, bytes]]:
+        by_id = {stream.handle: stream for stream in streams}
+        for channel, nanoseconds, data in self._file.messages(by_id):
+            yield by_id[channel], nanoseconds, data
 
 
 def _connect(file: Path, stack: ExitStack) -> sqlite3.Connection:
@@ -180,8 +188,3 @@ def _unpack_file(file: Path, stack: ExitStack) -> Path:
     with zstd.open(file, "rb") as packed:
         expand(cast(IO[bytes], packed), unpacked, file.name, limit_of(file.stat().st_size))
     return unpacked
-
-
-def _unpacked(data: bytes) -> bytes:
-    """A message, decompressed if necessary; CDR never begins like zstd."""
-    return unzstd(data) if data.startswith(ZSTD_MAGIC) else data

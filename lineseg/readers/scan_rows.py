@@ -52,7 +52,14 @@ def read_scans(
     source: Source, reading: Reading, rows: Iterable[Row], dialect: Dialect, leading: tuple[str, ...] | None
 ) -> Recording:
     """The scans of rows of numbers. leading: what the columns before the ranges hold, None to find out."""
-    numbers, values, double = _parsed(source, rows, dialect)
+    return scans_of(source, reading, *_parsed(source, rows, dialect), leading)
+
+
+def scans_of(
+    source: Source, reading: Reading, numbers: list[int], values: list[Floats], double: int,
+    leading: tuple[str, ...] | None, format: str = "text",
+) -> Recording:  # fmt: skip
+    """The scans of rows; numbers: of their lines. double: the numbers before a double space, 0 without one."""
     if len(values) > 1 and all(len(row) == 1 for row in values):
         numbers, values = numbers[:1], [np.concatenate(values)]
     geometry = None
@@ -77,7 +84,7 @@ def read_scans(
         )
     source.notes.unstated |= {"unit", "range_max"} - source.notes.found.keys()
     topics = (Topic("scan", len(sweeps)),)
-    return sweeps.recording(source, topic=source.choose(list(topics)), topics=topics, format="text")
+    return sweeps.recording(source, topic=source.choose(list(topics)), topics=topics, format=format)
 
 
 def _parsed(source: Source, rows: Iterable[Row], dialect: Dialect) -> tuple[list[int], list[Floats], int]:

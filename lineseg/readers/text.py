@@ -29,7 +29,7 @@ class Text(Reader):
     """The last reader to try: any file with lines of numbers."""
 
     format = "text"
-    suffixes = (".csv", ".txt", ".dat", ".tsv", ".asc", ".xy", ".json", ".jsonl", ".ndjson", ".yaml", ".yml")
+    suffixes = (".csv", ".txt", ".dat", ".tsv", ".asc", ".xy")
     expects = "lines of numbers"
 
     @staticmethod

@@ -1,0 +1,135 @@
+"""Arrays of numpy that are not in the exchange format: one array, or arrays with other names."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..scan import Recording, Topic
+from .beam_rows import beams_of
+from .guessing import angle_unit_of
+from .headers import Name
+from .reading import columns_of
+from .scan_rows import scans_of
+from .source import Reader, Source, Sweeps
+from .stamping import stamp_unit
+
+ANGLE_NAMES = ("ang", "bearing", "theta", "azimuth", "phi")
+STAMP_NAMES = ("stamp", "time", "t")
+MOST_COLUMNS = 8
+
+
+class Npy(Reader):
+    """One array: a scan a row, or a beam a row."""
+
+    format = "NPY"
+    suffixes = (".npy",)
+    expects = "an array, as numpy.save writes it"
+
+    @staticmethod
+    def recognises(head: bytes) -> bool:
+        return head.startswith(b"\x93NUMPY")
+
+    @staticmethod
+    def read(source: Source) -> Recording:
+        source.progress(0, 1)
+        try:
+            array = np.load(source.path, mmap_mode="r", allow_pickle=False)
+        except (ValueError, OSError, EOFError, MemoryError) as error:
+            pickled = "pickle" in str(error)
+            why = "Python objects, which are not loaded; save plain numbers" if pickled else str(error).rstrip(".")
+            raise ValueError(f"{source.name}: a damaged NPY file, or one with more than numbers ({why}).") from None
+        if array.dtype.names:
+            arrays = {name: np.asarray(array[name]) for name in array.dtype.names}
+            return recording_of_arrays(source, arrays, Npy.format)
+        return recording_of_arrays(source, {"array": np.asarray(array)}, Npy.format)
+
+
+def is_exchange(arrays: Mapping[str, NDArray]) -> bool:
+    """Whether arrays are meant as the exchange format, so that its reader says what is missing."""
+    known = {"ranges", "angle_min", "angle_increment", "bearings"} & arrays.keys()
+    return ("ranges" in arrays and len(known) > 1) or not any(_plain(array) for array in arrays.values())
+
+
+def _plain(array: NDArray) -> bool:
+    return array.dtype.kind in "fiu" and 1 <= array.ndim <= 2 and array.size > 2
+
+
+def recording_of_arrays(source: Source, arrays: Mapping[str, NDArray], format: str) -> Recording:
+    """The scans of arrays of which one can be the ranges. Raises ValueError with the line of Python that helps."""
+    tables = {name: array for name, array in arrays.items() if _plain(array) and array.ndim == 2}
+    rows = {name: array for name, array in arrays.items() if _plain(array) and array.ndim == 1}
+    angles = next((name for name in rows if name.lower().startswith(ANGLE_NAMES)), None)
+    stamps = next((name for name in rows if name.lower().startswith(STAMP_NAMES)), None)
+    named = {name: array for name, array in rows.items() if name not in (angles, stamps)}
+    if len(tables) > 1 and "ranges" in tables:
+        tables = {"ranges": tables["ranges"]}
+    found = tables or named
+    if len(found) != 1:
+        raise ValueError(_which(source, arrays, f"{len(found)} of them may be the ranges"))
+    ((name, array),) = found.items()
+    array = array.astype(np.float64)
+    source.notes.unstated.add("unit")
+    if angles is not None and rows[angles].shape == (array.shape[-1],):
+        times = None if stamps is None else rows[stamps]
+        return _with_angles(source, np.atleast_2d(array), rows[angles].astype(np.float64), times, format)
+    return _guessed(source, name, array, arrays, format)
+
+
+def _guessed(
+    source: Source, name: str, array: NDArray[np.float64], arrays: Mapping[str, NDArray], format: str
+) -> Recording:
+    reading = source.reading
+    given = None if reading.columns is None else columns_of(reading.columns)
+    beams = given is not None and "ranges" not in given
+    if (array.ndim == 2 and 2 <= array.shape[1] <= MOST_COLUMNS < array.shape[0]) or beams:
+        names = [Name(word) for word in given] if beams and given else None
+        return beams_of(source, reading, np.atleast_2d(array), names, format=format)
+    values = list(np.atleast_2d(array))
+    try:
+        leading = given[:-1] if given else None
+        return scans_of(source, reading, list(range(len(values))), values, 0, leading, format)
+    except ValueError as error:
+        if "without angles" not in str(error):
+            raise
+        raise ValueError(
+            _which(source, arrays, f"{name} has rows of {array.shape[-1]} ranges without angles")
+        ) from None
+
+
+def _with_angles(
+    source: Source, ranges: NDArray[np.float64], angles: NDArray[np.float64], stamps: NDArray | None, format: str
+) -> Recording:
+    """Rows of ranges that share the bearings of their beams."""
+    reading, notes = source.reading, source.notes
+    unit = reading.angle_unit or angle_unit_of(angles)
+    if reading.angle_unit is None:
+        why = f"the angles go from {angles.min():.4g} to {angles.max():.4g}"
+        notes.guess("angle_unit", "degrees" if unit == "deg" else "radians", why,
+                    angle_unit="rad" if unit == "deg" else "deg")  # fmt: skip
+    notes.guess("direction", "counter-clockwise", "the file does not say in which sense its angles count",
+                direction="clockwise")  # fmt: skip
+    notes.found["angle_unit"], notes.radians = unit, True
+    notes.unstated.add("range_max")
+    bearings = np.deg2rad(angles) if unit == "deg" else angles
+    step = (bearings[-1] - bearings[0]) / max(len(bearings) - 1, 1)
+    even = np.allclose(np.diff(bearings), step, rtol=0, atol=1e-5)
+    times = np.zeros(len(ranges))
+    if stamps is not None and len(stamps) == len(ranges):
+        times, notes.stamps = stamps * stamp_unit(stamps), "their array"
+    sweeps = Sweeps()
+    for row, time in zip(ranges, times.tolist(), strict=True):
+        sweeps.add(row, bearings[0], step, stamp=time, bearings=None if even else bearings)
+    topics = (Topic("ranges", len(sweeps)),)
+    return sweeps.recording(source, topic=source.choose(list(topics), "array"), topics=topics, format=format)
+
+
+def _which(source: Source, arrays: Mapping[str, NDArray], why: str) -> str:
+    has = ", ".join(f"{name} {array.shape}" for name, array in sorted(arrays.items())[:8]) or "nothing"
+    return (
+        f"{source.name} has {has}; {why}. Save it so that each is named: "
+        "numpy.savez('scans.npz', ranges=…, angle_min=-1.5708, angle_increment=0.00873), "
+        "ranges (frames, beams) in metres and angles in radians."
+    )

@@ -1,0 +1,202 @@
+"""The records of an MCAP file, read one after the other: no index is needed, and a file may break off.
+
+Format: https://mcap.dev/spec. With an index, chunks without the wanted channels are passed over.
+"""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Collection, Iterator
+from pathlib import Path
+from typing import BinaryIO, NamedTuple
+from zlib import crc32
+
+from .bounded import MOST_MESSAGE, TooLargeError, limit_of, too_large
+
+MAGIC = b"\x89MCAP0\r\n"
+SCHEMA, CHANNEL, MESSAGE, CHUNK, MESSAGE_INDEX, DATA_END, FOOTER = 3, 4, 5, 6, 7, 15, 2
+CHUNK_INDEX, STATISTICS = 8, 11
+HEAD = struct.Struct("<BQ")
+MOST_RECORD = 1 << 30
+MOST_CHUNK = 8 * MOST_MESSAGE
+
+
+class BrokenError(ValueError):
+    """The file breaks off, or is damaged from here on."""
+
+
+class McapChannel(NamedTuple):
+    """A channel with its schema."""
+
+    id: int
+    topic: str
+    encoding: str
+    schema: str
+    schema_encoding: str
+    schema_data: bytes
+
+
+class McapFile:
+    """The channels of a file, the number of messages of each, and its messages.
+
+    broken: where and why the file breaks off, "" if it is whole; known when all was read.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self._file: BinaryIO = path.open("rb")
+        self._size = path.stat().st_size
+        self.channels: dict[int, McapChannel] = {}
+        self.counts: dict[int, int] = {}
+        self.broken = ""
+        self._schemas: dict[int, tuple[str, str, bytes]] = {}
+        if self._file.read(len(MAGIC)) != MAGIC:
+            raise BrokenError("it does not begin like MCAP")
+        self._indexed = self._read_summary()
+        if not self._indexed:
+            for _ in self._scan(None):
+                pass
+
+    def close(self) -> None:
+        self._file.close()
+
+    def messages(self, channels: Collection[int]) -> Iterator[tuple[int, int, bytes]]:
+        """(channel, time of recording in nanoseconds, data) of these channels, chunk after chunk."""
+        yield from self._scan(set(channels))
+
+    def _read_summary(self) -> bool:
+        """Whether the summary at the end names all channels and their counts."""
+        try:
+            self._file.seek(-(HEAD.size + 20 + len(MAGIC)), 2)
+            opcode, _ = HEAD.unpack(self._exactly(HEAD.size))
+            (start,) = struct.unpack("<Q", self._exactly(20)[:8])
+            if opcode != FOOTER or self._file.read() != MAGIC or not 0 < start < self._size:
+                return False
+            self._file.seek(start)
+            counted = False
+            while (record := self._record()) is not None and record[0] != FOOTER:
+                opcode, body = record
+                self._learn(opcode, body)
+                if opcode == STATISTICS:
+                    counted = True
+                    self.counts = dict(struct.iter_unpack("<HQ", body[46 : 46 + struct.unpack_from("<I", body, 42)[0]]))
+        except (BrokenError, OSError, struct.error, UnicodeDecodeError):
+            self.channels, self.counts = {}, {}
+            return False
+        return counted and self.counts.keys() <= self.channels.keys()
+
+    def _scan(self, wanted: set[int] | None) -> Iterator[tuple[int, int, bytes]]:
+        """The messages in file order; wanted: None to learn about channels and to count, without messages."""
+        self._file.seek(len(MAGIC))
+        try:
+            while (record := self._record()) is not None:
+                opcode, body = record
+                if opcode == DATA_END:
+                    return
+                if opcode == CHUNK:
+                    yield from self._chunk(body, wanted)
+                elif opcode == MESSAGE:
+                    yield from self._message(memoryview(body), wanted)
+                else:
+                    self._learn(opcode, body)
+            self.broken = "its end is missing"
+        except (BrokenError, struct.error, UnicodeDecodeError) as error:
+            self.broken = str(error).rstrip(".")
+
+    def _record(self) -> tuple[int, bytes] | None:
+        """(opcode, content) of the next record; None at the end of the file. Raises BrokenError if it is not whole."""
+        head = self._file.read(HEAD.size)
+        if not head:
+            return None
+        if len(head) < HEAD.size:
+            raise BrokenError(f"its last record breaks off at byte {self._file.tell()}")
+        opcode, length = HEAD.unpack(head)
+        left = self._size - self._file.tell()
+        if min(length, left) > MOST_RECORD:
+            raise TooLargeError(too_large("a record", MOST_RECORD))
+        if length > left and opcode != CHUNK:
+            raise BrokenError(f"its last record breaks off at byte {self._size}")
+        # A chunk may still have whole messages in the part that is there.
+        return opcode, self._exactly(min(length, left))
+
+    def _exactly(self, size: int) -> bytes:
+        data = self._file.read(size)
+        if len(data) < size:
+            raise BrokenError(f"it breaks off at byte {self._size}")
+        return data
+
+    def _learn(self, opcode: int, body: bytes) -> None:
+        if opcode == SCHEMA:
+            (id,) = struct.unpack_from("<H", body)
+            name, at = _text(body, 2)
+            encoding, at = _text(body, at)
+            size = struct.unpack_from("<I", body, at)[0]
+            self._schemas[id] = (name, encoding, body[at + 4 : at + 4 + size])
+        elif opcode == CHANNEL:
+            id, schema = struct.unpack_from("<HH", body)
+            topic, at = _text(body, 4)
+            encoding, _ = _text(body, at)
+            self.channels.setdefault(id, McapChannel(id, topic, encoding, *self._schemas.get(schema, ("", "", b""))))
+
+    def _message(self, body: memoryview, wanted: set[int] | None) -> Iterator[tuple[int, int, bytes]]:
+        channel, _, time, _ = struct.unpack_from("<HIQQ", body)
+        if wanted is None:
+            self.counts[channel] = self.counts.get(channel, 0) + 1
+        elif channel in wanted:
+            yield channel, time, bytes(body[22:])
+
+    def _chunk(self, body: bytes, wanted: set[int] | None) -> Iterator[tuple[int, int, bytes]]:
+        data, damage = _expanded(body)
+        records, at = memoryview(data), 0
+        while at + HEAD.size <= len(records):
+            opcode, length = HEAD.unpack_from(records, at)
+            at += HEAD.size
+            if at + length > len(records):
+                raise BrokenError(damage or "a chunk is damaged")
+            if opcode == MESSAGE:
+                yield from self._message(records[at : at + length], wanted)
+            elif not self._indexed:
+                self._learn(opcode, bytes(records[at : at + length]))
+            at += length
+        if damage:
+            raise BrokenError(damage)
+
+
+def _text(body: bytes, at: int) -> tuple[str, int]:
+    """The string at `at`, and where it ends."""
+    (size,) = struct.unpack_from("<I", body, at)
+    return body[at + 4 : at + 4 + size].decode(), at + 4 + size
+
+
+def _expanded(body: bytes) -> tuple[bytes, str]:
+    """The records of a chunk, as far as they are whole, and what is wrong with it. Raises TooLargeError."""
+    _, _, size, checksum = struct.unpack_from("<QQQI", body)
+    compression, at = _text(body, 28)
+    (packed_size,) = struct.unpack_from("<Q", body, at)
+    packed = body[at + 8 : at + 8 + packed_size]
+    limit = min(limit_of(packed_size), MOST_CHUNK)
+    if size > limit:
+        raise TooLargeError(too_large("a chunk", limit))
+    try:
+        data = _expand(compression, packed, size)
+    except Exception as error:  # each library has errors of its own
+        raise BrokenError(f"a chunk cannot be unpacked, {error or type(error).__name__}") from None
+    if len(packed) < packed_size or len(data) < size:
+        return data, "its last chunk breaks off"
+    if len(data) != size or (checksum and crc32(data) != checksum):
+        raise BrokenError("a chunk is damaged; its checksum or size differs")
+    return data, ""
+
+
+def _expand(compression: str, packed: bytes, size: int) -> bytes:
+    """At most one byte more than `size`, and less if `packed` breaks off."""
+    if compression == "":
+        return packed
+    if compression == "zstd":
+        from rosbags.rosbag2.reader import zstd
+
+        return zstd.ZstdDecompressor().decompress(packed, max_length=size + 1)
+    if compression == "lz4":
+        from lz4.frame import LZ4FrameDecompressor
+
+        return LZ4FrameDecompressor().decompress(packed, max_length=size + 1)
+    raise BrokenError(f"it is compressed with {compression!r}, which is not known")
