@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ..scan import Floats, Recording, Scan
+from .warp import warped
 from .world import Material, World
 
 _NOTHING = Material(returns=0.0)
@@ -20,7 +21,9 @@ _NOTHING = Material(returns=0.0)
 class Laser:
     """A range finder; angles and standard deviations in radians and metres.
 
-    sigma: for ranges up to `far`; sigma_far: for longer ones. resolution: step of the ranges, 0 for none.
+    sigma: for ranges up to `far`; sigma_far: for longer ones. growth: share of the range that is added to it, and
+    grazing: share of the depth of the beam's footprint on a slanted wall; both as independent errors.
+    resolution: step of the ranges, 0 for none.
     beam_width: if the two edges of a beam hit different surfaces more than 0.1 m apart, it is a mixed pixel with
     probability `mixed`: it measures a range between the two.
     rate: sweeps per second.
@@ -39,6 +42,8 @@ class Laser:
     beam_width: float = 0.0
     mixed: float = 0.0
     rate: float = 40.0
+    growth: float = 0.0
+    grazing: float = 0.0
 
     @property
     def bearings(self) -> Floats:
@@ -58,6 +63,22 @@ RPLIDAR_A2 = Laser(
     "RPLIDAR A2", -pi, radians(1.0), 360, 0.15, 12.0,
     sigma=0.008, sigma_far=0.030, far=5.0, beam_width=radians(0.3), mixed=0.5, rate=10.0,
 )  # fmt: skip
+# 1 % of the range is taken as two standard deviations; steps of a quarter of a millimetre.
+RPLIDAR_A1 = Laser(
+    "RPLIDAR A1", -pi, radians(1.0), 360, 0.15, 12.0,
+    sigma=0.003, sigma_far=0.003, resolution=0.00025, beam_width=radians(0.3), mixed=0.5, rate=5.5, growth=0.005,
+)  # fmt: skip
+TIM_561 = Laser(
+    "TiM561", radians(-135), radians(1 / 3), 811, 0.05, 10.0,
+    sigma=0.02, sigma_far=0.02, beam_width=radians(0.49), mixed=0.7, rate=15.0, grazing=0.1,
+)  # fmt: skip
+# One plane of a lidar with 16 layers, as a ROS node makes it: the beams do not quite fill the circle.
+LIDAR_16 = Laser(
+    "16-layer lidar", -pi, 2 * pi / 898.4, 897, 0.3, 100.0,
+    sigma=0.012, sigma_far=0.012, resolution=0.002, beam_width=radians(0.17), mixed=0.5, rate=10.0,
+)  # fmt: skip
+# Beyond this angle of incidence the footprint of a beam no longer grows.
+MOST_SLANTED = radians(85)
 
 
 class Hits(NamedTuple):
@@ -139,12 +160,13 @@ def scan(
     comes_back = answer < np.array([material.returns for material in materials])[targets]
     comes_back &= incidence <= np.array([material.widest for material in materials])[targets]
 
+    ranges = _on_warped_walls(world, (x, y), angles, Hits(ranges, targets, incidence))
     near, far = _footprint(world, (x, y), angles, laser)
     mixed = (far > near) & (draw < laser.mixed)
     ranges = np.where(mixed, near + share * (far - near), ranges)
     comes_back |= mixed
 
-    sigma = np.hypot(np.where(ranges <= laser.far, laser.sigma, laser.sigma_far), rough)
+    sigma = np.hypot(_sigma(laser, ranges, incidence), rough)
     with np.errstate(invalid="ignore"):
         measured = ranges + sigma * normal
     if laser.resolution:
@@ -161,6 +183,26 @@ def scan(
         frame_id=frame_id,
         wall=np.where(is_wall, targets, -1).astype(np.int16),
     )
+
+
+def _on_warped_walls(world: World, origin: tuple[float, float], angles: Floats, hits: Hits) -> Floats:
+    """(n,) ranges to walls that are not quite straight, by fixed-point iteration."""
+    ranges = hits.ranges
+    if any(material.warp for material in world.wall_materials):
+        directions = np.column_stack((np.cos(angles), np.sin(angles)))
+        slope = np.cos(np.minimum(hits.incidence, MOST_SLANTED))
+        for _ in range(3):
+            points = origin + np.where(np.isfinite(ranges), ranges, 0.0)[:, None] * directions
+            ranges = hits.ranges - warped(world, points, hits.targets) / slope
+    return ranges
+
+
+def _sigma(laser: Laser, ranges: Floats, incidence: Floats) -> Floats:
+    """(n,) standard deviations of ranges."""
+    reach = np.where(np.isfinite(ranges), ranges, 0.0)
+    depth = reach * laser.beam_width * np.tan(np.minimum(incidence, MOST_SLANTED))
+    constant = np.where(ranges <= laser.far, laser.sigma, laser.sigma_far)
+    return np.hypot(np.hypot(constant, laser.growth * reach), laser.grazing * depth)
 
 
 def _footprint(world: World, origin: tuple[float, float], angles: Floats, laser: Laser) -> tuple[Floats, Floats]:

@@ -1,4 +1,6 @@
-"""Writes sample_scans/: two long recordings, the lessons, and the hallway again in every other format."""
+"""Writes sample_scans/: two long recordings, a short one of a coarser laser in a room of boards that bend, the lessons,
+and the hallway again in every other format.
+"""
 
 from __future__ import annotations
 
@@ -13,6 +15,7 @@ from .hallway import hallway_recording
 from .laboratory import laboratory_recording
 from .laser import LMS_200, RPLIDAR_A2, UTM_30LX
 from .lessons import LESSONS
+from .worlds import WORLDS
 
 # Simulated time starts in the year of the paper: stamps of 0 would look like a clock that was never set.
 EPOCH = 1_514_764_800
@@ -26,6 +29,12 @@ def write_samples(folder: Path) -> None:
     (folder / "lessons").mkdir(parents=True, exist_ok=True)
     save(folder / "hallway.npz", hallway_recording(), "A hallway with doors, fire cabinets and a side corridor")
     save(folder / "laboratory.npz", laboratory_recording(), "A laboratory with desks, chairs, cabinets and a walker")
+    boards = WORLDS["boards"].recording("boards", 40)
+    save(
+        folder / "room_of_boards.npz",
+        boards,
+        "A room of boards that bend, for which the default ε is too small",
+    )
     for lesson in LESSONS:
         save(folder / "lessons" / f"{lesson.name}.npz", lesson.recording(), lesson.title)
     write_carmen(folder / "hallway.log", hallway_recording(30, LMS_200, every=45, seed=30))

@@ -19,11 +19,14 @@ class Material:
 
     returns: share of the beams that come back; widest: largest angle of incidence with a return [rad].
     roughness: standard deviation of the surface about its wall [m]. Rough surfaces do not count as walls in the truth.
+    warp: standard deviation of a wall from straight [m], along which it bends in waves of about `warp_length` [m].
     """
 
     returns: float = 1.0
     widest: float = pi / 2
     roughness: float = 0.0
+    warp: float = 0.0
+    warp_length: float = 1.0
 
 
 IDEAL = Material()
@@ -32,6 +35,8 @@ DARK = Material(returns=0.80, widest=radians(72))
 GLASS = Material(returns=0.85, widest=radians(14))
 METAL = Material(returns=0.99, widest=radians(83))
 CLOTH = Material(returns=0.97)
+PLASTER = Material(returns=0.9985, widest=radians(89), warp=0.008, warp_length=1.2)
+BOARD = Material(returns=0.9985, widest=radians(89), warp=0.02, warp_length=0.8)
 ROUGH = Material(returns=0.98, roughness=0.06)
 
 
@@ -139,12 +144,14 @@ def facade(start: Point, end: Point, features: Iterable[Feature] = (), material:
     return world + polyline([origin + along * done, np.array(end, dtype=float)], material)
 
 
-def room(corners: Sequence[Point], features: Mapping[int, Iterable[Feature]] | None = None) -> World:
+def room(
+    corners: Sequence[Point], features: Mapping[int, Iterable[Feature]] | None = None, material: Material = PAINT
+) -> World:
     """A closed outline, counter-clockwise and seen from inside; `features` by the index of a wall's first corner."""
     features = features or {}
     world = NOTHING
     for index, corner in enumerate(corners):
-        world += facade(corner, corners[(index + 1) % len(corners)], features.get(index, ()))
+        world += facade(corner, corners[(index + 1) % len(corners)], features.get(index, ()), material)
     return world
 
 

@@ -9,12 +9,14 @@ from math import pi, radians
 import numpy as np
 
 from ..scan import Recording
-from .laser import LMS_200, RPLIDAR_A2, UTM_30LX, Laser, drive, record
+from .laser import LIDAR_16, LMS_200, RPLIDAR_A1, RPLIDAR_A2, TIM_561, UTM_30LX, Laser, drive, record
 from .world import (
+    BOARD,
     CLOTH,
     DARK,
     METAL,
     PAINT,
+    PLASTER,
     ROUGH,
     World,
     box,
@@ -119,6 +121,36 @@ def yard() -> World:
     return world + box((-4.6, 7.6), 1.6, 0.5, radians(40)) + circle((5.6, 3.6), 0.06, METAL)
 
 
+def boards() -> World:
+    """An L-shaped room of six boards, which bend by centimetres, with a cabinet and a chair."""
+    world = room([(0, 0), (9, 0), (9, 4.2), (4.6, 4.2), (4.6, 8), (0, 8)], material=BOARD)
+    return world + box((0.4, 7.0), 0.7, 1.0, material=METAL) + chair((7.8, 3.2), 0.4)
+
+
+def lobby() -> World:
+    """12 m by 9 m, plastered: doors and one whole side stand open, with nothing behind them but rows of chairs."""
+    features = {
+        0: [opening(2.5), door(6.0), opening(9.5, 1.8)],
+        1: [opening(4.5, 5.0)],
+        2: [opening(3.0, 0.9), door(7.5)],
+        3: [opening(5.5, 1.2)],
+    }
+    world = room([(0, 0), (12, 0), (12, 9), (0, 9)], features, PLASTER)
+    for k in range(7):
+        world += chair((11.3, 2.4 + 0.7 * k), 0.1 * k) + chair((3.2 + 0.65 * k, 7.6), 0.2 * k)
+    return world + desk((4.0, 1.4), heading=pi) + circle((8.6, 6.4), 0.25) + box((0.35, 8.3), 0.6, 0.9)
+
+
+def workshop() -> World:
+    """16 m by 7 m: long plastered walls met at grazing angles, partitions of boards, an open gate, benches on legs."""
+    features = {0: [door(3.0), opening(11.0, 3.0)], 1: [opening(5.0, 1.0)], 2: [opening(4.0), door(12.0, 2.0, 0.15)]}
+    world = room([(0, 0), (16, 0), (16, 7), (0, 7)], features, PLASTER)
+    world += polyline([(5.5, 7), (5.5, 5.2), (7.5, 5.2)], BOARD) + polyline([(9.0, 0), (9.0, 1.8)], BOARD)
+    for x in (2.0, 12.5, 14.5):
+        world += desk((x, 5.9), heading=pi) + swivel_chair((x + 0.1, 5.0), x)
+    return world + box((10.6, 6.6), 1.2, 0.6, material=METAL) + circle((7.4, 1.2), 0.15) + chair((13.4, 1.2), 0.7)
+
+
 # Straight ahead, then a gentle turn back, all within free space.
 _UP_AND_DOWN = [(11.0, 0.5, 0.01), (5.0, 0.15, 0.628), (14.0, 0.35, 0.005)]
 
@@ -139,5 +171,17 @@ WORLDS = {
     "yard": Drive(
         "Outdoors: facades at odd angles, cars, trees, a hedge", yard, UTM_30LX, (-2.0, 1.0, 0.1),
         [(12.0, 0.5, 0.02), (6.0, 0.3, 0.3), (12.0, 0.4, 0.0)], 5,
+    ),
+    "boards": Drive(
+        "A room of boards that bend, seen by one plane of a 16-layer lidar", boards, LIDAR_16, (1.6, 1.6, 0.0),
+        [(12.0, 0.45, 0.01), (5.0, 0.15, 0.628), (13.0, 0.35, -0.03)], 6,
+    ),
+    "lobby": Drive(
+        "A lobby with open doors, seen by a laser that errs by 1 % of the range", lobby, RPLIDAR_A1, (1.5, 4.2, 0.0),
+        _UP_AND_DOWN, 7,
+    ),
+    "workshop": Drive(
+        "A workshop, seen by a laser that scatters at grazing angles", workshop, TIM_561, (2.0, 3.2, 0.0),
+        [(14.0, 0.55, 0.004), (5.0, 0.15, 0.628), (11.0, 0.4, 0.0)], 8,
     ),
 }  # fmt: skip

@@ -12,6 +12,7 @@ from lineseg_app.places import data_folder
 
 from lineseg import Params, Scan, Trace, open_recording, trace
 from lineseg.region_growing.trace import VOCABULARY
+from lineseg.simulate.worlds import WORLDS
 
 LISTING = json.loads((data_folder("static") / "learn" / "listing.json").read_text("utf-8"))
 EVENTS = [
@@ -71,5 +72,8 @@ def test_nearly_every_line_occurs_in_some_sample():
         met += events_of(trace(ring(), params))
         for path in SAMPLES:
             met += events_of(trace(open_recording(path)[0], params))
+    for name in ("lobby", "workshop"):
+        for scan in WORLDS[name].recording(name, 24):
+            met += events_of(trace(scan))
     unmet = set(EVENTS) - set(met)
     assert all(event.startswith("overlap: line dropped") for event in unmet), unmet

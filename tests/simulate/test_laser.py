@@ -1,6 +1,7 @@
 """Casting and scanning, compared with geometry computed by hand."""
 
-from math import atan2, cos, inf, pi, radians, sin, sqrt
+from dataclasses import replace
+from math import atan2, cos, hypot, inf, pi, radians, sin, sqrt
 
 import numpy as np
 import pytest
@@ -9,6 +10,7 @@ from numpy.testing import assert_allclose
 from lineseg.simulate import (
     DARK,
     IDEAL,
+    LIDAR_16,
     ROUGH,
     UTM_30LX,
     Feature,
@@ -80,6 +82,44 @@ def test_the_utm_30lx_has_a_third_of_its_stated_accuracy_as_standard_deviation(d
     errors = np.concatenate([sweep(hall, UTM_30LX, seed=seed).ranges for seed in range(20)]) - distance
     assert abs(errors.mean()) < 0.0005
     assert errors.std() == pytest.approx(sigma, rel=0.03)
+
+
+@pytest.mark.parametrize("distance", [2.0, 8.0])
+def test_noise_may_grow_with_the_range(distance):
+    laser = replace(EXACT, sigma=0.004, sigma_far=0.004, growth=0.01)
+    hall = circle((0.0, 0.0), distance, IDEAL)
+    errors = np.concatenate([sweep(hall, laser, seed=seed).ranges for seed in range(40)]) - distance
+    assert errors.std() == pytest.approx(hypot(0.004, 0.01 * distance), rel=0.05)
+
+
+def test_noise_may_grow_with_the_angle_at_which_a_beam_meets_the_wall():
+    laser = replace(EXACT, grazing=0.2, beam_width=radians(0.5))
+    slanted = polyline([(3.0, -5.0), (0.0, 5.0 * sqrt(3) - 5.0)], IDEAL)
+    exact = sweep(slanted).ranges.astype(float)
+    errors = np.array([sweep(slanted, laser, seed=seed).ranges - exact for seed in range(300)]).std(axis=0)
+    incidence = cast(slanted, (0, 0), EXACT.bearings).incidence
+    assert_allclose(errors, 0.2 * exact * radians(0.5) * np.tan(incidence), rtol=0.15, atol=1e-5)
+
+
+def test_a_warped_wall_deviates_from_straight_the_same_way_in_every_scan_and_is_a_wall_all_the_same():
+    laser = replace(EXACT, angle_min=radians(-70), angle_increment=radians(0.1), beams=1401)
+    board = polyline([(2.0, -20.0), (2.0, 20.0)], Material(warp=0.02, warp_length=0.8))
+    here, there = sweep(board, laser), sweep(board, laser, pose=(0.5, 1.0, 0.3), seed=5)
+    across = here.xy[here.valid, 0] - 2.0
+    assert across.std() == pytest.approx(0.02, rel=0.3)
+    # Neighbouring points bend together: the step between them is far smaller than the deviation.
+    assert np.abs(np.diff(across[500:900])).max() < 0.005
+    assert (here.wall[here.valid] == 0).all()
+    turn = np.array([[cos(0.3), sin(0.3)], [-sin(0.3), cos(0.3)]])
+    seen = there.xy[there.valid] @ turn + (0.5, 1.0)
+    near = np.abs(seen[:, 1] - 0.5) < 0.5
+    assert_allclose(seen[near, 0], np.interp(seen[near, 1], *here.xy[here.valid].T[::-1]), atol=0.003)
+
+
+def test_one_plane_of_a_16_layer_lidar_is_a_circle_with_a_chip():
+    scan = sweep(circle((0.0, 0.0), 3.0, IDEAL), LIDAR_16)
+    assert scan.full_circle
+    assert (len(scan), scan.around) == (897, 898)
 
 
 def test_ranges_are_rounded_to_a_millimetre():
