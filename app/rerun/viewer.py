@@ -2,15 +2,10 @@
 
 from __future__ import annotations
 
+import mmap
 import os
-import shutil
-import socket
 import subprocess
 import sys
-import tempfile
-import time
-import urllib.error
-import urllib.request
 from pathlib import Path
 
 import rerun_cli
@@ -18,7 +13,9 @@ import rerun_cli
 from lineseg.installation import install_command
 
 FILES = ("re_viewer.js", "re_viewer_bg.wasm")
-START_SECONDS = 30.0
+SCRIPT_BEGIN, SCRIPT_END = b"let wasm_bindgen = (function(exports) {", b"})({ __proto__: null });\n"
+LARGEST_SCRIPT = 4_000_000
+WASM_BEGIN, LAST_SECTION = b"\0asm\x01\0\0\0", 13
 
 
 def executable() -> Path:
@@ -47,40 +44,32 @@ def quiet_environment(folder: Path) -> dict[str, str]:
 
 
 def unpack(folder: Path) -> None:
-    """Write FILES to `folder`.
+    """Write FILES to `folder`. Raises OSError if they are not found in rerun's program.
 
-    The files are inside rerun's program, which only serves them over HTTP, so it runs briefly on the loopback.
+    The program has both inside, one after the other and as they are. It would serve them over HTTP, but another program
+    could take its port first, and what came from there would run as a script of this page.
     """
-    port, other = free_ports(2)
-    flags = ["--serve-web", "--bind", "127.0.0.1", "--web-viewer-port", str(port), "--port", str(other)]
-    with tempfile.TemporaryDirectory() as private:
-        environment = quiet_environment(Path(private))
-        silent = subprocess.DEVNULL
-        with subprocess.Popen([executable(), *flags], env=environment, stdout=silent, stderr=silent) as program:
-            try:
-                for name in FILES:
-                    _fetch(f"http://127.0.0.1:{port}/{name}", folder / name, program)
-            finally:
-                program.kill()
+    program = executable()
+    with program.open("rb") as stream, mmap.mmap(stream.fileno(), 0, access=mmap.ACCESS_READ) as content:
+        begin = content.find(SCRIPT_BEGIN)
+        module = content.find(WASM_BEGIN, begin)
+        script = content[begin:module] if begin >= 0 and module - begin < LARGEST_SCRIPT else b""
+        if not script.endswith(SCRIPT_END):
+            raise OSError(f"{program}: its web viewer is not where it was in rerun 0.41; install rerun-sdk 0.41")
+        (folder / FILES[0]).write_bytes(script)
+        (folder / FILES[1]).write_bytes(content[module : _end_of_wasm(content, module)])
 
 
-def _fetch(address: str, file: Path, program: subprocess.Popen) -> None:
-    opener = urllib.request.build_opener(urllib.request.ProxyHandler({}))
-    late = time.monotonic() + START_SECONDS
-    while True:
-        try:
-            with opener.open(address, timeout=START_SECONDS) as answer, file.open("wb") as out:
-                shutil.copyfileobj(answer, out)
-            return
-        except urllib.error.URLError as error:
-            if program.poll() is not None or time.monotonic() > late:
-                raise OSError(f"rerun's program does not serve its web viewer: {error.reason}") from None
-            time.sleep(0.05)
-
-
-def free_ports(number: int) -> list[int]:
-    sockets = [socket.create_server(("127.0.0.1", 0)) for _ in range(number)]
-    ports = [opened.getsockname()[1] for opened in sockets]
-    for opened in sockets:
-        opened.close()
-    return ports
+def _end_of_wasm(content: mmap.mmap, start: int) -> int:
+    """Where a WebAssembly module ends: behind the last of its sections, each of which gives its length as LEB128."""
+    place = start + len(WASM_BEGIN)
+    while place < len(content) and content[place] <= LAST_SECTION:
+        length, shift, place = 0, 0, place + 1
+        while True:
+            byte = content[place]
+            length |= (byte & 0x7F) << shift
+            shift, place = shift + 7, place + 1
+            if byte < 0x80:
+                break
+        place += length
+    return place

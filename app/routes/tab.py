@@ -73,7 +73,7 @@ def add_sockets(app: FastAPI, library: Library, sessions: Sessions, topic: str |
         if session is None:
             await socket.close(CLOSED)
             return
-        await relay(socket, session.viser_port)
+        await relay(socket, session.door)
 
     @app.get("/s/{id}/viser/")
     async def viser_page(request: Request, id: str) -> Response:

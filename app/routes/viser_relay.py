@@ -1,4 +1,4 @@
-"""Relays the iframe of a session to its viser server: viser's page and its WebSocket."""
+"""The iframe of a session: viser's page, and the WebSocket that leads to the session's viser server."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import asyncio
 import contextlib
 import gzip
 import hashlib
+import logging
 from functools import cache
 from pathlib import Path
 
@@ -13,11 +14,14 @@ import viser
 from starlette.requests import Request
 from starlette.responses import Response
 from starlette.websockets import WebSocket, WebSocketDisconnect, WebSocketState
-from websockets.asyncio.client import ClientConnection, connect
-from websockets.exceptions import ConnectionClosed, WebSocketException
-from websockets.typing import Subprotocol
+
+from ..scene.portless import Connection, Door
 
 LARGEST_MESSAGE = 50 * 1024 * 1024
+FULL_SECONDS = 0.01
+PARTING_SECONDS = 5.0
+
+log = logging.getLogger(__name__)
 
 
 @cache
@@ -38,52 +42,40 @@ def client_page(request: Request) -> Response:
     return Response(plain, media_type="text/html", headers=headers)
 
 
-async def relay(outer: WebSocket, port: int) -> None:
-    """Carry messages between the browser and the viser server on `port` until either side closes.
-
-    Each direction sends a message before it reads the next, so nothing piles up here.
-    """
-    offered = [Subprotocol(name) for name in outer.scope.get("subprotocols", []) if name.startswith("viser-v")]
+async def relay(outer: WebSocket, door: Door) -> None:
+    """Carry messages between the browser and a viser server until either side closes."""
+    offered = [name for name in outer.scope.get("subprotocols", []) if name.startswith("viser-v")]
+    subprotocol = offered[0] if offered else None
+    connection = Connection(outer.send_bytes, subprotocol)
+    await outer.accept(subprotocol=subprotocol)
     try:
-        inner = await connect(
-            f"ws://127.0.0.1:{port}",
-            subprotocols=offered or None,
-            max_size=LARGEST_MESSAGE,
-            max_queue=4,
-            compression=None,
-            proxy=None,
-        )
-    except (OSError, WebSocketException):
-        await outer.close(1013, "the scene is not ready yet")
+        served = asyncio.wrap_future(door.enter(connection))
+    except RuntimeError:
+        await outer.close(1013, "the scene is closed; reload the page")
         return
-    async with inner:
-        await outer.accept(subprotocol=inner.subprotocol)
-        tasks = [asyncio.create_task(_inward(outer, inner)), asyncio.create_task(_outward(inner, outer))]
-        try:
-            await asyncio.wait(tasks, return_when=asyncio.FIRST_COMPLETED)
-        finally:
-            for task in tasks:
-                task.cancel()
-            await asyncio.gather(*tasks, return_exceptions=True)
-        if outer.application_state is WebSocketState.CONNECTED and outer.client_state is WebSocketState.CONNECTED:
-            with contextlib.suppress(RuntimeError):
-                await outer.close(inner.close_code if inner.close_code in (1000, 1001, 1002) else 1001)
+    reading = asyncio.create_task(_inward(outer, connection, door))
+    try:
+        await asyncio.wait([served, reading], return_when=asyncio.FIRST_COMPLETED)
+    finally:
+        reading.cancel()
+        with contextlib.suppress(RuntimeError):
+            door.call(connection.end)
+        await asyncio.wait([served, reading], timeout=PARTING_SECONDS)
+    if served.done() and not served.cancelled() and (error := served.exception()) is not None:
+        log.warning("a message to the scene was refused: %s: %s", type(error).__name__, error)
+    if outer.application_state is WebSocketState.CONNECTED and outer.client_state is WebSocketState.CONNECTED:
+        with contextlib.suppress(RuntimeError):
+            await outer.close(connection.close_code)
 
 
-async def _inward(outer: WebSocket, inner: ClientConnection) -> None:
-    with contextlib.suppress(WebSocketDisconnect, ConnectionClosed):
+async def _inward(outer: WebSocket, connection: Connection, door: Door) -> None:
+    """Messages of the browser, no faster than viser takes them."""
+    with contextlib.suppress(WebSocketDisconnect, RuntimeError):
         while True:
             message = await outer.receive()
-            if message["type"] == "websocket.disconnect":
-                return
             data = message.get("bytes")
-            await inner.send(data if data is not None else message["text"])
-
-
-async def _outward(inner: ClientConnection, outer: WebSocket) -> None:
-    with contextlib.suppress(WebSocketDisconnect, ConnectionClosed, RuntimeError):
-        async for data in inner:
-            if isinstance(data, bytes):
-                await outer.send_bytes(data)
-            else:
-                await outer.send_text(data)
+            if message["type"] == "websocket.disconnect" or data is None:
+                return
+            while connection.full:
+                await asyncio.sleep(FULL_SECONDS)
+            door.call(connection.arrive, data)

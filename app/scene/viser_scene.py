@@ -7,7 +7,6 @@ from collections.abc import Callable
 from typing import Any, Literal
 
 import numpy as np
-import rich
 import viser
 
 from lineseg import Knob, Params, Thresholds
@@ -15,6 +14,7 @@ from lineseg import Knob, Params, Thresholds
 from ..frame.geometry import Bounds
 from .palette import linear
 from .picture import Picture
+from .portless import Door, PortlessServer
 from .shapes import Lines, Points
 
 PLAN_FOV = math.radians(10)
@@ -62,18 +62,6 @@ Change = Callable[[dict[str, Any]], None]
 Pick = Callable[[tuple[float, float], float], None]
 
 
-class LocalServer(viser.ViserServer):
-    """A viser server that only this machine can reach and that never opens a share tunnel."""
-
-    def __init__(self) -> None:
-        # viser prints to stdout, which belongs to the command line.
-        rich.get_console().quiet = True
-        super().__init__(host="127.0.0.1", port=0, label="lineseg", verbose=False)
-
-    def request_share_url(self, verbose: bool = True) -> str | None:
-        return None
-
-
 class ViserScene:
     """Draws Pictures; clicks and viser's own sliders become changes of the View.
 
@@ -83,7 +71,7 @@ class ViserScene:
     """
 
     def __init__(self, change: Change, pick: Pick) -> None:
-        self._server = LocalServer()
+        self._server = PortlessServer()
         self._metres_per_pixel = 0.02
         self._dark: bool | None = None
         self._bounds: Bounds | None = None
@@ -114,8 +102,8 @@ class ViserScene:
         self._server.on_client_connect(self._follow_camera)
 
     @property
-    def port(self) -> int:
-        return self._server.get_port()
+    def door(self) -> Door:
+        return self._server.door
 
     def draw(self, picture: Picture, params: Thresholds, dark: bool) -> None:
         """Pass the picture to viser; only changes are sent, within 16 ms or with `flush`."""

@@ -19,6 +19,7 @@ from ..frame.geometry import beam_near
 from ..frame.stepping import columns_of
 from ..live.ring import LiveRecording
 from ..newest import Newest
+from ..scene.portless import Door
 from ..scene.viser_scene import ViserScene
 from ..shelf.label_files import LabelFiles
 from ..shelf.library import Library
@@ -106,8 +107,8 @@ class Session:
         self._forget_labels = files.on_change(self._relabelled)
 
     @property
-    def viser_port(self) -> int:
-        return self._scene.port
+    def door(self) -> Door:
+        return self._scene.door
 
     @property
     def view(self) -> View:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import socket
 import subprocess
 import time
 from collections.abc import Callable, Iterator
@@ -11,7 +12,7 @@ from pathlib import Path
 import pytest
 from lineseg_app.frame.findings import findings
 from lineseg_app.rerun.live import LiveRerun, answers
-from lineseg_app.rerun.viewer import executable, free_ports, quiet_environment
+from lineseg_app.rerun.viewer import executable, quiet_environment
 from lineseg_app.view import View
 from rrd import rows_of
 from scenes import wall_ahead
@@ -57,7 +58,8 @@ def frames_in(file: Path) -> list[int]:
 def test_a_viewer_hears_frames_and_thresholds_as_they_change_and_one_that_returns_hears_what_is_shown(
     walls: Recording, tmp_path: Path
 ):
-    (port,) = free_ports(1)
+    with socket.create_server(("127.0.0.1", 0)) as free:
+        port = free.getsockname()[1]
     live = LiveRerun(port)
 
     def look(frame: int, **values: float) -> None:
