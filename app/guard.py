@@ -2,20 +2,25 @@
 
 from __future__ import annotations
 
-import hashlib
-import hmac
 import ipaddress
+import re
 import socket
 from collections.abc import Iterable
 from http.cookies import CookieError, SimpleCookie
-from urllib.parse import parse_qsl, urlsplit
+from typing import NamedTuple
+from urllib.parse import parse_qsl
 
 from starlette.datastructures import Headers, MutableHeaders
-from starlette.responses import JSONResponse, RedirectResponse, Response
+from starlette.responses import HTMLResponse, JSONResponse, RedirectResponse, Response
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+from .keys import COOKIE_SECONDS, Keys, TooManyGuessesError
 
 LOOPBACK_NAMES = frozenset({"localhost", "127.0.0.1", "::1"})
 POLICY_REFUSAL = 1008
+PLACE = re.compile(r"(?P<name>[a-z0-9_.-]+|\[[0-9a-f:.]+\])(?::(?P<port>[0-9]{1,5}))?", re.IGNORECASE)
+ORIGIN = re.compile(rf"(?P<scheme>https?)://(?P<place>{PLACE.pattern})", re.IGNORECASE)
+DEFAULT_PORTS = {"http": 80, "https": 443}
 
 # No inline or foreign code runs. eval stays allowed, because browser automation needs it to wait for conditions.
 PAGE_POLICY = (
@@ -46,18 +51,17 @@ class Guard:
     """ASGI middleware.
 
     Host must be a name of this machine. This blocks DNS rebinding, where a foreign page points its own name at this
-    address. Any port is accepted, because requests may come through tunnels. Origin, if sent, must equal the Host.
+    address. Any port is accepted, because requests may come through tunnels. Origin, if sent, must be http or https at
+    the same name and port: behind a proxy, the page may be https.
     """
 
     def __init__(self, app: ASGIApp, host: str, token: str | None, names: Iterable[str] = ()) -> None:
         self._app = app
-        self._token = token
+        self._keys = Keys(token) if token else None
         self._any_address = is_any(host)
         self._names = LOOPBACK_NAMES | {host.lower().strip("[]")} | {name.lower() for name in names}
         if self._any_address:
             self._names |= {socket.gethostname().lower(), f"{socket.gethostname().lower()}.local"}
-        # Cookies ignore ports, so several servers on one machine need different cookie names.
-        self.cookie = f"lineseg-{_digest(token or '')[:8]}"
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         if scope["type"] not in ("http", "websocket"):
@@ -74,44 +78,82 @@ class Guard:
     def _refusal(self, scope: Scope) -> Response | None:
         """The response that rejects a request, or None."""
         headers = Headers(scope=scope)
-        host, origin = headers.get("host", ""), headers.get("origin")
-        if not self._knows(host):
-            return _forbidden(f"{host or 'an empty Host'} is not a name of this server; use the address it printed")
-        if origin is not None and urlsplit(origin).netloc.lower() != host.lower():
-            return _forbidden(f"requests from {origin} are refused; this server answers its own page only")
+        hosts, origins = headers.getlist("host"), headers.getlist("origin")
+        host = place_of(hosts[0]) if len(hosts) == 1 else None
+        if host is None or not (host.name in self._names or (self._any_address and is_address(host.name))):
+            shown = " and ".join(hosts) or "an empty Host"
+            return _refused(f"{shown} is not a name of this server; use the address it printed")
+        if not all(_is_at(origin, host) for origin in origins):
+            return _refused(f"requests from {' and '.join(origins)} are refused; this server answers its own page only")
         site = headers.get("sec-fetch-site")
-        if site == "cross-site" and headers.get("sec-fetch-mode") != "navigate":
-            return _forbidden("requests from other sites are refused; this server answers its own page only")
-        return self._token_refusal(scope, headers) if self._token else None
+        if site in ("cross-site", "same-site") and headers.get("sec-fetch-mode") != "navigate":
+            return _refused("requests from other pages are refused; this server answers its own page only")
+        return self._token_refusal(scope, headers, self._keys) if self._keys else None
 
-    def _token_refusal(self, scope: Scope, headers: Headers) -> Response | None:
-        if scope["type"] == "http" and scope["path"] == "/":
-            offered = dict(parse_qsl(scope["query_string"].decode("latin-1"))).get("token")
-            if offered is not None and self._is_token(offered):
-                answer = RedirectResponse("/", status_code=303)
-                answer.set_cookie(self.cookie, _digest(self._token or ""), httponly=True, samesite="strict", path="/")
-                return answer
-        scheme, _, offered = headers.get("authorization", "").partition(" ")
-        if scheme.lower() == "bearer" and self._is_token(offered.strip()):
+    def _token_refusal(self, scope: Scope, headers: Headers, keys: Keys) -> Response | None:
+        address = scope["client"][0] if scope.get("client") else None
+        try:
+            if scope["type"] == "http" and scope["path"] == "/":
+                offered = dict(parse_qsl(scope["query_string"].decode("latin-1"))).get("token")
+                if offered is not None and keys.fits(offered, address):
+                    return _entered(headers, keys)
+            scheme, _, offered = headers.get("authorization", "").partition(" ")
+            if scheme.lower() == "bearer" and keys.fits(offered.strip(), address):
+                return None
+        except TooManyGuessesError as error:
+            return _refused(str(error), 429)
+        if keys.opens(_cookie(headers, keys.cookie)):
             return None
-        if hmac.compare_digest(_cookie(headers, self.cookie).encode(), _digest(self._token or "").encode()):
-            return None
-        return _forbidden(
+        return _refused(
             "this server requires a token; open the address that it printed at the start, or send the token as "
             "Authorization: Bearer"
         )
 
-    def _is_token(self, offered: str) -> bool:
-        return hmac.compare_digest(offered.encode(), (self._token or "").encode())
 
-    def _knows(self, host: str) -> bool:
-        try:
-            name = urlsplit(f"//{host}").hostname
-        except ValueError:
-            return False
-        if not name or "@" in host or "/" in host:
-            return False
-        return name in self._names or (self._any_address and is_address(name))
+class Place(NamedTuple):
+    """A name or address, in lower case and without brackets, and a port, if one was given."""
+
+    name: str
+    port: int | None
+
+
+def place_of(host: str) -> Place | None:
+    """The parts of `name`, `name:port` or `[address]:port`; None if it is anything else."""
+    parts = PLACE.fullmatch(host)
+    if parts is None or int(parts["port"] or 0) > 65_535:
+        return None
+    return Place(parts["name"].lower().strip("[]"), int(parts["port"]) if parts["port"] else None)
+
+
+def _is_at(origin: str, host: Place) -> bool:
+    """Whether an Origin is a page of this host, with the usual port of its scheme if none is given."""
+    parts = ORIGIN.fullmatch(origin)
+    place = place_of(parts["place"]) if parts else None
+    if parts is None or place is None:
+        return False
+    usual = DEFAULT_PORTS[parts["scheme"].lower()]
+    return (place.name, place.port or usual) == (host.name, host.port or usual)
+
+
+def _entered(headers: Headers, keys: Keys) -> Response:
+    """To the page, with a cookie instead of the token in the address.
+
+    A browser sends no strict cookie to where a link on another site led. So the address is first opened once more, by
+    ourselves.
+    """
+    if headers.get("sec-fetch-site") == "cross-site":
+        return HTMLResponse('<!doctype html><meta http-equiv="refresh" content="0"><title>lineseg</title>')
+    answer = RedirectResponse("/", status_code=303)
+    answer.set_cookie(
+        keys.cookie,
+        keys.new_cookie(),
+        max_age=COOKIE_SECONDS,
+        httponly=True,
+        samesite="strict",
+        path="/",
+        secure=headers.get("x-forwarded-proto") == "https",
+    )
+    return answer
 
 
 def is_loopback(host: str) -> bool:
@@ -132,10 +174,6 @@ def is_address(name: str) -> bool:
     return True
 
 
-def _digest(token: str) -> str:
-    return hashlib.sha256(f"lineseg {token}".encode()).hexdigest()
-
-
 def _cookie(headers: Headers, name: str) -> str:
     cookies = SimpleCookie()
     try:
@@ -145,8 +183,8 @@ def _cookie(headers: Headers, name: str) -> str:
     return cookies[name].value if name in cookies else ""
 
 
-def _forbidden(sentence: str) -> Response:
-    return JSONResponse({"message": sentence}, status_code=403)
+def _refused(sentence: str, status: int = 403) -> Response:
+    return JSONResponse({"message": sentence}, status_code=status)
 
 
 def _with_headers(scope: Scope, send: Send) -> Send:

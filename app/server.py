@@ -5,14 +5,18 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import errno
+import html
 import mimetypes
+import os
 import secrets
 import socket
+import tempfile
 import threading
 import webbrowser
-from collections.abc import AsyncIterator, Callable
+from collections.abc import AsyncIterator, Callable, Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from urllib.parse import quote
 
 import uvicorn
 from fastapi import FastAPI, Request
@@ -134,12 +138,13 @@ def serve(settings: Settings, announce: Callable[[str], None] = lambda address: 
     listener = listen(settings.host, settings.port)
     address = address_of(settings, listener.getsockname()[1])
 
-    def ready() -> None:
-        announce(address)
-        if settings.open_browser:
-            threading.Thread(target=webbrowser.open, args=(address,), daemon=True).start()
+    with listener, _to_open(address, settings) as opened:
 
-    with listener:
+        def ready() -> None:
+            announce(address)
+            if settings.open_browser:
+                threading.Thread(target=webbrowser.open, args=(opened,), daemon=True).start()
+
         server_of(create_app(settings), ready).run(sockets=[listener])
 
 
@@ -164,6 +169,8 @@ def server_of(app: FastAPI, ready: Callable[[], None] = lambda: None) -> Server:
         server_header=False,
         ws_max_size=LARGEST_MESSAGE,
         ws_per_message_deflate=False,
+        # Any client can claim in a header to come from elsewhere; guesses of the token are counted by address.
+        proxy_headers=False,
         timeout_graceful_shutdown=SHUTDOWN_SECONDS,
     )
     return Server(config, ready)
@@ -191,7 +198,26 @@ def address_of(settings: Settings, port: int) -> str:
     """The address to open in a browser on this machine."""
     host = "localhost" if settings.host in ("", "0.0.0.0", "::", "*") else settings.host
     shown = f"[{host}]" if ":" in host else host
-    return f"http://{shown}:{port}/" + (f"?token={settings.token}" if settings.token else "")
+    return f"http://{shown}:{port}/" + (f"?token={quote(settings.token)}" if settings.token else "")
+
+
+@contextlib.contextmanager
+def _to_open(address: str, settings: Settings) -> Iterator[str]:
+    """What the browser is told to open: never the token, because `ps` shows the arguments of programs to everybody."""
+    if not settings.token or not settings.open_browser:
+        yield address
+        return
+    folder = user_folder(settings.data_folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    # Made by mkstemp, so that only this user can read it.
+    descriptor, name = tempfile.mkstemp(prefix="open-", suffix=".html", dir=folder)
+    os.close(descriptor)
+    refresh = f'<!doctype html><meta http-equiv="refresh" content="0; url={html.escape(address)}">'
+    Path(name).write_text(refresh, encoding="utf-8")
+    try:
+        yield Path(name).as_uri()
+    finally:
+        Path(name).unlink(missing_ok=True)
 
 
 def _why_not(error: OSError, host: str, port: int) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import os
 from pathlib import Path
 
 from tyro.conf import Positional
@@ -20,6 +21,7 @@ def view(
     host: str = "127.0.0.1",
     port: int = 8765,
     token: Unset[str] = None,
+    token_file: Unset[Path] = None,
     no_browser: Switch = False,
     rerun: Switch = False,
 ) -> None:
@@ -32,7 +34,9 @@ def view(
         keep: number of a robot's scans to keep; older ones are dropped.
         host: address to listen on; any but the loopback requires a token.
         port: TCP port; 0 picks a free one.
-        token: password that browsers must send (default: a random one if a token is required).
+        token: password that browsers must send (default: the environment variable LINESEG_TOKEN, or a random one if
+            a token is required). Other users of this machine see it in the list of processes; prefer --token-file.
+        token_file: file that holds the token.
         no_browser: do not open a browser.
         rerun: also stream the view to rerun's viewer on port 9876; starts the viewer if none is running.
     """
@@ -62,8 +66,17 @@ def view(
             keep=keep,
             host=host,
             port=port,
-            token=token,
+            token=_token(token, token_file),
             open_browser=not no_browser,
             watch=watch,
         )
         serve(settings, lambda address: print(f"lineseg is at {address} (Ctrl-C stops it)", flush=True))
+
+
+def _token(token: str | None, file: Path | None) -> str | None:
+    if token is not None and file is not None:
+        raise ValueError("give --token or --token-file, not both")
+    found = file.read_text(encoding="utf-8").strip() if file is not None else token or os.environ.get("LINESEG_TOKEN")
+    if found == "" or (found and not found.isprintable()):
+        raise ValueError(f"{file or '--token'}: the token is empty or not one line; write one line of text")
+    return found

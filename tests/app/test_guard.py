@@ -2,11 +2,18 @@
 
 from __future__ import annotations
 
+import queue
 import socket
+import threading
+import time
+from pathlib import Path
+from urllib.parse import urlsplit
+from urllib.request import url2pathname
 
 import pytest
-from lineseg_app.server import Settings, create_app, listen
-from live import Address, Page, page_of, serving
+from lineseg_app.keys import COOKIE_SECONDS, GUESSES, Keys, TooManyGuessesError
+from lineseg_app.server import Settings, create_app, listen, serve, server_of
+from live import SECONDS, Address, Page, page_of, serving
 from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect
 
@@ -50,13 +57,27 @@ def test_a_foreign_host_is_refused_on_sockets(server: Address):
     assert refused.value.response.status_code == 403
 
 
+@pytest.mark.parametrize("start", ["http://{}#evil", "http://{}/", "http://user@{}", "ftp://{}", "http://{}.", "{}"])
+def test_an_origin_that_only_resembles_ours_is_refused(server: Address, start: str):
+    origin = start.format(f"127.0.0.1:{server.port}")
+    assert server.get("/", headers={"Origin": origin}).status_code == 403
+    headers = [("Origin", server.http), ("Origin", origin)]
+    assert server.get("/", headers=headers).status_code == 403
+
+
+@pytest.mark.parametrize("host", ["127.0.0.1:8401#evil", "localhost:99999", "localhost:", "local\thost", "[::1", "::1"])
+def test_a_host_that_only_resembles_ours_is_refused(server: Address, host: str):
+    assert server.get("/", headers={"Host": host}).status_code in (400, 403)
+
+
 def test_requests_of_the_page_itself_are_accepted(server: Address):
     with page_of(server, origin=server.http) as page:
         page.hello()
 
 
 def test_other_sites_may_not_embed_what_the_server_has(server: Address):
-    assert server.get("/static/main.js", headers={"Sec-Fetch-Site": "cross-site"}).status_code == 403
+    for site in ("cross-site", "same-site"):
+        assert server.get("/static/main.js", headers={"Sec-Fetch-Site": site}).status_code == 403
     following_a_link = {"Sec-Fetch-Site": "cross-site", "Sec-Fetch-Mode": "navigate"}
     assert server.get("/", headers=following_a_link).status_code == 200
 
@@ -129,11 +150,69 @@ def test_the_token_becomes_a_cookie_that_opens_the_page(public: Address):
     cookie = entered.headers["set-cookie"]
     assert "HttpOnly" in cookie
     assert "SameSite=strict" in cookie
+    assert "Max-Age=" in cookie
     assert "sesame" not in cookie
+    assert public.get("/?token=sesame").headers["set-cookie"] != cookie
     key = {"Cookie": cookie.split(";")[0]}
     assert public.get("/", headers=key).status_code == 200
     with page_of(public, additional_headers=key) as page:
         page.hello()
+
+
+def test_a_link_on_another_site_opens_the_page_too(public: Address):
+    # A browser would not send the strict cookie after a redirect from there.
+    answer = public.get("/?token=sesame", headers={"Sec-Fetch-Site": "cross-site", "Sec-Fetch-Mode": "navigate"})
+    assert (answer.status_code, answer.headers.get("set-cookie")) == (200, None)
+    assert 'http-equiv="refresh"' in answer.text
+
+
+def test_guesses_of_the_token_are_slowed_for_each_address():
+    keys = Keys("sesame")
+    assert not any(keys.fits(str(guess), "10.0.0.1") for guess in range(GUESSES))
+    for offered in ("sesame", "wrong"):
+        with pytest.raises(TooManyGuessesError, match="try again in 2 s"):
+            keys.fits(offered, "10.0.0.1")
+    assert keys.fits("sesame", "10.0.0.2")
+    assert not any(keys.fits(str(guess), f"fd00::{guess}") for guess in range(GUESSES))
+    with pytest.raises(TooManyGuessesError):
+        keys.fits("sesame", "fd00::77")
+
+
+def test_whoever_guesses_is_told_to_wait_whatever_address_a_header_claims(tmp_path):
+    with serving(Settings(token="sesame", data_folder=tmp_path)) as server:
+        claims = [{"Authorization": f"Bearer {guess}", "X-Forwarded-For": f"10.0.0.{guess}"} for guess in range(9)]
+        answers = [server.get("/api/params", headers=claim).status_code for claim in claims]
+        assert (answers[0], answers[-1]) == (403, 429)
+
+
+def test_a_cookie_ends_with_its_server_and_after_a_week(monkeypatch: pytest.MonkeyPatch):
+    keys = Keys("sesame")
+    cookie = keys.new_cookie()
+    assert keys.opens(cookie)
+    assert not Keys("sesame").opens(cookie)
+    now = time.monotonic()
+    monkeypatch.setattr(time, "monotonic", lambda: now + COOKIE_SECONDS + 1)
+    assert not keys.opens(cookie)
+
+
+def test_the_browser_is_not_given_the_token_as_an_argument(tmp_path, monkeypatch: pytest.MonkeyPatch):
+    opened = queue.Queue()
+    monkeypatch.setattr("webbrowser.open", opened.put)
+
+    def stop_when_opened() -> None:
+        place = Path(url2pathname(urlsplit(opened.get(timeout=SECONDS)).path))
+        found.append((place.read_text(), place.stat().st_mode & 0o077))
+        servers[0].should_exit = True
+
+    found, servers = [], []
+    real = server_of
+    monkeypatch.setattr("lineseg_app.server.server_of", lambda *given: servers.append(real(*given)) or servers[0])
+    threading.Thread(target=stop_when_opened).start()
+    serve(Settings(port=0, token="open sesame", data_folder=tmp_path))
+    (text, others) = found[0]
+    assert "?token=open%20sesame" in text
+    assert others == 0
+    assert not list(tmp_path.glob("open-*"))
 
 
 def test_a_public_server_answers_to_addresses_but_not_to_any_name(public: Address):
