@@ -16,7 +16,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from ..extractors import EXTRACTORS
-from ..knobs import Thresholds
+from ..knobs import Knob, Thresholds
 from ..noise import RangeNoise, noise
 from ..readers import Cancelled
 from ..scan import Floats, Recording, Scan
@@ -35,8 +35,9 @@ LOWEST, HIGHEST = 2.5, 4.5
 # The choice from noise alone, as a multiple of √(white noise · total scatter); and how much steadier the lines must be
 # at a value that differs from it by a factor of e.
 USUAL, PULL = 3.2, 0.1
-# Steadiness that the present values may lack before others are proposed.
-AS_GOOD = 0.01
+# Steadiness that the present values may lack before others are proposed; the second if they are within one step of
+# these, where lines differ by chance.
+AS_GOOD, AS_GOOD_NEARBY = 0.01, 0.05
 # Below this ε [m] walls break, however good the laser: plaster, skirting boards and doors are no straighter.
 LEAST_EPSILON = 0.02
 # Above this ε [m], walls and what stands before them become one line.
@@ -166,17 +167,24 @@ class _Search:
         lacking = _agreement(self._lines[best], judges) - _agreement(present, judges)
         pieces = _pieces(present, self._lines[best])
         found = replace(self.nothing(""), fitting=proposed, pieces=pieces, tried=self.scales[:count], steady=steady)
-        if lacking <= AS_GOOD:
+        name, _ = _leading(proposed)
+        apart = abs(math.log(getattr(proposed, name) / getattr(self.present, name)))
+        if lacking <= (AS_GOOD if apart > math.log(STEP) else AS_GOOD_NEARBY):
             return found
         return replace(found, params=proposed, changed=True, text=self._text(proposed, pieces))
 
     def _text(self, proposed: Thresholds, pieces: float) -> str:
-        name, _, knob = next(entry for entry in proposed.knobs() if entry[2].scatter)
+        name, knob = _leading(proposed)
         value, before = getattr(proposed, name), getattr(self.present, name)
         told = f"Points scatter by {1e3 * self.scatter:.0f} mm here. {knob.symbol} = {value:g} fits"
         if value > before and pieces >= 1.1:
             return f"{told}; at {before:g} a wall breaks into {pieces:.1f} pieces on average."
         return f"{told} better than {before:g}."
+
+
+def _leading(params: Thresholds) -> tuple[str, Knob]:
+    """The first threshold that depends on the noise, which stands for all of them in a sentence."""
+    return next((name, knob) for name, _, knob in params.knobs() if knob.scatter and getattr(params, name))
 
 
 def _agreement(found: list[Extraction], judges: list[Extraction]) -> float:
