@@ -95,12 +95,15 @@ class Piece(NamedTuple):
 
 
 class Slot:
-    """One kind of work. Starting it again stops the previous work. Answers are sent in the thread of the work."""
+    """One kind of work. Starting it again stops the previous work. Answers are sent in the thread of the work.
+
+    A person waits for auto-tuning; all other work lets other threads go first.
+    """
 
     def __init__(self, name: str, send: Callable[[dict[str, Any]], None]) -> None:
         self._name, self._send = name, send
         self._stop: NDArray[np.bool_] | None = None
-        self._newest = Newest[Piece](f"tuning {name}", self._run, behind=True)
+        self._newest = Newest[Piece](f"tuning {name}", self._run, behind=name != "auto")
 
     def begin(self, number: int, stop: NDArray[np.bool_], work: Callable[[Pool], Answers]) -> None:
         self.stop()

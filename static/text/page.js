@@ -127,7 +127,6 @@ export const pageText = {
     histogram: (/** @type {string} */ symbol, /** @type {number} */ passed, /** @type {number} */ failed) =>
       `${symbol}: ${passed} passed, ${failed} refused`,
     histogramEmpty: "nothing tested",
-    fits: (/** @type {string} */ value) => `${value} fits the scatter of this recording. Set it`,
     usually: (/** @type {boolean} */ on) => (on ? "On by default." : "Off by default."),
     notANumber: (/** @type {string} */ typed) => `“${typed}” is not a number. Enter one such as 0.05.`,
     notWhole: "Enter a whole number.",

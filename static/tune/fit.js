@@ -2,6 +2,7 @@
 // What fits the laser of this recording: its noise as a picture, and thresholds that a person may take over.
 import { h, setText } from "../widgets/dom.js";
 import { withUnit } from "../widgets/scale.js";
+import { pointerHeld } from "../widgets/slider.js";
 import { toast } from "../widgets/toast.js";
 import { tooltip } from "../widgets/tooltip.js";
 import { limitAt } from "./limit.js";
@@ -13,7 +14,6 @@ import { createNoisePicture, reachOf, sigmaAt } from "./noise_picture.js";
 /** @typedef {import("../wire.js").State} State */
 /** onFits: the values that fit, by threshold. @typedef {{ask: () => void, stop: () => void, onParams: (params: Params) => void, onFits: (fits: Params) => void}} Handlers */
 
-// Pauses while a slider is being dragged are shorter than this.
 const PAUSE_MS = 250;
 
 export class Fit {
@@ -119,7 +119,12 @@ export class Fit {
     this.#asked = wanted;
     this.#handlers.stop();
     clearTimeout(this.#timer);
-    this.#timer = setTimeout(() => this.#handlers.ask(), this.#answer ? PAUSE_MS : 0);
+    this.#askIn(this.#answer ? PAUSE_MS : 0);
+  }
+
+  /** @param {number} wait [ms] */
+  #askIn(wait) {
+    this.#timer = setTimeout(() => (pointerHeld() ? this.#askIn(PAUSE_MS) : this.#handlers.ask()), wait);
   }
 
   #forget() {

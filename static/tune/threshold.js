@@ -67,9 +67,7 @@ export class Threshold {
     this.#mark = button("what-if-mark", () => this.#change(this.#marked));
     this.#mark.hidden = true;
     tooltip(this.#mark, () => this.#mark.getAttribute("aria-label") ?? "");
-    this.#tick = button("fit-mark", () => this.#fits !== undefined && this.#change(this.#fits));
-    this.#tick.hidden = true;
-    tooltip(this.#tick, () => this.#tick.getAttribute("aria-label") ?? "");
+    this.#tick = h("span", { class: "fit-mark", hidden: true });
     this.#histogram = hasHistogram(knob) ? createHistogram(knob) : null;
     this.element = this.#createRow();
     this.set(this.#value);
@@ -172,11 +170,8 @@ export class Threshold {
   setFit(value) {
     this.#fits = value;
     this.#span(reaching(this.#knob, value ?? this.#value));
+    this.#tick.style.setProperty("--place", String(placeOf(this.#knob, value ?? 0)));
     this.set(this.#value);
-    if (value === undefined) return;
-    const [knob, words] = [this.#knob, `${this.#knob.symbol.replace("_", " ")} = ${withUnit(this.#knob, value)}`];
-    this.#tick.style.setProperty("--place", String(placeOf(knob, value)));
-    this.#tick.setAttribute("aria-label", this.#text.fits(words));
   }
 
   /** @param {Histogram | undefined} shown */

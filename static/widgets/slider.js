@@ -9,6 +9,14 @@ export function gestureCount() {
   return gestures;
 }
 addEventListener("pointerdown", () => gestures++, true);
+let held = false;
+
+/** Whether a button of the pointer is held down, as while a slider is being dragged. */
+export function pointerHeld() {
+  return held;
+}
+addEventListener("pointerdown", () => (held = true), true);
+for (const end of ["pointerup", "pointercancel"]) addEventListener(end, () => (held = false), true);
 addEventListener("keydown", (event) => !event.repeat && gestures++, true);
 
 /**
