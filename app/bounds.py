@@ -12,6 +12,7 @@ RecordingId = Annotated[str, Field(max_length=8000)]
 Number = Annotated[float, Field(allow_inf_nan=False)]
 Count = Annotated[int, Field(ge=0, le=2**31)]
 Values = Annotated[dict[Name, int | Number], Field(max_length=64)]
+ReadingValues = Annotated[dict[Name, str | int | Number | None], Field(max_length=64)]
 
 LONGEST_WORD = 60
 

@@ -23,6 +23,7 @@ HEAD = """// Generated from the server's types by `python -m lineseg_app.page_ty
 """
 SHARED = {
     "Params": dict[str, float],
+    "Reading": dict[str, str | float],
     "Point": drawn.Point,
     "Line": drawn.Line,
     "Box": drawn.Box,

@@ -26,6 +26,8 @@ from starlette.exceptions import HTTPException
 from starlette.staticfiles import StaticFiles
 from starlette.types import Scope
 
+from lineseg.readers import Reading
+
 from .guard import Guard, is_loopback
 from .live.address import Address
 from .live.hub import Live
@@ -58,15 +60,14 @@ SHUTDOWN_SECONDS = 3
 class Settings:
     """Settings of the server.
 
-    files: recordings to offer, the first is shown; topic: of the first file. robots: sources of live scans; the newest
-    `keep` scans of each are kept. host: any address but the loopback needs a token; one is made if none
-    is given. names: other host names of this machine. upload_limit, upload_total: [bytes].
+    files: recordings to offer, the first is shown; reading: how it is read. robots: sources of live scans; the newest
+    `keep` scans of each are kept. host: any address but the loopback needs a token; one is made if none is given. names: other host names of this machine. upload_limit, upload_total: [bytes].
     data_folder: for the list of recent files and for labels that cannot be next to their recording (default: the user's
     data folder). watch: gets whatever is drawn in any tab.
     """
 
     files: tuple[Path, ...] = ()
-    topic: str | None = None
+    reading: Reading = field(default_factory=Reading)
     robots: tuple[Address, ...] = ()
     keep: int = 3000
     host: str = "127.0.0.1"
@@ -115,7 +116,7 @@ def create_app(settings: Settings) -> FastAPI:
     add_export(app, library, sessions)
     add_inspection(app, sessions, files)
     add_labels(app, library, files)
-    add_sockets(app, library, sessions, settings.topic)
+    add_sockets(app, library, sessions, settings.reading)
     add_sweep_table(app)
     add_tuning(app, sessions, user_folder(settings.data_folder) / "studies")
     add_push(app, library)

@@ -1,7 +1,10 @@
 """The View: what one browser tab shows. Each field is declared once, and everything else follows from that."""
 
+import hashlib
+import json
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass, field, fields, replace
+from functools import cached_property
 from typing import Annotated, Any, Literal, Self
 
 from pydantic import Field, ValidationError
@@ -9,8 +12,9 @@ from pydantic import Field, ValidationError
 from lineseg import EXTRACTORS, Params, Thresholds
 from lineseg.doubt import SCORES, Score
 from lineseg.doubt.suspicion import WEIGHTS
+from lineseg.readers import Reading
 
-from .bounds import Count, Message, Name, RecordingId, Values, sentence
+from .bounds import Count, Message, Name, ReadingValues, RecordingId, Values, sentence
 from .view_field import EACH, ViewField, patch_of, view_fields
 
 DIFFERENCE = Score(
@@ -104,7 +108,31 @@ def _changed_weights(values: Mapping[str, float]) -> tuple[tuple[str, float], ..
     return tuple(sorted((name, float(weight)) for name, weight in values.items() if weight != WEIGHTS[name]))
 
 
-PLACE = ("recording", "topic")
+# The topic is a field of its own, because it is chosen so often.
+REREAD = tuple(name for name in Reading.declared() if name != "topic")
+
+
+def _reread(reading: Reading, values: Mapping[str, Any]) -> Reading:
+    """A copy with some fields changed; links give numbers as text."""
+    if "topic" in values:
+        raise ValueError("reading has no topic; set the topic of the view")
+    return reading.but(**{name: _typed(name, value) for name, value in values.items()})
+
+
+def _typed(name: str, value: Any) -> Any:
+    number = name in REREAD and Reading.type_of(name) in (int, float)
+    try:
+        return float(value) if number and isinstance(value, str) else value
+    except ValueError:
+        return value
+
+
+def told_reading(reading: Reading) -> dict[str, Any]:
+    """All fields in a patch, None for those that are not given."""
+    return {name: getattr(reading, name) for name in REREAD}
+
+
+PLACE = ("recording", "topic", "reading")
 
 
 @dataclass(frozen=True)
@@ -113,6 +141,7 @@ class View:
 
     A field comes after the fields that reset it or switch it off. Links list the fields in this order.
 
+    reading: how the file is read, apart from the topic.
     step: the decision that the replay shows, or None for the whole result.
     selected: the beam to explain, or None. score: shown in the strip. against: the result to compare with.
     weights: of the suspicion, if not the defaults.
@@ -128,6 +157,18 @@ class View:
         ViewField(link="recording", mirrored=True, take=lambda view, id: id or view.recording),
     ] = ""
     topic: Annotated[Name | None, ViewField(link="topic", mirrored=True, reset_by=("recording",))] = None
+    reading: Annotated[
+        Reading,
+        ViewField(
+            link="reading",
+            mirrored=True,
+            reset_by=("recording", "topic"),
+            patch=ReadingValues,
+            take=lambda view, values: _reread(view.reading, values),
+            tell=told_reading,
+            written="reading",
+        ),
+    ] = field(default_factory=Reading)
     frame: Annotated[Count, ViewField(link="frame", mirrored=True, reset_by=PLACE, lasting=False)] = 0
     method: Annotated[Name, ViewField(link="method", mirrored=True, choices=EXTRACTORS)] = "region-growing"
     params: Annotated[
@@ -186,11 +227,11 @@ class View:
     dark: Annotated[bool, ViewField(link=None, mirrored=False)] = False
 
     def patched(self, patch: Mapping[str, Any]) -> Self:
-        """A copy with some fields changed; `params`, `layers` and `weights` may be given in part.
+        """A copy with some fields changed; `reading`, `params`, `layers` and `weights` may be given in part.
 
-        A change resets other fields unless the patch sets them: another recording or topic starts at frame 0, another
-        method with its defaults. Choosing a frame or a step stops following live frames. Raises ValueError naming any
-        bad value.
+        A change resets other fields unless the patch sets them: another recording, topic or reading starts at frame 0,
+        another method with its defaults. Choosing a frame or a step stops following live frames. Raises ValueError
+        naming any bad value.
         """
         declared = view_fields(type(self))
         for name in patch:
@@ -232,6 +273,17 @@ class View:
         except ValidationError as error:
             raise ValueError(sentence(error)) from None
         return self.patched(patch.changes())
+
+    @property
+    def read_as(self) -> Reading:
+        """The Reading with the topic. Raises ValueError for a bad topic."""
+        return self.reading if self.topic is None else self.reading.but(topic=self.topic)
+
+    @cached_property
+    def place(self) -> str:
+        """A short text that is equal for Views of the same scans."""
+        said = json.dumps([self.recording, self.topic, self.reading.given()])
+        return hashlib.sha256(said.encode()).hexdigest()[:16]
 
     @property
     def all_weights(self) -> dict[str, float]:

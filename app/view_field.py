@@ -16,7 +16,7 @@ from .told.typescript import As
 # The link key of a field with several values: each value has its own name in the link.
 EACH = "*"
 
-Written = Literal["text", "whole", "choice", "thresholds", "pinned", "numbers", "switches"]
+Written = Literal["text", "whole", "choice", "thresholds", "pinned", "numbers", "switches", "reading"]
 
 
 @dataclass(frozen=True, eq=False)

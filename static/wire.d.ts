@@ -5,6 +5,8 @@
 
 export type Params = Record<string, number>;
 
+export type Reading = Record<string, string | number>;
+
 export type Point = [number, number];
 
 export type Line = [number, number, number];
@@ -59,6 +61,7 @@ export interface ViewPatch {
   mode?: "tune" | "learn" | "inspect";
   recording?: string;
   topic?: string | null;
+  reading?: Record<string, string | number | null>;
   frame?: number;
   method?: string;
   params?: Record<string, number>;
@@ -118,10 +121,10 @@ export interface SaidLine {
   end?: [number, number] | null;
 }
 
-/** All labels of a frame; revision: the one they are based on. */
+/** All labels of a frame; reading: how the file is read; revision: the one they are based on. */
 export interface Said {
   recording: string;
-  topic?: string | null;
+  reading?: Record<string, string | number | null>;
   frame: number;
   revision: number;
   lines: SaidLine[] | null;
@@ -183,12 +186,13 @@ export interface SendAsked {
 
 // What the server sends
 
-/** A recording in the menu; `missing` if its file no longer exists. */
+/** A recording in the menu; `missing` if its file no longer exists. reading: how it was last read. */
 export interface RecordingEntry {
   id: string;
   label: string;
   group: "Live" | "Samples" | "Lessons" | "Recent" | "Uploads" | "Command line" | "Drawn";
   missing: boolean;
+  reading: Record<string, string | number>;
 }
 
 /** A threshold: its name and its bounds. low, high, step: of its slider; least, most: allowed range, and why. */
@@ -288,12 +292,20 @@ export interface LiveStatus {
   publishTrouble: string;
 }
 
-/** A failed request, and why; rev: of the change that caused it, if any. */
+/** A recording that could not be opened as it was to be read. */
+export interface Refused {
+  recording: string;
+  topic: string | null;
+  reading: Record<string, string | number>;
+}
+
+/** A failed request, and why; rev: of the change that caused it, if any. refused: the recording, if it is one. */
 export interface Failure {
   type: "error";
   where: "recording" | "params" | "frame" | "view" | "upload" | "server";
   message: string;
   rev: number | null;
+  refused: Refused | null;
 }
 
 /** All decisions of the frame in the next `drawn` message. */
@@ -316,13 +328,13 @@ export interface Drawn {
  * Sent as one binary frame: the length of the head (uint32); the head in JSON, padded with spaces to a multiple of
  * 4 bytes; and `values`: float32, score after score in the order of Welcome.scores, each with ⌈frames / stride⌉
  * frames. All little-endian. The last score, the differences from A, and the totals of every fate are present only
- * if there is an A and every frame is known. first: number of the first frame, as in the state.
+ * if there is an A and every frame is known. place, first: as in the state.
  */
 export interface Surveyed {
   type: "survey";
   rev: number;
   recording: string;
-  topic: string;
+  place: string;
   method: string;
   params: Record<string, number>;
   frames: number;
@@ -458,17 +470,48 @@ export interface Labels {
   trouble: string;
 }
 
+/** Something that the file does not say. change: other values of the Reading to try. */
+export interface Guess {
+  field: string;
+  value: string;
+  why: string;
+  change: Record<string, string | number>;
+}
+
+/** Something odd about the file. change: of the Reading, that would mend it; {} if none would. */
+export interface Notice {
+  kind: string;
+  text: string;
+  change: Record<string, string | number>;
+}
+
+/**
+ * What a file was taken for.
+ *
+ * line: one line that says it; used: the Reading with all that was found or guessed. skipped: a sentence about
+ * scans that could not be read, or "". believable: whether the stamps can be believed.
+ */
+export interface Account {
+  line: string;
+  used: Record<string, string | number>;
+  guesses: Guess[];
+  notices: Notice[];
+  skipped: string;
+  believable: boolean;
+}
+
 /**
  * What is on the screen.
  *
  * view: the whole View, as a patch that restores it. label: of the recording; pack: description in a failure pack.
- * topic: on the screen. live: whether the newest frame is followed, null if the recording is not live; first:
- * number of the first frame, above 0 if a live recording has dropped frames. stamp: time since the first scan [s].
- * covered: number of `valid` beams in segments. steps: number of decisions. difference: fates of the lines of A.
- * truth: whether the recording has its true walls. agreement: in the mode Inspect if the truth is known; labels: in
- * the mode Inspect if the recording can have labels. references: available references; judgedBy: the one in use, ""
- * without truth. extent: box around the points of the frame, bounds: of the recording [m]. extractionUs: time of
- * the extraction [µs].
+ * topic: on the screen. place: equal for states of the same scans. readAs: the Reading that was asked for, with the
+ * topic. account: what the file was taken for, null if there is no file. live: whether the newest frame is
+ * followed, null if the recording is not live; first: number of the first frame, above 0 if a live recording has
+ * dropped frames. stamp: time since the first scan [s]. covered: number of `valid` beams in segments. steps: number
+ * of decisions. difference: fates of the lines of A. truth: whether the recording has its true walls. agreement: in
+ * the mode Inspect if the truth is known; labels: in the mode Inspect if the recording can have labels. references:
+ * available references; judgedBy: the one in use, "" without truth. extent: box around the points of the frame,
+ * bounds: of the recording [m]. extractionUs: time of the extraction [µs].
  */
 export interface Scene {
   view: View;
@@ -479,6 +522,9 @@ export interface Scene {
   pack: Pack | null;
   topic: string;
   topics: Topic[];
+  place: string;
+  readAs: Record<string, string | number>;
+  account: Account | null;
   frame: number;
   frames: number;
   live: boolean | null;
@@ -536,6 +582,9 @@ export interface DrawnState {
   pack: Pack | null;
   topic: string;
   topics: Topic[];
+  place: string;
+  readAs: Record<string, string | number>;
+  account: Account | null;
   frame: number;
   frames: number;
   live: boolean | null;
@@ -879,7 +928,7 @@ export interface Lessons {
 export interface FieldEntry {
   name: string;
   link: string | null;
-  written: "text" | "whole" | "choice" | "thresholds" | "pinned" | "numbers" | "switches" | "switch";
+  written: "text" | "whole" | "choice" | "thresholds" | "pinned" | "numbers" | "switches" | "reading" | "switch";
   default: any;
   choices: string[];
   most: number | null;

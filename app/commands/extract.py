@@ -5,16 +5,16 @@ from __future__ import annotations
 import json
 import sys
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 from tyro.conf import OmitArgPrefixes, Positional, arg
 
-from lineseg import __version__
 from lineseg.covariance import Noise
 from lineseg.knobs import Thresholds
 from lineseg.scan import Recording
 from lineseg.writers import SEGMENT_WRITERS, write_segments
 
+from ..made import about_of
 from .flag_types import Several, Switch, Unset
 from .progress import counted, open_with_progress
 from .reading import ReadingFlags, each_file, files_of, reading_of
@@ -85,18 +85,3 @@ def _write(recording: Recording, method: str, params: Thresholds, target: Path |
     write_segments(target, None, rows, noise, about)
     if target.suffix.lower() == ".csv":
         target.with_name(f"{target.name}.json").write_text(json.dumps(about, indent=1) + "\n", encoding="utf-8")
-
-
-def about_of(recording: Recording, method: str, params: Thresholds) -> dict[str, Any]:
-    """How a file was read and its segments extracted, for JSON: enough to do it again."""
-    account = recording.account
-    assert account is not None
-    return {
-        "lineseg": __version__,
-        "file": recording.name,
-        "taken_for": account.line,
-        "reading": account.used.given(),
-        "guessed": [guess.field for guess in account.guesses],
-        "method": method,
-        "params": params.numbers(),
-    }

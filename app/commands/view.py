@@ -6,9 +6,10 @@ import contextlib
 import os
 from pathlib import Path
 
-from tyro.conf import Positional
+from tyro.conf import OmitArgPrefixes, Positional
 
 from .flag_types import Switch, Unset
+from .reading import ReadingFlags, reading_of
 
 MOST_KEPT = 20_000
 
@@ -16,7 +17,7 @@ MOST_KEPT = 20_000
 def view(
     file: Positional[Unset[str]] = None,
     *,
-    topic: Unset[str] = None,
+    how: OmitArgPrefixes[ReadingFlags],  # type: ignore[valid-type]
     keep: int = 3000,
     host: str = "127.0.0.1",
     port: int = 8765,
@@ -30,7 +31,7 @@ def view(
     Args:
         file: recording to open: CARMEN log, ROS 1 or ROS 2 bag, MCAP, NPZ or text (default: a sample).
             Or a robot to watch live: ws://robot:9090 (rosbridge), ws://robot:8765 (Foxglove).
-        topic: laser topic to use (default: the first).
+        how: how to read the file; of a robot, only the topic can be chosen.
         keep: number of a robot's scans to keep; older ones are dropped.
         host: address to listen on; any but the loopback requires a token.
         port: TCP port; 0 picks a free one.
@@ -40,12 +41,20 @@ def view(
         no_browser: do not open a browser.
         rerun: also stream the view to rerun's viewer on port 9876; starts the viewer if none is running.
     """
+    from lineseg.readers import Reading
+
     from ..live.address import Address, is_address
     from ..server import Settings, serve
 
     files, robots = (), ()
+    reading = reading_of(how)
     if file is not None and is_address(file):
-        robots = (Address(file, topic),)
+        if others := [name for name in reading.given() if name != "topic"]:
+            raise ValueError(
+                f"{', '.join(others)} cannot be used with a robot, which says how its scans are to be read."
+            )
+        robots = (Address(file, reading.topic),)
+        reading = Reading()
     elif file is not None:
         path = Path(file)
         if not path.exists():
@@ -61,7 +70,7 @@ def view(
             watch = stack.enter_context(live_rerun()).show
         settings = Settings(
             files=files,
-            topic=None if robots else topic,
+            reading=reading,
             robots=robots,
             keep=keep,
             host=host,

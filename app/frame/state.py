@@ -7,6 +7,7 @@ from dataclasses import asdict
 import numpy as np
 
 from lineseg import Decision, FrameLabels, Recording, Segment, TrueLine, difference
+from lineseg.readers import Account
 from lineseg.scan import PackAbout
 from lineseg.writers.finite import finite_or_none
 
@@ -46,6 +47,9 @@ def state_of(
         "pack": _pack(recording.pack) if recording.pack is not None else None,
         "topic": recording.topic,
         "topics": [{"name": topic.name, "scans": topic.scans} for topic in recording.topics],
+        "place": view.place,
+        "readAs": view.read_as.given(),
+        "account": account_told(recording.account) if recording.account is not None else None,
         "frame": view.frame,
         "frames": len(recording),
         "live": view.live if isinstance(recording, LiveRecording) else None,
@@ -80,6 +84,21 @@ def state_of(
         "references": reference.available,
         "judgedBy": reference.chosen,
         "extractionUs": round(found.extraction_us, 1),
+    }
+
+
+def account_told(account: Account) -> told.Account:
+    """What a file was taken for, as the page shows it."""
+    return {
+        "line": account.line,
+        "used": account.used.given(),
+        "guesses": [
+            {"field": each.field, "value": each.value, "why": each.why, "change": each.change}
+            for each in account.guesses
+        ],
+        "notices": [{"kind": each.kind, "text": each.text, "change": each.change} for each in account.notices],
+        "skipped": account.skipped_text,
+        "believable": account.believable,
     }
 
 

@@ -14,6 +14,7 @@ from lineseg import EXTRACTORS, Extraction, Scan, write_pack
 from lineseg.writers import SEGMENT_WRITERS, figure_svg, figure_title, segment_lines
 
 from ..live.ring import first_of
+from ..made import about_of
 from ..session.session import Shown
 from ..session.sessions import Sessions
 from ..shelf.library import Library
@@ -57,11 +58,13 @@ def add_export(app: FastAPI, library: Library, sessions: Sessions) -> None:
         if to not in SEGMENT_WRITERS:
             raise HTTPException(400, f"segments cannot be written as {to!r}; choose from {', '.join(SEGMENT_WRITERS)}")
         headers = attachment(library.label(shown.view.recording), to)
-        return StreamingResponse(segment_lines(to, _rows(shown)), media_type=SEGMENT_TYPES[to], headers=headers)
+        about = about_of(shown.recording, shown.view.method, shown.view.params)
+        lines = segment_lines(to, _rows(shown), about=about)
+        return StreamingResponse(lines, media_type=SEGMENT_TYPES[to], headers=headers)
 
 
 def _rows(shown: Shown) -> Iterator[tuple[int, Scan, Extraction]]:
     """Every frame under the thresholds on the screen."""
     extract = EXTRACTORS[shown.view.method].extract
     for frame, scan in enumerate(shown.recording):
-        yield frame, scan, extract(scan, shown.view.params)
+        yield shown.recording.number(frame), scan, extract(scan, shown.view.params)

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from collections.abc import Mapping
+from typing import Annotated, Any
 
 from fastapi import FastAPI, Request
 from fastapi.responses import JSONResponse, Response
-from pydantic import Field, ValidationError
+from pydantic import Field, TypeAdapter, ValidationError
 from starlette.concurrency import run_in_threadpool
 from starlette.exceptions import HTTPException
 
 from lineseg import ConflictError, FrameLabels, Recording, Scan, TrueLine
+from lineseg.readers import Reading
 
-from ..bounds import Count, Message, Name, Number, RecordingId, sentence
+from ..bounds import Count, Message, Number, ReadingValues, RecordingId, sentence
 from ..frame.state import labels_told
 from ..shelf.label_files import LIVE, LabelFiles
 from ..shelf.library import Library
@@ -21,6 +23,7 @@ from .body import body_of
 
 LONGEST = 1 << 20
 Place = tuple[Number, Number]
+_READING: TypeAdapter[dict[str, Any]] = TypeAdapter(ReadingValues)
 
 
 class SaidLine(Message):
@@ -33,10 +36,10 @@ class SaidLine(Message):
 
 
 class Said(Message):
-    """All labels of a frame; revision: the one they are based on."""
+    """All labels of a frame; reading: how the file is read; revision: the one they are based on."""
 
     recording: RecordingId
-    topic: Name | None = None
+    reading: ReadingValues = Field(default_factory=dict)
     frame: Count
     revision: Count
     lines: Annotated[list[SaidLine], Field(max_length=5000)] | None
@@ -48,15 +51,15 @@ def add_labels(app: FastAPI, library: Library, files: LabelFiles) -> None:
     """Routes of /api/labels."""
 
     @app.get("/api/labels")
-    def overview(recording: str = "", topic: str | None = None) -> LabelsOverview:
-        known = files.known(recording, _open(library, recording, topic))
+    def overview(recording: str = "", reading: str = "{}") -> LabelsOverview:
+        known = files.known(recording, _open(library, recording, _values(reading)))
         if known is None:
             raise HTTPException(400, LIVE)
         return {"stamp": known.stamp, "frames": {frame: _brief(said) for frame, said in known.labels.items()}}
 
     @app.get("/api/labels/points")
-    def points(frame: int, recording: str = "", topic: str | None = None) -> Sweep:
-        scan = _scan(_open(library, recording, topic), frame)
+    def points(frame: int, recording: str = "", reading: str = "{}") -> Sweep:
+        scan = _scan(_open(library, recording, _values(reading)), frame)
         xy = [(round(float(x), 4), round(float(y), 4)) if x == x else None for x, y in scan.xy]
         return {"points": xy, "fullCircle": scan.full_circle}
 
@@ -77,7 +80,7 @@ def _brief(said: FrameLabels) -> Brief:
 
 def _save(library: Library, files: LabelFiles, said: Said) -> Response:
     try:
-        recording = _open(library, said.recording, said.topic)
+        recording = _open(library, said.recording, said.reading)
         labels = _labels(said, _scan(recording, said.frame))
         saved = files.save(said.recording, recording, said.frame, labels)
     except ConflictError as error:
@@ -100,11 +103,18 @@ def _line(line: SaidLine, scan: Scan) -> TrueLine:
     return TrueLine(line.first, line.last, line.start, line.end)
 
 
-def _open(library: Library, id: str, topic: str | None) -> Recording:
+def _values(text: str) -> dict[str, Any]:
+    try:
+        return _READING.validate_json(text)
+    except ValidationError as error:
+        raise HTTPException(422, f"reading: {sentence(error)}") from None
+
+
+def _open(library: Library, id: str, reading: Mapping[str, Any]) -> Recording:
     if id.startswith("live:"):
         raise HTTPException(400, LIVE)
     try:
-        return library.recording(id, topic)
+        return library.recording(id, Reading().but(**reading))
     except (ValueError, OSError) as error:
         raise HTTPException(404, str(error)) from None
 

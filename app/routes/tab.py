@@ -16,6 +16,7 @@ from starlette.responses import RedirectResponse, Response
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from lineseg import EXTRACTORS, __version__
+from lineseg.readers import Reading
 
 from ..session.following import OWN
 from ..session.session import Session
@@ -35,7 +36,7 @@ SEND_SECONDS = 30.0
 log = logging.getLogger(__name__)
 
 
-def add_sockets(app: FastAPI, library: Library, sessions: Sessions, topic: str | None) -> None:
+def add_sockets(app: FastAPI, library: Library, sessions: Sessions, reading: Reading) -> None:
     """Routes of /api/session and /s/{session}/viser/."""
     methods = [MethodEntry.of(method) for method in EXTRACTORS.values()]
     scores = [ScoreEntry(**asdict(score)) for score in STRIP_SCORES.values()]
@@ -48,7 +49,7 @@ def add_sockets(app: FastAPI, library: Library, sessions: Sessions, topic: str |
             if hello is None:
                 return
             try:
-                session, resumed, complaint = await _session_of(hello, library, sessions, topic)
+                session, resumed, complaint = await _session_of(hello, library, sessions, reading)
             except TooManySessionsError as error:
                 await _tell(socket, Failure(where="server", message=str(error)))
                 await socket.close(TOO_MANY)
@@ -99,16 +100,20 @@ async def _hello(socket: WebSocket) -> Hello | None:
 
 
 async def _session_of(
-    hello: Hello, library: Library, sessions: Sessions, topic: str | None
+    hello: Hello, library: Library, sessions: Sessions, reading: Reading
 ) -> tuple[Session, bool, str | None]:
     """The earlier session, or a new one with the page's View; and an error if that View is not possible."""
     said = hello.view or {}
     former = sessions.resume(hello.session)
     if former is not None:
         return former, True, former.restore(said)
-    view, complaint = View(recording=library.first(), topic=topic).salvaged(said)
-    if view.topic is None and view.recording == library.first():
-        view = replace(view, topic=topic)
+    first = library.first()
+    view, complaint = View(recording=first).salvaged(said)
+    if not reading.given() and not said.get("recording"):
+        # Unless a link says how, the first file is read as the last time.
+        reading = library.reading(first)
+    if view.recording == first and not view.read_as.given():
+        view = replace(view, topic=reading.topic, reading=reading.but(topic=None))
     return await sessions.open(view), False, complaint
 
 

@@ -24,7 +24,7 @@ from ..scene.viser_scene import ViserScene
 from ..shelf.label_files import LabelFiles
 from ..shelf.library import Library
 from ..told.drawn import DrawnState, Timings
-from ..told.messages import Drawn, Failure, Loading, Traced
+from ..told.messages import Drawn, Failure, Loading, Refused, Traced
 from ..view import View
 from .composing import Composer
 from .following import Presence, Presenter, mirrored
@@ -289,6 +289,7 @@ class Session:
                 state["marks"] = found.marks
             send(Drawn(rev=request.rev, origin=request.origin, state=state))
         self.presenter.show(view)
+        self._library.remember(view.recording, view.read_as)
         if self._watch is not None:
             self._watch(view, recording, self._library.label(view.recording), found)
         # After the status: the scene's iframe shares a thread with the page, and its rendering would delay the status.
@@ -320,10 +321,9 @@ class Session:
         def wanted() -> bool:
             with self._lock:
                 now = self._wanted.view
-                same = (now.recording, now.topic) == (view.recording, view.topic)
-                return same and not self._cancelled and not self._closing
+                return now.place == view.place and not self._cancelled and not self._closing
 
-        recording = self._library.recording(view.recording, view.topic, tell, wanted)
+        recording = self._library.recording(view.recording, view.read_as, tell, wanted)
         if not len(recording):
             raise ValueError(f"{label} holds no scans")
         return recording
@@ -335,7 +335,7 @@ class Session:
             self._done = request.number
             cancelled, self._cancelled = self._cancelled, False
             now = self._wanted.view
-            if (now.recording, now.topic) == (view.recording, view.topic):
+            if now.place == view.place:
                 self._broken.add(view.recording)
                 other = View(recording=self._library.instead_of(self._broken), dark=view.dark)
                 self._wanted = replace(self._wanted, view=self._shown.view if self._shown else other)
@@ -347,7 +347,10 @@ class Session:
         if message is None and cancelled:
             message = f"loading {self._library.label(view.recording)} was cancelled"
         if message is not None:
-            self._tell(Failure(where="recording", message=message, rev=request.rev))
+            said = (
+                None if cancelled else Refused(recording=view.recording, topic=view.topic, reading=view.reading.given())
+            )
+            self._tell(Failure(where="recording", message=message, rev=request.rev, refused=said))
         self._survey()
 
     def _tell(self, message: BaseModel) -> None:

@@ -40,7 +40,7 @@ class Key(NamedTuple):
     """The part of a View that the scores depend on."""
 
     recording: str
-    topic: str | None
+    place: str
     method: str
     params: Thresholds
     against: Against | None
@@ -53,7 +53,7 @@ def key_of(view: View) -> Key:
     deep = (view.mode == "inspect" or view.score in ("unstable", "suspicion")) and not view.recording.startswith(
         "live:"
     )
-    return Key(view.recording, view.topic, view.method, view.params, view.against, view.weights, deep)
+    return Key(view.recording, view.place, view.method, view.params, view.against, view.weights, deep)
 
 
 @dataclass(frozen=True, eq=False)
@@ -221,7 +221,7 @@ def surveyed(
     return Surveyed(
         rev=subject.rev,
         recording=subject.key.recording,
-        topic=subject.recording.topic,
+        place=subject.key.place,
         method=subject.key.method,
         params=subject.key.params.numbers(),
         frames=len(subject.recording),

@@ -18,6 +18,7 @@ from lineseg.truth.labels import Labels
 from ..live.ring import LiveRecording
 from .library import Library
 
+LONGEST_HOW = 60
 LIVE = "a live recording cannot be labelled, because its frames are replaced; save it as a file first"
 
 
@@ -116,10 +117,17 @@ def _stamp(path: Path) -> str:
 
 
 def _stream(recording: Recording) -> str:
-    """Distinguishes further streams of a file from the first."""
-    if not recording.topics or recording.topic == recording.topics[0].name:
-        return ""
-    return "." + re.sub(r"\W+", "_", recording.topic).strip("_")
+    """Distinguishes further streams of a file, and other ways to read it, from the first."""
+    parts = []
+    if recording.topics and recording.topic != recording.topics[0].name:
+        parts.append(re.sub(r"\W+", "_", recording.topic).strip("_"))
+    given = recording.account.given.given() if recording.account is not None else {}
+    how = ",".join(f"{name}={value}" for name, value in given.items() if name != "topic")
+    if how:
+        clean = re.sub(r"[^\w=,.+-]+", "_", how)
+        exact = clean == how and len(how) <= LONGEST_HOW
+        parts.append(how if exact else f"{clean[:LONGEST_HOW]}-{hashlib.sha256(how.encode()).hexdigest()[:8]}")
+    return "".join(f".{part}" for part in parts)
 
 
 @lru_cache(maxsize=64)

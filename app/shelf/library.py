@@ -11,7 +11,7 @@ from functools import lru_cache
 from pathlib import Path
 
 from lineseg import Recording
-from lineseg.readers import Cancelled, open_recording
+from lineseg.readers import Cancelled, Reading, open_recording
 from lineseg.simulate.drawing import Drawing
 
 from ..live.hub import Live
@@ -34,10 +34,10 @@ Progress = Callable[[int, int], None]
 
 @dataclass(frozen=True)
 class _Key:
-    """One stream of one file at one moment; a changed file is another recording."""
+    """A file at one moment, and how it is read; a changed file is another recording."""
 
     path: Path
-    topic: str | None
+    reading: Reading
     changed: int
     size: int
 
@@ -57,7 +57,7 @@ class _Load:
     def start(self, finish: Callable[[_Load], None]) -> None:
         def work() -> None:
             try:
-                self.recording = open_recording(self._key.path, topic=self._key.topic, progress=self._report)
+                self.recording = open_recording(self._key.path, self._key.reading, progress=self._report)
             except BaseException as error:
                 self.error = error
             finish(self)
@@ -82,7 +82,11 @@ class Library:
         self.live = live or Live()
         self._samples = _samples()
         self._files = {f"file:{_digest(path)}": path for path in map(_absolute, files)}
+        self._recents = recent
         self._recent = {f"recent:{_digest(path)}": path for path in recent.paths()}
+        self._readings = {id: recent.reading(path) for id, path in {**self._recent, **self._files}.items()}
+        # Uploads that could not be read; they are kept, so that they may be read in another way.
+        self._unread: set[str] = set()
         for path in reversed(self._files.values()):
             recent.add(path)
         self._open: OrderedDict[_Key, Recording] = OrderedDict()
@@ -106,7 +110,11 @@ class Library:
         opened = set(self._files.values())
         rows = [RecordingEntry(id=source.id, label=source.label, group="Live") for source in self.live]
         rows += [RecordingEntry(id=id, label=path.name, group="Command line") for id, path in self._files.items()]
-        rows += [RecordingEntry(id=f"upload:{up.id}", label=up.name, group="Uploads") for up in self.uploads.all()]
+        rows += [
+            RecordingEntry(id=id, label=up.name, group="Uploads")
+            for up in self.uploads.all()
+            if (id := f"upload:{up.id}") not in self._unread
+        ]
         rows += [RecordingEntry(id=id, label=_title(self._samples[id]), group="Samples") for id in samples]
         rows += [RecordingEntry(id=id, label=_title(self._samples[id]), group="Lessons") for id in lessons]
         rows += [
@@ -115,7 +123,23 @@ class Library:
             if path not in opened
         ]
         rows.append(RecordingEntry(id=f"{DRAWN}{FIRST_DRAWING}", label=DRAWN_LABEL, group="Drawn"))
+        for row in rows:
+            row.reading = self.reading(row.id).given()
         return rows
+
+    def reading(self, id: str) -> Reading:
+        """How a recording was last read."""
+        return self._readings.get(id, Reading())
+
+    def remember(self, id: str, reading: Reading) -> None:
+        """Note how a recording is read, for the next time; that of a file lasts."""
+        if self.reading(id) == reading or id.startswith(("live:", DRAWN)):
+            return
+        self._readings[id] = reading
+        path = {**self._recent, **self._files}.get(id)
+        if path is not None:
+            self._recents.remember(path, reading)
+        self.changed()
 
     def first(self) -> str:
         """The recording of a new tab: a robot or the first file of the command line, else the first sample."""
@@ -128,7 +152,8 @@ class Library:
     def label(self, id: str) -> str:
         if id.startswith(DRAWN):
             return DRAWN_LABEL
-        return next((entry.label for entry in self.entries() if entry.id == id), id)
+        kept = {f"upload:{upload.id}": upload.name for upload in self.uploads.all()}
+        return kept.get(id) or next((entry.label for entry in self.entries() if entry.id == id), id)
 
     def path(self, id: str) -> Path:
         """The file with an id. Raises ValueError for an unknown id."""
@@ -149,19 +174,22 @@ class Library:
     def recording(
         self,
         id: str,
-        topic: str | None = None,
+        reading: Reading | None = None,
         progress: Progress | None = None,
         wanted: Callable[[], bool] = lambda: True,
     ) -> Recording:
         """The recording with an id, read from its file if not open yet. Raises Cancelled once it is not `wanted`.
 
-        For a live source: the scans so far.
+        For a live source: the scans so far. Raises ValueError for a Reading of what is not a file.
         """
+        reading = reading or Reading()
+        if id.startswith(("live:", DRAWN)) and reading.but(topic=None).given():
+            raise ValueError(f"{self.label(id)} is not read from a file, so {', '.join(reading.given())} cannot be set")
         if id.startswith("live:"):
             return self.live.recording(id, lambda: progress and progress(0, 0), wanted)
         if id.startswith(DRAWN):
             return _drawn(id.removeprefix(DRAWN))
-        key = self._key(id, topic)
+        key = self._key(id, reading)
         with self._lock:
             if key in self._open:
                 self._open.move_to_end(key)
@@ -172,12 +200,17 @@ class Library:
                 load.start(lambda load: self._finish(key, load))
             load.waiting += 1
         try:
-            return _wait(load, progress, wanted)
+            recording = _wait(load, progress, wanted)
         except (ValueError, OSError):
-            if id.startswith("upload:") and topic is None:
-                self.uploads.discard(id.partition(":")[2])
+            if id.startswith("upload:") and not reading.given():
+                self._unread.add(id)
                 self.changed()
             raise
+        else:
+            if id in self._unread:
+                self._unread.discard(id)
+                self.changed()
+            return recording
         finally:
             with self._lock:
                 load.waiting -= 1
@@ -186,13 +219,13 @@ class Library:
                     if self._loads.get(key) is load:
                         del self._loads[key]
 
-    def _key(self, id: str, topic: str | None) -> _Key:
+    def _key(self, id: str, reading: Reading) -> _Key:
         path = self.path(id)
         try:
             status = path.stat()
         except FileNotFoundError:
             raise ValueError(f"{path.name} is no longer in {path.parent}") from None
-        return _Key(path, topic, status.st_mtime_ns, status.st_size)
+        return _Key(path, reading, status.st_mtime_ns, status.st_size)
 
     def _finish(self, key: _Key, load: _Load) -> None:
         with self._lock:

@@ -14,6 +14,7 @@ Point = tuple[float, float]
 Line = tuple[float, float, float]
 Box = tuple[float, float, float, float]
 Params = dict[str, int | float]
+Reading = dict[str, str | int | float]
 Reference = Literal["labels", "wall"]
 Presence = Literal["here", "away", "gone"]
 
@@ -150,17 +151,50 @@ class Labels(Labelled):
     trouble: str
 
 
+class Guess(TypedDict):
+    """Something that the file does not say. change: other values of the Reading to try."""
+
+    field: str
+    value: str
+    why: str
+    change: Reading
+
+
+class Notice(TypedDict):
+    """Something odd about the file. change: of the Reading, that would mend it; {} if none would."""
+
+    kind: str
+    text: str
+    change: Reading
+
+
+class Account(TypedDict):
+    """What a file was taken for.
+
+    line: one line that says it; used: the Reading with all that was found or guessed. skipped: a sentence about scans
+    that could not be read, or "". believable: whether the stamps can be believed.
+    """
+
+    line: str
+    used: Reading
+    guesses: list[Guess]
+    notices: list[Notice]
+    skipped: str
+    believable: bool
+
+
 class Scene(TypedDict):
     """What is on the screen.
 
     view: the whole View, as a patch that restores it. label: of the recording; pack: description in a failure pack.
-    topic: on the screen. live: whether the newest frame
-    is followed, null if the recording is not live; first: number of the first frame, above 0 if a live recording has
-    dropped frames. stamp: time since the first scan [s]. covered: number of `valid` beams in segments. steps: number
-    of decisions. difference: fates of the lines of A. truth: whether the recording has its true walls. agreement: in
-    the mode Inspect if the truth is known; labels: in the mode Inspect if the recording can have labels. references:
-    available references; judgedBy: the one in use, "" without truth. extent: box around the points of the frame,
-    bounds: of the recording [m]. extractionUs: time of the extraction [µs].
+    topic: on the screen. place: equal for states of the same scans. readAs: the Reading that was asked for, with the
+    topic. account: what the file was taken for, null if there is no file. live: whether the newest frame is followed,
+    null if the recording is not live; first: number of the first frame, above 0 if a live recording has dropped frames.
+    stamp: time since the first scan [s]. covered: number of `valid` beams in segments. steps: number of decisions.
+    difference: fates of the lines of A. truth: whether the recording has its true walls. agreement: in the mode Inspect
+    if the truth is known; labels: in the mode Inspect if the recording can have labels. references: available
+    references; judgedBy: the one in use, "" without truth. extent: box around the points of the frame, bounds: of the
+    recording [m]. extractionUs: time of the extraction [µs].
     """
 
     view: Annotated[dict[str, Any], As("View")]
@@ -171,6 +205,9 @@ class Scene(TypedDict):
     pack: Pack | None
     topic: str
     topics: list[Topic]
+    place: str
+    readAs: Reading
+    account: Account | None
     frame: int
     frames: int
     live: bool | None

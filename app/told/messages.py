@@ -19,12 +19,13 @@ UNCHECKED = GetPydanticSchema(lambda source, handler: core_schema.any_schema())
 
 
 class RecordingEntry(BaseModel):
-    """A recording in the menu; `missing` if its file no longer exists."""
+    """A recording in the menu; `missing` if its file no longer exists. reading: how it was last read."""
 
     id: str
     label: str
     group: Literal["Live", "Samples", "Lessons", "Recent", "Uploads", "Command line", "Drawn"]
     missing: bool = False
+    reading: dict[str, str | int | float] = {}
 
 
 class KnobEntry(BaseModel):
@@ -160,13 +161,22 @@ class LiveStatus(BaseModel):
     publishTrouble: str
 
 
+class Refused(BaseModel):
+    """A recording that could not be opened as it was to be read."""
+
+    recording: str
+    topic: str | None
+    reading: dict[str, str | int | float]
+
+
 class Failure(BaseModel):
-    """A failed request, and why; rev: of the change that caused it, if any."""
+    """A failed request, and why; rev: of the change that caused it, if any. refused: the recording, if it is one."""
 
     type: Literal["error"] = "error"
     where: Where
     message: str
     rev: int | None = None
+    refused: Refused | None = None
 
 
 class Traced(BaseModel):
@@ -191,13 +201,13 @@ class Surveyed(BaseModel):
     Sent as one binary frame: the length of the head (uint32); the head in JSON, padded with spaces to a multiple of 4
     bytes; and `values`: float32, score after score in the order of Welcome.scores, each with ⌈frames / stride⌉ frames.
     All little-endian. The last score, the differences from A, and the totals of every fate are present only if there is
-    an A and every frame is known. first: number of the first frame, as in the state.
+    an A and every frame is known. place, first: as in the state.
     """
 
     type: Literal["survey"] = "survey"
     rev: int
     recording: str
-    topic: str
+    place: str
     method: str
     params: dict[str, int | float]
     frames: int

@@ -36,8 +36,8 @@ def write_pack(
 ) -> None:
     """Write a zip of the frame (frame.npz, frame.csv), its segments, the trace, a drawing, the thresholds and a note.
 
-    `open_recording` opens it as a recording of one frame, `read_params` reads its lineseg.json. A pack made from a pack
-    keeps the original source.
+    Its lineseg.json also says how the file was read. `open_recording` opens it as a recording of one frame,
+    `read_params` reads its lineseg.json. A pack made from a pack keeps the original source.
     """
     need_recording(recording)
     params = Params() if params is None else params
@@ -51,6 +51,8 @@ def write_pack(
     about = {"format": FORMAT, "version": VERSION} | asdict(
         PackAbout(name, number, method.name, params.numbers(), note)
     )
+    if recording.account is not None and former is None:
+        about["reading"] = recording.account.used.given()
     title = figure_title(recording, frame, method.label)
     with zipfile.ZipFile(target, "w") as pack:
         # First, so that the first bytes identify the file.

@@ -148,7 +148,7 @@ function columnOf({ frames, stride, values }, at) {
 
 /** @param {Survey} survey @param {State} state */
 function samePlace(survey, state) {
-  return survey.recording === state.recording && survey.topic === (state.topic ?? "");
+  return survey.place === state.place;
 }
 
 /** @param {import("../wire.js").Params} one @param {import("../wire.js").Params} other */

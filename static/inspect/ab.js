@@ -12,7 +12,7 @@ import { createAbTable } from "./ab_table.js";
 /** @typedef {import("../wire.js").Method} Method */
 /** @typedef {import("../wire.js").Against} Against */
 
-const PARTS = /** @type {const} */ (["recording", "topic", "method", "params", "against"]);
+const PARTS = /** @type {const} */ (["place", "method", "params", "against"]);
 
 /**
  * The button that pins, and the card that tells how the two differ.

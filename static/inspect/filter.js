@@ -141,14 +141,12 @@ class Filter {
   }
 
   /** @param {State} state */
-  setState({ mode, frames, recording, topics, topic, labels }) {
+  setState({ mode, frames, recording, readAs, place, labels }) {
     this.#frames = frames;
-    const key = `${recording} ${topic} ${labels?.stamp}`;
+    const key = `${place} ${labels?.stamp}`;
     if (mode !== "inspect" || key === this.#key) return;
     this.#key = key;
     if (!labels?.stamp) return this.#take({});
-    const query = new URLSearchParams({ recording });
-    if (topics.length > 1 && topic) query.set("topic", topic);
-    this.#ask(query);
+    this.#ask(new URLSearchParams({ recording, reading: JSON.stringify(readAs) }));
   }
 }

@@ -28,10 +28,7 @@ export function createWhatIf({ session, onChanges }) {
     /** @param {State} state */
     setState(state) {
       const beam = state.explanation?.beam;
-      const key =
-        beam === undefined
-          ? ""
-          : `${state.recording} ${state.topic} ${state.first} ${keyOf({ ...state, beam }, ...PARTS)}`;
+      const key = beam === undefined ? "" : `${state.place} ${state.first} ${keyOf({ ...state, beam }, ...PARTS)}`;
       if (key === asked) return;
       asked = key;
       clearTimeout(waiting);

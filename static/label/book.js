@@ -20,10 +20,10 @@ export class Book {
   /** Saved revisions that no drawn state has shown yet: an older state still on its way must not bring back old labels. @type {Map<number, number>} */
   unseen = new Map();
 
-  /** @param {string} recording @param {string | null} topic */
-  constructor(recording, topic) {
+  /** @param {string} recording @param {import("../wire.js").Reading} reading how its file is read */
+  constructor(recording, reading) {
     this.recording = recording;
-    this.topic = topic;
+    this.reading = reading;
   }
 
   /** @param {number} frame @returns {Said} */
@@ -33,9 +33,9 @@ export class Book {
 
   /** Asks the server to save the labels of a frame. @param {number} frame @param {Said} said @returns {Promise<Answer>} */
   async put(frame, { lines, tags, note }) {
-    const { recording, topic, known } = this;
+    const { recording, reading, known } = this;
     const revision = known.get(frame)?.revision ?? 0;
-    const body = JSON.stringify({ recording, topic, frame, revision, lines, tags, note });
+    const body = JSON.stringify({ recording, reading, frame, revision, lines, tags, note });
     try {
       const response = await fetch("/api/labels", { method: "PUT", body, keepalive: body.length < KEPT_ALIVE });
       return { code: response.status, body: await response.json() };

@@ -12,7 +12,8 @@ const LONGEST_PAST = 500;
 
 export class Keep {
   #onChange;
-  #book = new Book("", null);
+  #place = "";
+  #book = new Book("", {});
   /** One book for each recording that was opened: unsaved labels are kept while another recording is open. @type {Map<string, Book>} */
   #books = new Map();
   /** @type {Edit[]} */ #past = [];
@@ -146,20 +147,20 @@ export class Keep {
   }
 
   /** @param {import("../wire.js").State} state @returns {boolean} whether another has changed what is said of the frame */
-  setState({ recording, topics, topic, frame, labels }) {
-    this.#open(recording, topics.length > 1 ? topic : null);
+  setState({ place, recording, readAs, frame, labels }) {
+    this.#open(place, recording, readAs);
     if (!labels) return false;
     const before = this.of(frame);
     this.#book.see(frame, labels);
     return !same(before, this.of(frame));
   }
 
-  /** @param {string} recording @param {string | null} topic */
-  #open(recording, topic) {
-    if (this.#book.recording === recording && this.#book.topic === topic) return;
-    const key = `${recording} ${topic}`;
-    this.#book = this.#books.get(key) ?? new Book(recording, topic);
-    this.#books.set(key, this.#book);
+  /** @param {string} place @param {string} recording @param {import("../wire.js").Reading} reading */
+  #open(place, recording, reading) {
+    if (place === this.#place) return;
+    this.#place = place;
+    this.#book = this.#books.get(place) ?? new Book(recording, reading);
+    this.#books.set(place, this.#book);
     [this.#past, this.#future, this.#conflict] = [[], [], null];
   }
 }

@@ -279,8 +279,7 @@ class Labels {
   /** @param {State} state */
   setState(state) {
     const before = this.#state;
-    const { frame, recording, topic } = state;
-    const other = !before || frame !== before.frame || recording !== before.recording || topic !== before.topic;
+    const other = !before || state.frame !== before.frame || state.place !== before.place;
     // Typed text belongs to the frame that was shown while typing.
     if (other) this.#tags.commit();
     const changed = this.#keep.setState(state);

@@ -15,9 +15,8 @@ export class FrameSweep {
   }
 
   /** @param {import("../wire.js").State} state of the frame */
-  async need({ recording, topics, topic, frame }) {
-    const query = new URLSearchParams({ recording, frame: String(frame) });
-    if (topics.length > 1 && topic) query.set("topic", topic);
+  async need({ recording, readAs, frame }) {
+    const query = new URLSearchParams({ recording, reading: JSON.stringify(readAs), frame: String(frame) });
     const key = String(query);
     if (key === this.#asked) return;
     [this.#asked, this.now] = [key, null];

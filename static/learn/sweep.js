@@ -151,10 +151,10 @@ export class Sweep {
   }
 
   /** @param {import("../wire.js").State} state */
-  setState({ params, recording, topic, frame, method }) {
+  setState({ params, place, frame, method }) {
     this.#params = params;
     this.#knobs = this.#knobs.map((knob) => reaching(knob, params[knob.name] ?? knob.low));
-    this.#frame = JSON.stringify([recording, topic, frame, method]);
+    this.#frame = JSON.stringify([place, frame, method]);
     this.#refresh();
   }
 }

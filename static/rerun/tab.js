@@ -10,7 +10,7 @@ import { addressOf, record } from "./run.js";
 /** @typedef {{setFrame: (frame: number) => Promise<void>}} Viewer */
 /** @typedef {{session: () => string, dark: () => boolean, onFrame: (frame: number) => void, cancelLabel: string}} Handlers */
 
-const PARTS = /** @type {const} */ (["recording", "topic", "method", "params"]);
+const PARTS = /** @type {const} */ (["place", "method", "params"]);
 
 export class RerunTab {
   /** @type {State | null} */

@@ -47,9 +47,9 @@ export function createCamera(page, stage, text, { drawing, names, onLook }) {
       freeButton.setAttribute("aria-label", camera === "free" ? text.plan : text.free);
     },
     /** @param {import("../wire.js").State} state */
-    setState({ recording, topic }) {
+    setState({ recording, place: scans }) {
       // A drawn world stays where it is while it changes.
-      const place = drawing() ? "drawn" : `${recording} ${topic}`;
+      const place = drawing() ? "drawn" : scans;
       if (place !== fitted) {
         fitted = place;
         fit();

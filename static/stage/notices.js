@@ -139,7 +139,7 @@ export function mountNotices(stage, text, { onCancel, onRetry }) {
   );
   const notices = h("div", { class: "notices" }, lost.element, error.element, loading.element);
   stage.append(empty.element, notices, drop);
-  /** Of the last drawn state. @type {{recording: string, topic: string | null} | null} */
+  /** The place of the last drawn state. @type {string | null} */
   let shown = null;
 
   return {
@@ -151,10 +151,10 @@ export function mountNotices(stage, text, { onCancel, onRetry }) {
     setError: error.setError,
     setConnection: lost.setConnection,
     /** @param {import("../wire.js").State} state */
-    setState({ recording, topic }) {
+    setState({ place }) {
       empty.element.hidden = true;
-      if (shown && (recording !== shown.recording || topic !== shown.topic)) error.dismiss();
-      shown = { recording, topic };
+      if (shown && place !== shown) error.dismiss();
+      shown = place;
     },
     /** @param {boolean} over */
     setDropping(over) {

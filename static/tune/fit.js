@@ -108,8 +108,8 @@ export class Fit {
   }
 
   /** Asks again if something else is shown, but not while a slider moves. @param {State} state */
-  setState({ recording, topic, method, params, live, frames }) {
-    const place = JSON.stringify([recording, topic, method]);
+  setState({ place: scans, method, params, live, frames }) {
+    const place = JSON.stringify([scans, method]);
     // A live recording is looked at again when it has become twice as long.
     const size = live === null ? frames : Math.floor(Math.log2(frames));
     const wanted = JSON.stringify([place, params, size]);

@@ -71,9 +71,8 @@ class Panel {
 
   /** @param {State} state */
   setState(state) {
-    const place = `${state.recording} ${state.topic}`;
-    if (place !== this.#place) this.#thresholds.forget();
-    this.#place = place;
+    if (state.place !== this.#place) this.#thresholds.forget();
+    this.#place = state.place;
     this.#thresholds.setHistograms(state.histograms);
     this.#tabs.setCount("lines", state.segments.length);
     this.#lines.setState(state);

@@ -122,7 +122,7 @@ class Tuner {
   setState(state) {
     this.#fit.setState(state);
     if (!this.#able || state.method !== METHOD) return;
-    const here = `${state.recording} ${state.topic}`;
+    const here = state.place;
     this.#params = state.params;
     if (here !== this.#place) {
       this.#place = here;

@@ -18,7 +18,7 @@ const DELAY_MS = 200;
 export function createAddress(page, text, { following, onLook }) {
   const linked = createLinked();
   let timer = 0;
-  /** Of the last drawn state. @type {{recording: string, topic: string | null} | null} */
+  /** The place of the last drawn state. @type {string | null} */
   let shown = null;
   addEventListener("hashchange", ({ newURL }) => {
     // The page may have written the address since.
@@ -79,11 +79,11 @@ export function createAddress(page, text, { following, onLook }) {
       writeSoon();
     },
     /** @param {import("../wire.js").State} state */
-    setState({ recording, topic, label }) {
+    setState({ recording, place, label }) {
       page.store.name = label;
       // A recording shown instead of the one in the link must not hide the reason.
-      const opened = shown !== null && (recording !== shown.recording || topic !== shown.topic);
-      shown = { recording, topic };
+      const opened = shown !== null && place !== shown;
+      shown = place;
       if (!opened) return;
       linked.opened(recording);
       if (!linked.names(recording)) onLook(null);

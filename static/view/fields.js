@@ -24,7 +24,7 @@ export function freshView(fields = VIEW) {
 }
 
 /** Whether a patch may name only some of its entries. @param {Field} field */
-export const isPartial = ({ written }) => ["thresholds", "numbers", "switches"].includes(written);
+export const isPartial = ({ written }) => ["thresholds", "numbers", "switches", "reading"].includes(written);
 
 /** The fields that this change resets. @param {Named} before @param {Named} after @param {Field[]} [fields] */
 export function resets(before, after, fields = VIEW) {

@@ -82,6 +82,10 @@ function take(patch, odd, { name }, { good, bad }) {
 function written(field, value) {
   if (field.written === "pinned") return value ? [value.method, ...pairs(value.params)].join(",") : "";
   if (field.written === "numbers") return pairs(Object.fromEntries(differing(value, field.default))).join(",");
+  if (field.written === "reading")
+    return differing(value, field.default)
+      .map(([name, given]) => `${name}:${String(given).replace(/[%;]/g, encodeURIComponent)}`)
+      .join(";");
   if (field.written === "switches")
     return differing(value, field.default)
       .map(([name, on]) => (on ? name : `-${name}`))
@@ -99,6 +103,8 @@ function parsed(field, text) {
       : { bad: Number.isFinite(number) ? number : text };
   if (kind === "choice") return choices.includes(text) ? { good: text } : { bad: text };
   if (kind === "pinned") return pinnedOf(text);
+  // The server knows which fields a Reading has.
+  if (kind === "reading") return { good: readingOf(text) };
   if (kind === "switches")
     return sorted(
       text.split(",").map((word) => [word.replace(/^-/, ""), !word.startsWith("-")]),
@@ -125,6 +131,15 @@ function sorted(entries, fits) {
     good: asValues(named.filter(([name, value]) => fits(name, value))),
     bad: asValues(named.filter(([name, value]) => !fits(name, value))),
   };
+}
+
+/** "unit:mm;sector:-90:90" @param {string} text @returns {Record<string, string>} */
+function readingOf(text) {
+  const entries = text.split(";").map((entry) => {
+    const [name, ...rest] = entry.split(":");
+    return [name, rest.join(":").replace(/%(25|3B)/g, decodeURIComponent)];
+  });
+  return Object.fromEntries(entries.filter(([name]) => name));
 }
 
 /** "region-growing,epsilon:0.03,…"; half of A would be another result. @param {string} text @returns {Parsed} */

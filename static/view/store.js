@@ -8,7 +8,7 @@ import { hashOf, readHash } from "./hash.js";
 /** @typedef {import("../wire.js").View} View */
 /** @typedef {import("../wire.js").Params} Params */
 /** @typedef {import("../wire.js").Method} Method */
-/** @typedef {Pick<View, "method" | "params">} Chosen */
+/** What undo restores. @typedef {Pick<View, "method" | "params" | "recording" | "topic" | "reading">} Chosen */
 /** @typedef {import("./fields.js").Patch} Patch */
 /** @typedef {import("./hash.js").Look} Look */
 /** @typedef {(view: Readonly<View>, patch: Patch | null, linked: boolean) => void} Listener patch: null for what the server told; linked: a link says it, and not all of it may be possible */
@@ -73,7 +73,8 @@ export class Store {
   }
 
   /**
-   * A change made by a person. Changes of thresholds can be undone; those of one gesture (a drag) as one. Another method
+   * A change made by a person. Changes of thresholds and of how the file is read can be undone; those of one gesture (a
+   * drag) as one. Another method
    * has the thresholds that it had before, or its defaults.
    * @param {Patch} patch
    * @param {string | null} gesture
@@ -86,7 +87,7 @@ export class Store {
       written === "thresholds" ? this.#thresholds(patch.method) : structuredClone(usual),
     ]);
     const full = { ...Object.fromEntries(afresh), ...patch };
-    if (full.params) this.#remember(gesture);
+    if (full.params || patch.reading) this.#remember(gesture);
     this.#view = merged(this.#view, full, this.#fields);
     this.#tell(full);
     return undefined;
@@ -119,17 +120,28 @@ export class Store {
   }
 
   get #chosen() {
-    return { method: this.#view.method, params: this.#view.params };
+    const { method, params, recording, topic, reading } = this.#view;
+    return { method, params, recording, topic, reading };
   }
 
   /** @param {Chosen[]} from @param {Chosen[]} to */
   #travel(from, to) {
-    const chosen = from.pop();
-    if (!chosen) return;
-    to.push(this.#chosen);
+    const now = this.#chosen;
+    /** @type {Patch | null} */
+    let patch = null;
+    // What was changed in a recording that is no longer open stays as it is.
+    while (from.length && !patch) {
+      const { method, params, recording, topic, reading } = /** @type {Chosen} */ (from.pop());
+      const here = recording === now.recording && !alike(reading, now.reading);
+      const same = method === now.method && equal(params, now.params);
+      if (!same || here) patch = { method, params, ...(here && { topic, reading }) };
+    }
+    if (!patch) return this.#tell(null);
+    to.push(now);
     this.#gesture = null;
-    this.#view = { ...this.#view, ...chosen };
-    this.#tell(chosen);
+    this.#view = merged(this.#view, patch, this.#fields);
+    this.#tell(patch);
+    return undefined;
   }
 
   /** @param {string | null} gesture */
@@ -177,6 +189,11 @@ export class Store {
     this.#tell(overlaid(this.#view, odd, this.#fields), true);
     return Boolean(patch.recording);
   }
+}
+
+/** @param {View["reading"]} one @param {View["reading"]} other */
+function alike(one, other) {
+  return Object.keys({ ...one, ...other }).every((name) => (one[name] ?? null) === (other[name] ?? null));
 }
 
 /** @param {Params} one @param {Params} other */

@@ -12,14 +12,15 @@ from lineseg_app.view_field import EACH, ViewField, field_entries, patch_of, vie
 from pydantic import Field, ValidationError
 
 from lineseg import Params
+from lineseg.readers import Reading
 
 OF_EACH_OTHER = View(
-    mode="inspect", recording="c", topic="/rear", frame=2, method="region-growing", params=Params(epsilon=0.05), step=1,
-    selected=4, camera="free", score="gap", against=Against("region-growing", Params()), weights=(("gap", 4.0),),
+    mode="inspect", recording="c", topic="/rear", reading=Reading(unit="mm"), frame=2, method="region-growing",
+    params=Params(epsilon=0.05), step=1, selected=4, camera="free", score="gap", against=Against("region-growing", Params()), weights=(("gap", 4.0),),
     reference="wall", layers=Layers(grid=False), live=False, dark=True,
 )  # fmt: skip
 LINK_KEYS = {
-    "mode", "recording", "topic", "frame", "method", "step", "beam", "camera", "score", "against", "weights",
+    "mode", "recording", "topic", "reading", "frame", "method", "step", "beam", "camera", "score", "against", "weights",
     "reference", "layers", EACH,
 }  # fmt: skip
 
@@ -50,7 +51,24 @@ def test_another_recording_resets_the_view_unless_the_patch_says_otherwise():
 
 
 def test_another_topic_resets_the_view():
-    assert View(recording="a", frame=7, step=3).patched({"topic": "/rear"}) == View(recording="a", topic="/rear")
+    view = View(recording="a", reading=Reading(unit="mm"), frame=7, step=3)
+    assert view.patched({"topic": "/rear"}) == View(recording="a", topic="/rear")
+
+
+def test_another_reading_is_of_another_place_and_begins_at_its_first_frame():
+    view = View(recording="a", topic="/rear", frame=7)
+    reread = view.patched({"reading": {"unit": "mm"}})
+    assert (reread.frame, reread.read_as) == (0, Reading(topic="/rear", unit="mm"))
+    assert reread.place != view.place == view.patched({"frame": 3}).place
+    assert reread.patched({"reading": {"unit": None}, "frame": 7}) == view
+
+
+def test_a_link_gives_numbers_of_a_reading_as_text_and_its_valid_part_is_kept():
+    said = {"reading": {"every_beam": "2", "frame_id": "2", "unit": "furlong", "angle_min": "-1.5", "speed": "3"}}
+    view, complaint = View().salvaged(said)
+    assert view.reading == Reading(every_beam=2, frame_id="2", angle_min=-1.5)
+    assert "furlong" in str(complaint)
+    assert "speed" in str(complaint)
 
 
 @pytest.mark.parametrize(

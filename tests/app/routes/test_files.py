@@ -15,6 +15,7 @@ from lineseg_app.shelf.uploads import safe_name
 from live import Address, Page, page_of, serving
 
 from lineseg import Params
+from lineseg.readers import Reading
 
 
 def test_an_upload_is_offered_and_opens(server: Address, page: Page, recordings: Path):
@@ -22,7 +23,7 @@ def test_an_upload_is_offered_and_opens(server: Address, page: Page, recordings:
     answer = server.upload("from home.npz", (recordings / "corner.npz").read_bytes())
     id = answer.json()["recording"]
     offered = page.hear_a("recordings")["recordings"]
-    assert {"id": id, "label": "from home.npz", "group": "Uploads", "missing": False} in offered
+    assert {"id": id, "label": "from home.npz", "group": "Uploads", "missing": False, "reading": {}} in offered
     assert page.change(recording=id)["label"] == "from home.npz"
 
 
@@ -119,6 +120,17 @@ def test_recent_files_are_few_and_newest_first(tmp_path):
     paths = Recent(tmp_path).paths()
     assert len(paths) == MOST
     assert [path.name for path in paths[:2]] == ["7.bag", f"{MOST + 4}.bag"]
+
+
+def test_recent_files_keep_how_they_were_read(tmp_path):
+    recent = Recent(tmp_path)
+    recent.add(tmp_path / "a.csv")
+    recent.remember(tmp_path / "a.csv", Reading(unit="mm", frames="2:9"))
+    recent.add(tmp_path / "b.csv")
+    later = Recent(tmp_path)
+    assert [path.name for path in later.paths()] == ["b.csv", "a.csv"]
+    assert later.reading(tmp_path / "a.csv") == Reading(unit="mm", frames="2:9")
+    assert later.reading(tmp_path / "b.csv") == Reading()
 
 
 @pytest.mark.parametrize("content", ["", "{", "{}", "[1, null]", "\x00"])

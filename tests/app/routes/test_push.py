@@ -30,7 +30,13 @@ def test_posted_scans_become_a_live_recording(server: Address):
         answer = server.post("/api/scans/simulator", json=scan_message(wall(3.0)))
         assert answer.json() == {"recording": "live:simulator", "kept": 1, "dropped": 0}
         entries = page.hear_a("recordings")["recordings"]
-        assert {"id": "live:simulator", "label": "simulator", "group": "Live", "missing": False} in entries
+        assert {
+            "id": "live:simulator",
+            "label": "simulator",
+            "group": "Live",
+            "missing": False,
+            "reading": {},
+        } in entries
         assert nearest(page.change(recording="live:simulator")) == pytest.approx(3.0, abs=1e-3)
         for distance in (2.5, 2.0, 1.5):
             answer = server.post("/api/scans/simulator", json=scan_message(wall(distance)))

@@ -195,7 +195,7 @@ def test_a_coarse_survey_keeps_each_frame_with_its_neighbours(long: Recording):
 def test_a_binary_message_keeps_its_numbers():
     values = np.arange(2 * len(SCORES), dtype=np.float32)
     message = Surveyed(
-        rev=3, recording="ä", topic="", method="m", params={}, frames=2, stride=1, message=None, values=values.tobytes()
+        rev=3, recording="ä", place="", method="m", params={}, frames=2, stride=1, message=None, values=values.tobytes()
     )
     told = surveyed(message.as_bytes())
     assert (told["rev"], told["recording"]) == (3, "ä")

@@ -14,7 +14,7 @@ from lineseg_app.shelf.uploads import Uploads
 from live import Address, Page, page_of, serving
 from websockets.exceptions import ConnectionClosed
 
-from lineseg.readers import Cancelled
+from lineseg.readers import Cancelled, Reading
 
 
 @pytest.fixture(scope="module")
@@ -90,7 +90,7 @@ def test_a_broken_file_of_the_command_line_is_reported_and_a_sample_is_shown(tmp
 
 
 def test_a_topic_that_is_not_in_the_file_is_reported(recordings: Path, tmp_path: Path):
-    settings = Settings(files=(recordings / "walls.npz",), topic="/rear", data_folder=tmp_path)
+    settings = Settings(files=(recordings / "walls.npz",), reading=Reading(topic="/rear"), data_folder=tmp_path)
     with serving(settings) as server, page_of(server) as page:
         page.say(type="hello", view={"frame": 2})
         assert "/rear" in page.hear_a("error", "drawn").get("message", "")
