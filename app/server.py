@@ -61,9 +61,10 @@ class Settings:
     """Settings of the server.
 
     files: recordings to offer, the first is shown; reading: how it is read. robots: sources of live scans; the newest
-    `keep` scans of each are kept. host: any address but the loopback needs a token; one is made if none is given. names: other host names of this machine. upload_limit, upload_total: [bytes].
-    data_folder: for the list of recent files and for labels that cannot be next to their recording (default: the user's
-    data folder). watch: gets whatever is drawn in any tab.
+    `keep` scans of each are kept. host: any address but the loopback needs a token; one is made if none is given.
+    names: other host names of this machine. upload_limit, upload_total: [bytes]. data_folder: for the list of recent
+    files and for labels that cannot be next to their recording (default: the user's data folder). watch: gets whatever
+    is drawn in any tab.
     """
 
     files: tuple[Path, ...] = ()

@@ -16,8 +16,8 @@ from lineseg.readers import Reading
 
 OF_EACH_OTHER = View(
     mode="inspect", recording="c", topic="/rear", reading=Reading(unit="mm"), frame=2, method="region-growing",
-    params=Params(epsilon=0.05), step=1, selected=4, camera="free", score="gap", against=Against("region-growing", Params()), weights=(("gap", 4.0),),
-    reference="wall", layers=Layers(grid=False), live=False, dark=True,
+    params=Params(epsilon=0.05), step=1, selected=4, camera="free", score="gap", against=Against("region-growing",
+    Params()), weights=(("gap", 4.0),), reference="wall", layers=Layers(grid=False), live=False, dark=True,
 )  # fmt: skip
 LINK_KEYS = {
     "mode", "recording", "topic", "reading", "frame", "method", "step", "beam", "camera", "score", "against", "weights",
