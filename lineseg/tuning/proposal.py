@@ -128,7 +128,7 @@ class _Search:
         self.scales = np.empty(0)
         if math.isfinite(self._white) and self._white > 0:
             lowest = max(LOWEST * self._white, LEAST_EPSILON)
-            steps = math.ceil(math.log(HIGHEST * self.scatter / lowest) / math.log(STEP))
+            steps = math.floor(math.log(HIGHEST * self.scatter / lowest) / math.log(STEP))
             self.scales = lowest * STEP ** np.arange(max(steps, 0) + 3)
 
     def why_not(self) -> str:

@@ -72,6 +72,12 @@ def test_for_a_coarse_or_fine_laser_the_proposal_is_as_good_as_any_epsilon(name,
     assert score(recording, propose(recording).params) > 0.97 * best_score(recording)
 
 
+@pytest.mark.parametrize("name", ["boards", "lobby", "workshop"])
+def test_for_walls_that_bend_and_noise_that_grows_the_proposal_is_as_good_as_any_epsilon(name):
+    recording = WORLDS[name].recording(name, FRAMES)
+    assert score(recording, propose(recording).params) > 0.97 * best_score(recording)
+
+
 def test_nothing_is_proposed_if_the_current_values_are_as_good():
     recording = world("flat", 0.008, RPLIDAR_A2)
     found = propose(recording)
