@@ -14,6 +14,7 @@ import tempfile
 import threading
 import webbrowser
 from collections.abc import AsyncIterator, Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from urllib.parse import quote
@@ -28,6 +29,7 @@ from starlette.types import Scope
 
 from lineseg.readers import Reading
 
+from .body_limit import BodyLimit
 from .guard import Guard, is_loopback
 from .live.address import Address
 from .live.hub import Live
@@ -54,6 +56,7 @@ from .view import View
 from .view_field import page_module
 
 SHUTDOWN_SECONDS = 3
+WAITING_THREADS = 32
 
 
 @dataclass(frozen=True)
@@ -61,15 +64,16 @@ class Settings:
     """Settings of the server.
 
     files: recordings to offer, the first is shown; reading: how it is read. robots: sources of live scans; the newest
-    `keep` scans of each are kept. host: any address but the loopback needs a token; one is made if none is given.
-    names: other host names of this machine. upload_limit, upload_total: [bytes]. data_folder: for the list of recent
-    files and for labels that cannot be next to their recording (default: the user's data folder). watch: gets whatever
-    is drawn in any tab.
+    `keep` scans of each are kept. may_send: addresses of other robots to which the page may send. host: any address but
+    the loopback needs a token; one is made if none is given. names: other host names of this machine. upload_limit,
+    upload_total: [bytes]. data_folder: for the list of recent files and for labels that cannot be next to their
+    recording (default: the user's data folder). watch: gets whatever is drawn in any tab.
     """
 
     files: tuple[Path, ...] = ()
     reading: Reading = field(default_factory=Reading)
     robots: tuple[Address, ...] = ()
+    may_send: tuple[str, ...] = ()
     keep: int = 3000
     host: str = "127.0.0.1"
     port: int = 8765
@@ -97,6 +101,8 @@ def create_app(settings: Settings) -> FastAPI:
 
     @contextlib.asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
+        # asyncio's own pool has few threads on a small machine, and some of them wait for a tab to open or to close.
+        asyncio.get_running_loop().set_default_executor(ThreadPoolExecutor(WAITING_THREADS, "lineseg"))
         warm_up.start()
         live.start()
         reaper = asyncio.create_task(sessions.reap())
@@ -110,6 +116,7 @@ def create_app(settings: Settings) -> FastAPI:
             rerun.close()
 
     app = FastAPI(lifespan=lifespan, openapi_url=None, docs_url=None, redoc_url=None)
+    app.add_middleware(BodyLimit)
     app.add_middleware(Guard, host=settings.host, token=settings.token, names=settings.names)
     app.add_exception_handler(HTTPException, _sentence)
     app.add_exception_handler(RequestValidationError, _complaint)
@@ -121,7 +128,7 @@ def create_app(settings: Settings) -> FastAPI:
     add_sweep_table(app)
     add_tuning(app, sessions, user_folder(settings.data_folder) / "studies")
     add_push(app, library)
-    add_back(app, library, sessions)
+    add_back(app, library, sessions, [*(robot.url for robot in settings.robots), *settings.may_send])
     rerun = add_rerun(app, library, sessions)
     static = data_folder("static")
     app.add_route("/static/declared.js", lambda request: _module(page_module(View)))

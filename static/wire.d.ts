@@ -838,6 +838,11 @@ export interface Worked {
   message?: string;
 }
 
+/** The robots that the user named at the start; no others are reached. */
+export interface Robots {
+  addresses: string[];
+}
+
 /** Finds a decision by its properties: the nth (from 0, or negative from the end) that matches all of them. */
 export interface Find {
   kind: string;

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from tyro.conf import OmitArgPrefixes, Positional
 
-from .flag_types import Switch, Unset
+from .flag_types import Several, Switch, Unset
 from .reading import ReadingFlags, reading_of
 
 MOST_KEPT = 20_000
@@ -24,6 +24,7 @@ def view(
     token: Unset[str] = None,
     token_file: Unset[Path] = None,
     no_browser: Switch = False,
+    robot: Several[str] = (),
     rerun: Switch = False,
 ) -> None:
     """Show the page in the browser.
@@ -39,11 +40,12 @@ def view(
             a token is required). Other users of this machine see it in the list of processes; prefer --token-file.
         token_file: file that holds the token.
         no_browser: do not open a browser.
+        robot: addresses of rosbridge to which the page may send parameters, besides the robot that is watched.
         rerun: also stream the view to rerun's viewer on port 9876; starts the viewer if none is running.
     """
     from lineseg.readers import Reading
 
-    from ..live.address import Address, is_address
+    from ..live.address import Address, check_address, is_address
     from ..server import Settings, serve
 
     files, robots = (), ()
@@ -62,6 +64,8 @@ def view(
         files = (path.resolve(),)
     if not 1 <= keep <= MOST_KEPT:
         raise ValueError(f"--keep is {keep}; allowed: 1 to {MOST_KEPT} scans")
+    for address in robot:
+        check_address(address)
     with contextlib.ExitStack() as stack:
         watch = None
         if rerun:
@@ -72,6 +76,7 @@ def view(
             files=files,
             reading=reading,
             robots=robots,
+            may_send=robot,
             keep=keep,
             host=host,
             port=port,

@@ -36,3 +36,11 @@ def check_address(url: str) -> None:
         known = False
     if not known or re.search(r"[\s\x00-\x1f]", url) or len(url) > 300:
         raise ValueError(f"{url[:80]!r} is not the address of a robot; {expected}")
+
+
+def place_of(url: str) -> tuple[str, str, int, str]:
+    """What an address means, however it is written: scheme, host, port and path. Raises ValueError if it is none."""
+    check_address(url)
+    parts = urlsplit(url)
+    scheme = parts.scheme.lower()
+    return scheme, parts.hostname or "", parts.port or {"ws": 80, "wss": 443}[scheme], parts.path.rstrip("/")

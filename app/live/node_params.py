@@ -17,6 +17,7 @@ from .address import check_address
 from .bridge import LARGEST_MESSAGE, OPEN_SECONDS, why_not
 from .rosbridge import RobotError, RosBridge
 
+ALL_SECONDS = 12.0
 # rcl_interfaces/msg/ParameterType
 NOT_SET, INTEGER, DOUBLE = 0, 2, 3
 VALUE_FIELDS = {1: "bool_value", INTEGER: "integer_value", DOUBLE: "double_value", 4: "string_value"}
@@ -47,7 +48,7 @@ def send_params(url: str, node: str, params: Params, ros: int = 2, extensions: b
     place = urlsplit(url).netloc
     try:
         with connect(url, open_timeout=OPEN_SECONDS, max_size=LARGEST_MESSAGE, proxy=None) as socket:
-            bridge = RosBridge(socket)
+            bridge = RosBridge(socket, ALL_SECONDS)
             values = dict(_values(params, extensions))
             return (_set_ros1 if ros == 1 else _set_ros2)(bridge, node, values)
     except RobotError as error:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import json
+import math
 import time
 from collections.abc import Mapping
 from typing import Any
@@ -26,12 +27,16 @@ class RobotError(ValueError):
 
 
 class RosBridge:
-    """The client side of a connection. `call` may be used while `scans` is not running."""
+    """The client side of a connection. `call` may be used while `scans` is not running.
+
+    seconds: how long all calls together may take.
+    """
 
     name = "rosbridge"
 
-    def __init__(self, socket: Connection) -> None:
+    def __init__(self, socket: Connection, seconds: float = math.inf) -> None:
         self._socket = socket
+        self._ends = time.monotonic() + seconds
         self._ids = (f"lineseg:{n}" for n in itertools.count(1))
         self._advertised: set[str] = set()
         self._ros1 = False
@@ -40,7 +45,7 @@ class RosBridge:
         """The answer of a service. Raises RobotError with the robot's words, or TimeoutError without an answer."""
         id = next(self._ids)
         self._send(op="call_service", id=id, service=service, args=dict(args))
-        late = time.monotonic() + seconds
+        late = min(time.monotonic() + seconds, self._ends)
         while True:
             message = _object(self._socket.recv(timeout=max(late - time.monotonic(), 0)))
             if message.get("op") == "service_response" and message.get("id") == id:

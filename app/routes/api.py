@@ -16,7 +16,7 @@ from lineseg.writers import PARAMS_WRITERS, params_text, read_params
 from ..session.sessions import Sessions
 from ..shelf.lessons import Lessons, lesson_files, read_lessons
 from ..shelf.library import Library
-from ..shelf.uploads import TooLargeError, TooManyError
+from ..shelf.uploads import TooLargeError, TooManyError, TooSlowError
 from ..told.answers import ThresholdSweep
 from ..tuning.sweep import sweep
 from .attachment import attachment
@@ -36,6 +36,8 @@ def add_api(app: FastAPI, library: Library, sessions: Sessions) -> None:
             raise HTTPException(413, str(error)) from None
         except TooManyError as error:
             raise HTTPException(429, str(error)) from None
+        except TooSlowError as error:
+            raise HTTPException(408, str(error)) from None
         except ValueError as error:
             raise HTTPException(400, str(error)) from None
         except OSError as error:

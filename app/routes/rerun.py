@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import json
+import math
 import secrets
 import tempfile
 import threading
@@ -22,11 +23,13 @@ from ..places import data_folder
 from ..session.sessions import Sessions
 from ..shelf.library import Library
 from .attachment import attachment
+from .slow import SlowWork
 
 if TYPE_CHECKING:
     from ..rerun.record import Run
 
 MOST_KEPT = 8
+AT_ONCE = 2
 TELL_SECONDS = 0.1
 MISSING = 501
 
@@ -37,14 +40,21 @@ class RerunFiles:
     def __init__(self) -> None:
         self._temporary = tempfile.TemporaryDirectory(prefix="lineseg-rerun-", ignore_cleanup_errors=True)
         self._folder = Path(self._temporary.name)
+        self._recording = SlowWork("recordings for rerun", AT_ONCE, math.inf)
         self._kept: list[str] = []
         self._unpacking = threading.Lock()
 
     def close(self) -> None:
         self._temporary.cleanup()
 
+    def _place(self) -> Path:
+        """The folder, made anew if something has removed it."""
+        self._folder.mkdir(mode=0o700, exist_ok=True)
+        return self._folder
+
     def recorded(self, id: str) -> Path | None:
-        return self._folder / f"{id}.rrd" if id in self._kept else None
+        file = self._folder / f"{id}.rrd"
+        return file if id in self._kept and file.exists() else None
 
     def viewer(self, name: str) -> Path:
         """A file of the viewer; blocks while the files are unpacked."""
@@ -52,7 +62,7 @@ class RerunFiles:
 
         with self._unpacking:
             if not (self._folder / "unpacked").exists():
-                unpack(self._folder)
+                unpack(self._place())
                 (self._folder / "unpacked").touch()
         return self._folder / name
 
@@ -70,7 +80,11 @@ class RerunFiles:
                 raise Cancelled("the recording for rerun was stopped")
             told["done"] = done
 
-        work = asyncio.create_task(asyncio.to_thread(save, run, self._folder / f"{id}.rrd", advance))
+        try:
+            work = self._recording.start(save, run, self._place() / f"{id}.rrd", advance)
+        except HTTPException as error:
+            yield _line({"message": error.detail})
+            return
         try:
             while not work.done():
                 yield _line(told)

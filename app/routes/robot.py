@@ -3,21 +3,25 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from typing import Annotated, Any, Literal
 
 from fastapi import FastAPI
 from pydantic import BaseModel, ConfigDict, Field
-from starlette.concurrency import run_in_threadpool
 from starlette.exceptions import HTTPException
 
 from lineseg import Params
 
 from ..bounds import Name, Number
+from ..live.address import place_of
 from ..live.node_params import Sent, send_params
 from ..live.source import Publishing
 from ..session.sessions import Sessions
 from ..shelf.library import Library
+from ..told.answers import Robots
+from .slow import SlowWork
 
+AT_ONCE, SECONDS = 4, 20.0
 ROS_NAME = re.compile(r"/?[A-Za-z_~][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)*")
 
 
@@ -43,8 +47,13 @@ class SendAsked(Asked):
     params: Annotated[dict[Name, int | Number], Field(max_length=64)] = {}
 
 
-def add_back(app: FastAPI, library: Library, sessions: Sessions) -> None:
-    """Routes of /api/robot."""
+def add_back(app: FastAPI, library: Library, sessions: Sessions, named: Sequence[str]) -> None:
+    """Routes of /api/robot. named: the addresses that may be reached, and no others."""
+    sending = SlowWork("robots", AT_ONCE, SECONDS)
+
+    @app.get("/api/robot")
+    async def robots() -> Robots:
+        return {"addresses": list(named)}
 
     @app.post("/api/robot/segments")
     async def publish(asked: PublishAsked) -> dict[str, Any]:
@@ -67,12 +76,24 @@ def add_back(app: FastAPI, library: Library, sessions: Sessions) -> None:
         try:
             node = _ros_name("node", asked.node)
             params = Params().but(**asked.params)
-            sent = await run_in_threadpool(send_params, asked.address, node, params, asked.ros, asked.extensions)
+            address = _named(asked.address, named)
+            sent = await sending.run(send_params, address, node, params, asked.ros, asked.extensions)
         except ValueError as error:
             raise HTTPException(400, str(error)) from None
         except OSError as error:
             raise HTTPException(502, str(error)) from None
         return {"sent": sent}
+
+
+def _named(address: str, named: Sequence[str]) -> str:
+    """The named address that means the same. Answers 403 if there is none."""
+    place = place_of(address)
+    found = next((url for url in named if place_of(url) == place), None)
+    if found is None:
+        raise HTTPException(
+            403, f"{address} was not named when lineseg was started; start it with --robot {address} to send there"
+        )
+    return found
 
 
 def _ros_name(what: str, name: str) -> str:

@@ -25,6 +25,7 @@ from ..shelf.library import Library
 from ..told.messages import Failure, MethodEntry, Recordings, ScoreEntry, Surveyed, Welcome
 from ..view import STRIP_SCORES, View
 from ..wire import BadMessageError, Cancel, Change, Close, Follow, Hello, OpenLink, parse
+from .heard import text_from
 from .live_status import tell_live
 from .viser_relay import client_page, relay
 
@@ -89,7 +90,7 @@ def add_sockets(app: FastAPI, library: Library, sessions: Sessions, reading: Rea
 
 async def _hello(socket: WebSocket) -> Hello | None:
     try:
-        message = parse(await socket.receive_text())
+        message = parse(await text_from(socket))
     except BadMessageError as error:
         await _tell(socket, Failure(where="server", message=str(error)))
         message = None
@@ -162,7 +163,7 @@ async def _listen(socket: WebSocket, session: Session, sessions: Sessions) -> No
     """Handle the page's messages until the page leaves or the session ends."""
     while True:
         try:
-            message = parse(await socket.receive_text())
+            message = parse(await text_from(socket))
         except BadMessageError as error:
             await _tell(socket, Failure(where=error.where, message=str(error), rev=error.rev))
             continue

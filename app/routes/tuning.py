@@ -7,7 +7,7 @@ import contextlib
 import json
 import logging
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from dataclasses import asdict
 from pathlib import Path
 from typing import Annotated, Any, Literal, NamedTuple, get_args
@@ -32,6 +32,7 @@ from ..told.answers import Trial as TrialTold
 from ..tuning.fit import fit
 from ..tuning.kept_trials import KeptTrials
 from ..tuning.sensitivity import Subject, curves, relief
+from .heard import text_from
 
 # Frames per recording; more would slow down the trials and add little information.
 MOST_FRAMES = 400
@@ -39,6 +40,7 @@ MOST_TRIALS = 2000
 JUDGE_EVERY = 10
 SURVEYED = "region-growing"
 
+SEND_SECONDS = 30.0
 log = logging.getLogger(__name__)
 Values = Annotated[dict[Name, int | Number], Field(max_length=64)]
 
@@ -144,18 +146,31 @@ def add_tuning(app: FastAPI, sessions: Sessions, folder: Path) -> None:
         loop = asyncio.get_running_loop()
 
         def send(answer: dict[str, Any]) -> None:
-            with contextlib.suppress(Exception):
-                asyncio.run_coroutine_threadsafe(socket.send_text(json.dumps(answer)), loop).result(30)
+            """Send an answer; if nobody listens any more, everything ends."""
+            try:
+                asyncio.run_coroutine_threadsafe(socket.send_text(json.dumps(answer)), loop).result(SEND_SECONDS)
+            except Exception:
+                for slot in slots.values():
+                    slot.stop()
 
         slots = {name: Slot(name, send) for name in get_args(Job)}
         measures = {"type": "measures", "measures": [asdict(each) for each in MEASURES.values()]}
-        with contextlib.suppress(WebSocketDisconnect, RuntimeError):
-            await socket.send_text(json.dumps(measures))
-            while True:
-                trouble = _obey(await socket.receive_text(), slots, sessions, session, folder)
-                if trouble is not None:
-                    await socket.send_text(json.dumps({"type": "error", "message": trouble}))
-        await asyncio.gather(*(asyncio.to_thread(slot.close) for slot in slots.values()))
+        try:
+            with contextlib.suppress(WebSocketDisconnect, RuntimeError):
+                await socket.send_text(json.dumps(measures))
+                while True:
+                    trouble = _obey(await text_from(socket), slots, sessions, session, folder)
+                    if trouble is not None:
+                        await socket.send_text(json.dumps({"type": "error", "message": trouble}))
+        finally:
+            await asyncio.to_thread(_close, slots.values())
+
+
+def _close(slots: Collection[Slot]) -> None:
+    for slot in slots:
+        slot.stop()
+    for slot in slots:
+        slot.close()
 
 
 def _obey(text: str, slots: dict[str, Slot], sessions: Sessions, session: str, folder: Path) -> str | None:

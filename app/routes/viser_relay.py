@@ -17,7 +17,7 @@ from starlette.websockets import WebSocket, WebSocketDisconnect, WebSocketState
 
 from ..scene.portless import Connection, Door
 
-LARGEST_MESSAGE = 50 * 1024 * 1024
+LARGEST_MESSAGE = 4 * 1024 * 1024
 FULL_SECONDS = 0.01
 PARTING_SECONDS = 5.0
 

@@ -2,20 +2,29 @@
 
 from __future__ import annotations
 
+import asyncio
 import secrets
 import shutil
 import tempfile
 import threading
+import time
 import unicodedata
 from collections.abc import AsyncIterator
 from dataclasses import dataclass
 from pathlib import Path
 
 LONGEST_NAME = 120
+SILENT_SECONDS = 10.0
+# In bytes a second.
+SLOWEST = 4_000
 
 
 class TooLargeError(ValueError):
     """The upload is too large."""
+
+
+class TooSlowError(ValueError):
+    """The upload does not proceed."""
 
 
 class TooManyError(ValueError):
@@ -59,14 +68,15 @@ class Uploads:
             if self._arriving >= self._at_once:
                 raise TooManyError(f"{self._arriving} files are being uploaded; wait for one of them to finish")
             self._arriving += 1
-        id = secrets.token_urlsafe(9)
-        path = self._place() / id / safe_name(name)
-        path.parent.mkdir()
         try:
-            size = await self._write(path, name, chunks)
-        except BaseException:
-            shutil.rmtree(path.parent, ignore_errors=True)
-            raise
+            id = secrets.token_urlsafe(9)
+            path = self._place() / id / safe_name(name)
+            try:
+                path.parent.mkdir()
+                size = await self._write(path, name, _steady(name, chunks))
+            except BaseException:
+                shutil.rmtree(path.parent, ignore_errors=True)
+                raise
         finally:
             with self._lock:
                 self._arriving -= 1
@@ -110,8 +120,9 @@ class Uploads:
             shutil.rmtree(old.path.parent, ignore_errors=True)
 
     def _place(self) -> Path:
+        """The folder, made anew if something has removed it."""
         with self._lock:
-            if self._folder is None:
+            if self._folder is None or not self._folder.is_dir():
                 self._folder = Path(tempfile.mkdtemp(prefix="lineseg-"))
             return self._folder
 
@@ -120,6 +131,25 @@ class Uploads:
             f"{safe_name(name)} is larger than {self.limit / 1e6:g} MB, the limit for uploads; "
             "open it from the command line instead"
         )
+
+
+async def _steady(name: str, chunks: AsyncIterator[bytes]) -> AsyncIterator[bytes]:
+    """The chunks. Raises TooSlowError if none comes for a while, or if they come so slowly that they hold up others."""
+    begun, size = time.monotonic(), 0
+    while True:
+        try:
+            chunk = await asyncio.wait_for(anext(chunks), SILENT_SECONDS)
+        except StopAsyncIteration:
+            return
+        except TimeoutError:
+            raise TooSlowError(f"nothing came of {safe_name(name)} for {SILENT_SECONDS:g} s; upload it again") from None
+        size += len(chunk)
+        took = time.monotonic() - begun
+        if took > SILENT_SECONDS and size < SLOWEST * took:
+            raise TooSlowError(
+                f"{safe_name(name)} comes with less than {SLOWEST / 1000:g} kB/s; open it from the command line instead"
+            )
+        yield chunk
 
 
 def safe_name(name: str) -> str:

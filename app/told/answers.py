@@ -188,3 +188,9 @@ class Worked(TypedDict):
     done: NotRequired[bool]
     stopped: NotRequired[bool]
     message: NotRequired[str]
+
+
+class Robots(TypedDict):
+    """The robots that the user named at the start; no others are reached."""
+
+    addresses: list[str]

@@ -57,6 +57,8 @@ def open_recording(
     reading = (reading or Reading()).but(**given)
     if not path.exists():
         raise FileNotFoundError(f"{path}: there is no such file or folder.")
+    if not (path.is_file() or path.is_dir()):
+        raise ValueError(f"{path} is neither a file nor a folder, such as a pipe or a device; save it as a file first.")
     with ExitStack() as stack:
         try:
             return _read(Source(path, reading, progress or (lambda done, total: None), named=path), stack)

@@ -18,6 +18,7 @@ export function showSend(words, params) {
   const text = words.send;
   const last = remembered();
   const address = field(text.address, last.address ?? "ws://localhost:9090", "url");
+  offerNamed(address.input);
   const node = field(text.node, last.node ?? "/line_extraction", "text");
   const ros = h(
     "select",
@@ -111,6 +112,21 @@ function table(text, sent) {
     h("p", { class: taken === sent.length ? "robot-done" : "robot-some" }, summary),
     h("table", { class: "robot-table" }, h("thead", {}, head), h("tbody", {}, ...rows)),
   ];
+}
+
+/**
+ * Offers the robots that were named at the start, since no others are reached.
+ * @param {HTMLInputElement} input
+ */
+async function offerNamed(input) {
+  const response = await fetch("/api/robot").catch(() => null);
+  if (!response?.ok) return;
+  /** @type {import("../wire.js").Robots} */
+  const { addresses } = await response.json();
+  const list = h("datalist", { id: "named-robots" }, ...addresses.map((value) => h("option", { value })));
+  input.after(list);
+  input.setAttribute("list", list.id);
+  if (addresses.length && !addresses.includes(input.value)) input.value = addresses[0];
 }
 
 /** Shows the outcome in the dialog. */

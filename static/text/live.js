@@ -22,7 +22,7 @@ export const liveText = {
   send: {
     item: "Send parameters to a robot…",
     title: "Send parameters to a robot",
-    hint: "Sets the current thresholds as parameters of a running node over rosbridge and reads them back. Nothing is sent before you press Send.",
+    hint: "Sets the current thresholds as parameters of a running node over rosbridge and reads them back. Nothing is sent before you press Send. Robots are named when lineseg is started: --robot ws://localhost:9090",
     address: "Address of rosbridge",
     node: "Node",
     ros: "ROS",

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import socketserver
+import threading
 from collections.abc import Iterator
 
 import pytest
-from live import Address
+from lineseg_app.server import Settings
+from live import Address, serving
 from rosbridge_peer import RosBridgePeer
 
 from lineseg import Params
@@ -14,11 +17,36 @@ NAMES = [knob.ros for _, _, knob in Params.knobs() if knob.ros]
 NODE = {"least_thresh": 0.04, "predict_distance": 0.1, "seed_line_points": 6, "min_line_points": 12}
 
 
-@pytest.fixture
-def peer() -> Iterator[RosBridgePeer]:
-    peer = RosBridgePeer(nodes={"/line_extraction": NODE | {"min_line_length": 0.5}})
+class Refusing(socketserver.BaseRequestHandler):
+    """Speaks HTTP, but offers no WebSocket."""
+
+    def handle(self) -> None:
+        self.request.recv(4096)
+        self.request.sendall(b"HTTP/1.1 403 Forbidden\r\nContent-Length: 0\r\n\r\n")
+
+
+@pytest.fixture(scope="module")
+def bridge() -> Iterator[RosBridgePeer]:
+    peer = RosBridgePeer()
     yield peer
     peer.close()
+
+
+@pytest.fixture
+def peer(bridge: RosBridgePeer) -> RosBridgePeer:
+    bridge.nodes = {"/line_extraction": NODE | {"min_line_length": 0.5}}
+    return bridge
+
+
+@pytest.fixture(scope="module")
+def server(bridge: RosBridgePeer, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Address]:
+    """A server that may send to the bridge, to a port where nothing listens, and to one that is no rosbridge."""
+    with socketserver.ThreadingTCPServer(("127.0.0.1", 0), Refusing) as other:
+        threading.Thread(target=other.serve_forever).start()
+        may_send = (bridge.url, "ws://127.0.0.1:1", f"ws://127.0.0.1:{other.server_address[1]}")
+        with serving(Settings(may_send=may_send, data_folder=tmp_path_factory.mktemp("data"))) as address:
+            yield address
+        other.shutdown()
 
 
 def sent(server: Address, peer: RosBridgePeer, **asked) -> list[dict]:
@@ -75,7 +103,24 @@ def test_a_send_that_fails_says_why(server: Address, peer: RosBridgePeer, asked:
 
 
 def test_a_peer_that_does_not_speak_rosbridge_is_named(server: Address):
-    values = {"address": server.ws, "node": "/line_extraction", "params": {}}
+    address = server.get("/api/robot").json()["addresses"][2]
+    values = {"address": address, "node": "/line_extraction", "params": {}}
     answer = server.post("/api/robot/params", json=values)
     assert answer.status_code == 502
     assert "does not offer a usable WebSocket" in answer.json()["message"]
+
+
+@pytest.mark.parametrize(
+    "address", ["ws://169.254.169.254", "ws://127.0.0.1:22", "ws://127.0.0.1:1/other", "wss://127.0.0.1:1"]
+)
+def test_only_robots_that_the_user_named_are_reached(server: Address, address: str):
+    values = {"address": address, "node": "/line_extraction", "params": {}}
+    answer = server.post("/api/robot/params", json=values)
+    assert answer.status_code == 403
+    assert f"start it with --robot {address}" in answer.json()["message"]
+
+
+def test_a_named_robot_may_be_written_in_another_way(server: Address, bridge: RosBridgePeer):
+    assert server.get("/api/robot").json()["addresses"][0] == bridge.url
+    values = {"address": bridge.url.upper().replace("WS", "Ws") + "/", "node": "/nobody", "params": {}}
+    assert "/nobody/set_parameters does not exist" in server.post("/api/robot/params", json=values).json()["message"]

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import threading
+import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -212,3 +214,24 @@ def test_an_unknown_tab_gets_a_sentence(bench: Address):
         lonely = Bench(socket)
         lonely.ask("curves")
         assert "reload the page" in lonely.hear()["message"]
+
+
+def test_a_search_ends_with_its_page_also_after_a_message_that_is_not_text(bench: Address):
+    def searching() -> bool:
+        return any(thread.name == "tuning auto" for thread in threading.enumerate())
+
+    with page_of(bench) as page:
+        page.hello()
+        with connect(f"{bench.ws}/api/tuning?session={page.welcome['session']}", max_size=None, proxy=None) as socket:
+            tuner = Bench(socket)
+            tuner.tune(trials=2000)
+            assert tuner.hear()["type"] == "auto"
+            socket.send(b"\xff\x00")
+            while (answer := tuner.hear())["type"] != "error":
+                pass
+            assert "invalid JSON" in answer["message"]
+            assert searching()
+    late = time.monotonic() + SECONDS
+    while searching():
+        assert time.monotonic() < late
+        time.sleep(0.05)
