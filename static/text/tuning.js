@@ -11,7 +11,7 @@ export const tuningText = {
     usesHelp: (/** @type {string} */ values) => `Sets ${values}`,
     suits: (/** @type {string} */ scatter, /** @type {string} */ values) =>
       `Points scatter by ${scatter} here, and ${values} suits that.`,
-    mm: (/** @type {number} */ metres) => `${Number((1000 * metres).toPrecision(2))} mm`,
+    mm: (/** @type {number} */ metres) => `${(1000 * metres).toFixed(metres < 0.001 ? 1 : 0)} mm`,
     m: (/** @type {number} */ metres) => `${metres < 10 ? metres.toFixed(1) : metres.toFixed(0)} m`,
     noise: (/** @type {string} */ near, /** @type {string} */ far, /** @type {string} */ reach) =>
       `Standard deviation of a range: ${near} at 1 m, ${far} at ${reach}.`,

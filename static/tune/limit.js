@@ -4,12 +4,12 @@
 /** @typedef {import("../wire.js").Params} Params */
 
 /**
- * The limit [m] for a point at a range [m].
+ * The limit [m] for a point at a range [m]; that of ε grows with the range if κ is set.
  * @param {string} name of the threshold
  * @param {Params} params
  * @param {number} range
  */
 export function limitAt(name, params, range) {
-  // The limit of every method is the same at any range so far.
-  return range < 0 ? 0 : params[name];
+  const growth = name === "epsilon" ? (params.epsilon_growth ?? 0) : 0;
+  return Math.hypot(params[name], growth * range);
 }

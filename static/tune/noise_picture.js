@@ -56,7 +56,7 @@ function shapes({ noise, knob, params, fits }, text) {
       ? ""
       : `M${x(noise.edges[k]).toFixed(1)} ${y(sigma).toFixed(1)}H${x(Math.min(noise.edges[k + 1], reach)).toFixed(1)}`,
   );
-  const above = y(limit(reach)) > BOX.top + 10 ? -3 : 10;
+  const above = y(limit(reach)) > BOX.top + 12 ? -5 : 11;
   return [
     svg("path", { class: "noise-walls", d: area(total) }),
     svg("path", { class: "noise-white", d: area((range) => sigmaAt(noise, range)) }),
@@ -64,7 +64,7 @@ function shapes({ noise, knob, params, fits }, text) {
     svg("path", { class: "noise-axes", d: `M${BOX.left} ${BOX.top}V${BOX.bottom}H${BOX.right}` }),
     svg("path", { class: "noise-limit", d: line(limit) }),
     ...(fits ? [svg("path", { class: "noise-fit", d: line(fit) })] : []),
-    words(BOX.right, y(limit(reach)) + above, "end", knob.symbol.replace("_", " "), "noise-symbol"),
+    named(knob.symbol, BOX.right, y(limit(reach)) + above),
     words(BOX.left - 4, BOX.top + 4, "end", String(Number((1000 * top).toPrecision(2)))),
     words(BOX.left - 4, BOX.top + 15, "end", "mm"),
     words(BOX.left - 4, BOX.bottom + 3, "end", "0"),
@@ -73,10 +73,20 @@ function shapes({ noise, knob, params, fits }, text) {
   ];
 }
 
-/** @param {number} x @param {number} y @param {string} anchor @param {string} content @param {string} [kind] */
-function words(x, y, anchor, content, kind = "noise-tick") {
-  const element = svg("text", { class: kind, x, y, "text-anchor": anchor });
+/** @param {number} x @param {number} y @param {string} anchor @param {string} content */
+function words(x, y, anchor, content) {
+  const element = svg("text", { class: "noise-tick", x, y, "text-anchor": anchor });
   element.textContent = content;
+  return element;
+}
+
+/** A symbol with its index as a subscript. @param {string} symbol @param {number} x @param {number} y */
+function named(symbol, x, y) {
+  const [base, index = ""] = symbol.split("_");
+  const element = svg("text", { class: "noise-symbol", x, y, "text-anchor": "end" });
+  const low = svg("tspan", { class: "noise-index", dy: 2 });
+  low.textContent = index;
+  element.append(base, low);
   return element;
 }
 
