@@ -15,6 +15,7 @@ from .numbers import all_numbers, is_number
 
 COMMENTS = (b"#", b"%", b"//")
 DECIMAL_COMMA = re.compile(rb"[-+]?\d+,\d+")
+EITHER = re.compile(rb"[-+]?\d+(?:,\d+)?")
 PAIR = re.compile(rb"([A-Za-z_][\w ]*?)\s*[:=]\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)(?![\w:])")
 INNERMOST = re.compile(rb"([^\[\]()]*)[\[(]([^\[\]()]*)[\])]")
 MISSING = (b"", b"-", b"--", b"null", b"none", b"na", b"n/a", b"#n/a", b"nan")
@@ -88,7 +89,7 @@ def dialect_of(lines: list[bytes]) -> Dialect:
     if not any(b"," in line for line in data):
         return Dialect(b" ")
     words = b" ".join(data).split()
-    if len(words) > len(data) and all(DECIMAL_COMMA.fullmatch(word) for word in words):
+    if len(words) >= 2 * len(data) and all(EITHER.fullmatch(word) for word in words):
         return Dialect(b" ", comma=True)
     return Dialect(b",")
 

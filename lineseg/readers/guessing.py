@@ -11,7 +11,7 @@ from .reading import METRES, AngleUnit, Reading, Unit
 
 UNIT_NAMES = {"m": "metres", "cm": "centimetres", "mm": "millimetres"}
 # Rooms and yards: a laser's median range is hardly ever outside of these [m].
-NEAR, FAR = 0.25, 60.0
+NEAR, FAR = 0.35, 60.0
 # What drivers write for "no return": the greatest numbers of 16, 15, 14, 13 and 12 bits in millimetres or centimetres.
 CODES = (655.35, 655.34, 655.33, 65.535, 65.534, 65.533, 32.767, 16.383, 8.191, 4.095)
 OFTEN = 0.01

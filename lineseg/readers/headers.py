@@ -31,11 +31,11 @@ UNITS = {**LENGTHS, **TURNS, **TIMES}
 
 
 class Name(NamedTuple):
-    """A column's name in plain words joined by "_", its unit ("" if not said), and its index in an array, or −1."""
+    """A column's name in plain words joined by "_", its unit ("" if not said), and its element in an array, or −1."""
 
     plain: str
     unit: str = ""
-    index: int = -1
+    element: int = -1
 
     def ends(self, *known: str) -> bool:
         """Whether it is one of these names, perhaps after a prefix such as that of a topic."""
@@ -65,13 +65,13 @@ def name_of(cell: str) -> Name:
 def is_angle(name: Name) -> bool:
     words = name.plain.split("_")
     known = words[-1] in ANGLES or words[0] in ANGLES or words[0].startswith(("angul", "angel"))
-    return name.index < 0 and known and not name.ends("angle_min", "angle_max", "angle_increment")
+    return name.element < 0 and known and not name.ends("angle_min", "angle_max", "angle_increment")
 
 
 def is_distance(name: Name) -> bool:
     words = name.plain.split("_")
     known = words[0] in DISTANCES or words[-1] in DISTANCES
-    return name.index < 0 and known and not name.ends("range_min", "range_max", "time")
+    return name.element < 0 and known and not name.ends("range_min", "range_max", "time")
 
 
 def column_of(names: list[Name], test) -> int | None:
@@ -83,8 +83,8 @@ def array_columns(names: list[Name]) -> list[int]:
     """The columns of the ranges if each beam has its own, in the order of their indices; [] if they are none."""
     stems: dict[str, list[tuple[int, int]]] = {}
     for at, name in enumerate(names):
-        if name.index >= 0:
-            stems.setdefault(name.plain, []).append((name.index, at))
+        if name.element >= 0:
+            stems.setdefault(name.plain, []).append((name.element, at))
     stems = {stem: found for stem, found in stems.items() if "intensit" not in stem}
     if not stems:
         return []

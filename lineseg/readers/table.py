@@ -95,7 +95,7 @@ def read_table(source: Source, reading: Reading, rows: Iterable[Row], dialect: D
 
 def _layout(names: list[Name]) -> Layout:
     def column(*known: str) -> int | None:
-        return column_of(names, lambda name: name.index < 0 and name.ends(*known))
+        return column_of(names, lambda name: name.element < 0 and name.ends(*known))
 
     at = {name: found for name in FIELDS if (found := column(name)) is not None}
     listed = column("ranges")
@@ -118,7 +118,7 @@ def _add(source: Source, reading: Reading, sweeps: Sweeps, row: Row, dialect: Di
     cells = dialect.cells(row.text)
     names = layout.names
     # Scans of some exporters vary in length, and the last cells may be missing, with their separators.
-    needed = max([*layout.at.values(), *([] if layout.listed is None else [layout.listed]), *layout.beams[:1]])
+    needed: int = max([*layout.at.values(), *([] if layout.listed is None else [layout.listed]), *layout.beams[:1]])
     if len(cells) <= needed or (layout.listed is not None and len(cells) not in (len(names), len(names) - 1)):
         raise ValueError(f"{len(cells)} of {len(names)} columns; is the line complete?")
     ranges = _ranges(dialect, cells, layout)

@@ -114,8 +114,11 @@ def _is_header(dialect: Dialect, cells: list[bytes]) -> bool:
 def _names(dialect: Dialect, head: list[Row], cells: list[bytes]) -> list[Name]:
     """The names in a header; one of blanks is cut at wider gaps if that fits the rows better."""
     if dialect.separator == b" " and len(head) > 1:
+        width = len(dialect.cells(head[1].text))
+        # A unit in brackets belongs to the name before it.
+        cells = re.sub(rb"\s+(?=[(\[{])", b"", head[0].text.strip()).split()
         wide = re.split(rb"\t+| {2,}|\s*,\s*", head[0].text.strip())
-        if len(cells) != len(dialect.cells(head[1].text)) == len(wide):
+        if len(cells) != width == len(wide):
             cells = wide
     return [name_of(cell.decode("utf-8", "replace")) for cell in cells]
 
@@ -126,7 +129,7 @@ def _read_named(
     if reading.columns is not None:
         given = columns_of(reading.columns)
         return _read_columns(source, reading, rows, dialect, given)
-    ranges = column_of(names, lambda name: name.index < 0 and name.ends("ranges"))
+    ranges = column_of(names, lambda name: name.element < 0 and name.ends("ranges"))
     beams = array_columns(names)
     if ranges is not None or beams:
         return read_table(source, reading, rows, dialect, names)
