@@ -18,6 +18,8 @@ WORDS = (
 )  # fmt: skip
 # The words before the stamp, after the ranges (and for the last two, the remissions).
 TAILS = {"FLASER": 6, "RLASER": 6, "LASER_READING": 3, "ROBOTLASER": 11, "RAWLASER": 0}
+LASERS = {name.encode(): name for name in ("FLASER", "RLASER", "LASER_READING")}
+LASERS |= {f"{name}{n}".encode(): f"{name}{n}" for name in ("ROBOTLASER", "RAWLASER") for n in (1, 2, 3, 4)}
 WITHOUT_ANGLES = ("FLASER", "RLASER", "LASER_READING")
 MAXIMA = {"FLASER": b"robot_front_laser_max", "RLASER": b"robot_rear_laser_max"}
 # Lasers with these numbers of beams look over half a turn, as the format assumes of all.
@@ -52,7 +54,7 @@ class CarmenLog(Reader):
         settings: dict[bytes, bytes] = {}
         for number, text in source.lines():
             word = text.split(None, 1)[:1]
-            laser = _laser(word[0]) if word else None
+            laser = LASERS.get(word[0]) if word else None
             if laser:
                 decode = _decode_flaser if laser in WITHOUT_ANGLES else _decode_robotlaser
                 try:
@@ -88,11 +90,6 @@ def _recording(
     announced = max((line.range_max for line in lines if line.range_max), default=setting)
     recording.range_max[:] = longest_return(recording.ranges, announced)
     return recording
-
-
-def _laser(word: bytes) -> str | None:
-    name = word.decode("ascii", "replace")
-    return name if name in TAILS or (name[-1] in "1234" and name[:-1] in ("ROBOTLASER", "RAWLASER")) else None
 
 
 def _with_view(source: Source, lines: list[Line], settings: dict[bytes, bytes], topic: str) -> list[Line]:

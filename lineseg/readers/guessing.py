@@ -15,7 +15,7 @@ NEAR, FAR = 0.35, 60.0
 # What drivers write for "no return": the greatest numbers of 16, 15, 14, 13 and 12 bits in millimetres or centimetres.
 CODES = (655.35, 655.34, 655.33, 65.535, 65.534, 65.533, 32.767, 16.383, 8.191, 4.095)
 OFTEN = 0.01
-MOST_SAMPLED = 200_000
+MOST_SAMPLED = 8_000
 
 
 def sampled(values: Floats) -> Floats:

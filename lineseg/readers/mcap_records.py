@@ -44,6 +44,7 @@ class McapFile:
 
     def __init__(self, path: Path) -> None:
         self._file: BinaryIO = path.open("rb")
+        self._at = 0
         self._size = path.stat().st_size
         self.channels: dict[int, McapChannel] = {}
         self.counts: dict[int, int] = {}
@@ -71,7 +72,7 @@ class McapFile:
             (start,) = struct.unpack("<Q", self._exactly(20)[:8])
             if opcode != FOOTER or self._file.read() != MAGIC or not 0 < start < self._size:
                 return False
-            self._file.seek(start)
+            self._at = self._file.seek(start)
             counted = False
             while (record := self._record()) is not None and record[0] != FOOTER:
                 opcode, body = record
@@ -86,7 +87,7 @@ class McapFile:
 
     def _scan(self, wanted: set[int] | None) -> Iterator[tuple[int, int, bytes]]:
         """The messages in file order; wanted: None to learn about channels and to count, without messages."""
-        self._file.seek(len(MAGIC))
+        self._at = self._file.seek(len(MAGIC))
         try:
             while (record := self._record()) is not None:
                 opcode, body = record
@@ -105,12 +106,13 @@ class McapFile:
     def _record(self) -> tuple[int, bytes] | None:
         """(opcode, content) of the next record; None at the end of the file. Raises BrokenError if it is not whole."""
         head = self._file.read(HEAD.size)
+        self._at += len(head)
         if not head:
             return None
         if len(head) < HEAD.size:
-            raise BrokenError(f"its last record breaks off at byte {self._file.tell()}")
+            raise BrokenError(f"its last record breaks off at byte {self._size}")
         opcode, length = HEAD.unpack(head)
-        left = self._size - self._file.tell()
+        left = self._size - self._at
         if min(length, left) > MOST_RECORD:
             raise TooLargeError(too_large("a record", MOST_RECORD))
         if length > left and opcode != CHUNK:
@@ -120,6 +122,7 @@ class McapFile:
 
     def _exactly(self, size: int) -> bytes:
         data = self._file.read(size)
+        self._at += len(data)
         if len(data) < size:
             raise BrokenError(f"it breaks off at byte {self._size}")
         return data

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..scan import Floats, Recording
 from .account import Notice
-from .guessing import sampled
+from .guessing import MOST_SAMPLED, sampled
 from .reading import Reading
 
 MOST_RANGE, LEAST_MEDIAN = 500.0, 0.05
@@ -30,7 +30,7 @@ def noticed(recording: Recording, reading: Reading, recorded: bool) -> Iterator[
 
 def _sample(recording: Recording) -> tuple[Floats, Any]:
     """Some of the ranges, and which of them are within the limits."""
-    step = max(1, len(recording.ranges) // 200_000)
+    step = max(1, len(recording.ranges) // MOST_SAMPLED)
     ranges = recording.ranges[::step]
     frame = np.searchsorted(recording.offsets, np.arange(0, len(recording.ranges), step), side="right") - 1
     inside = (ranges > 0) & (ranges >= recording.range_min[frame]) & (ranges < recording.range_max[frame])

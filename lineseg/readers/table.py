@@ -131,8 +131,11 @@ def _add(source: Source, reading: Reading, sweeps: Sweeps, row: Row, dialect: Di
 
 def _ranges(dialect: Dialect, cells: list[bytes], layout: Layout) -> Floats:
     if layout.listed is not None:
-        text = re.sub(rb"[\[\](){}'\"]|array|[dD]type=\w+", b" ", cells[layout.listed])
-        values = all_numbers(text.replace(b"None", b"nan").replace(b"null", b"nan"))
+        text = cells[layout.listed].strip(b" []()'\"")
+        values = all_numbers(text)
+        if values is None:
+            text = re.sub(rb"[\[\](){}'\"]|array|[dD]type=\w+", b" ", text)
+            values = all_numbers(text.replace(b"None", b"nan").replace(b"null", b"nan"))
         if values is None:
             wrong = next((word for word in re.split(rb"[\s,;]+", text.strip()) if dialect.number(word) is None), b"?")
             raise ValueError(f"{wrong[:40].decode('utf-8', 'replace')!r} among the ranges is not a number")
