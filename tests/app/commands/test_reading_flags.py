@@ -4,11 +4,11 @@ import json
 
 import numpy as np
 import pytest
+from lineseg_app.__main__ import main
 
 from lineseg import Scan
 from lineseg.readers import Reading, save_npz
 from lineseg.scan import Recording
-from lineseg_app.__main__ import main
 
 
 @pytest.fixture
