@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+import base64
 import json
 import struct
-from collections.abc import Callable
 from typing import Any
 
 from websockets.sync.connection import Connection
 from websockets.typing import Subprotocol
 
-from lineseg.readers.laser_scan import TYPES, LaserScan, decode_cdr, decode_json, decode_ros1
+from lineseg.readers.decoders import ENCODINGS, Decoder, decoder_of, is_laser
+from lineseg.readers.laser_scan import LaserScan
 from lineseg.segment import Extraction
 
 from .bridge import Told
@@ -20,12 +21,6 @@ SUBPROTOCOLS = [Subprotocol("foxglove.sdk.v1"), Subprotocol("foxglove.websocket.
 MESSAGE_DATA = 1
 HEADER = struct.Struct("<BIQ")
 SUBSCRIPTION = 1
-
-DECODERS: dict[str, Callable[[bytes], LaserScan]] = {
-    "cdr": decode_cdr,
-    "ros1": decode_ros1,
-    "json": lambda data: decode_json(json.loads(data)),
-}
 
 
 class Foxglove:
@@ -37,6 +32,7 @@ class Foxglove:
         self._socket = socket
         self._channels: dict[int, dict[str, Any]] = {}
         self._chosen: int | None = None
+        self._decode: Decoder | None = None
         self._server: dict[str, Any] = {}
         self._advertised: dict[str, int] = {}
 
@@ -47,7 +43,8 @@ class Foxglove:
             elif self._chosen is not None and len(data) > HEADER.size:
                 opcode, subscription, _ = HEADER.unpack_from(data)
                 if (opcode, subscription) == (MESSAGE_DATA, SUBSCRIPTION):
-                    decode = DECODERS[self._channels[self._chosen]["encoding"]]
+                    decode = self._decode
+                    assert decode is not None
                     told.hand(lambda decode=decode, data=data: decode(data[HEADER.size :]))
 
     def publish(self, topic: str, extraction: Extraction, scan: LaserScan) -> None:
@@ -86,6 +83,11 @@ class Foxglove:
     def _choose(self, topic: str | None, told: Told) -> None:
         for id, channel in self._channels.items():
             if topic in (None, channel["topic"]) and _is_laser(channel):
+                try:
+                    self._decode = _decoder(channel)
+                except ValueError as error:
+                    told.waits(f"{_shown(channel)}: {error}")
+                    continue
                 self._chosen = id
                 told.topic_is(channel["topic"])
                 told.waits(f"subscribed to {channel['topic']}; waiting for its first scan")
@@ -96,7 +98,7 @@ class Foxglove:
     def _why_none(self, topic: str | None) -> str:
         named = [channel for channel in self._channels.values() if channel["topic"] == topic]
         if named:
-            return f"{_shown(named[0])}; choose a sensor_msgs/LaserScan as {', '.join(DECODERS)}"
+            return f"{_shown(named[0])}; choose a sensor_msgs/LaserScan as {', '.join(ENCODINGS)}"
         there = ", ".join(_shown(channel) for channel in list(self._channels.values())[:8])
         missing = f"has no topic {topic}" if topic else "has no sensor_msgs/LaserScan topic"
         return f"the robot {missing} yet; it has {there or 'no topic at all'}"
@@ -106,10 +108,18 @@ class Foxglove:
 
 
 def _is_laser(channel: dict[str, Any]) -> bool:
-    """JSON has no fixed type names, so only the last part of the name counts."""
-    schema, encoding = str(channel["schemaName"]), channel["encoding"]
-    named = schema in TYPES or (encoding == "json" and schema.split("/")[-1] == "LaserScan")
-    return named and encoding in DECODERS
+    return is_laser(str(channel["schemaName"]), channel["encoding"]) and channel["encoding"] in ENCODINGS
+
+
+def _decoder(channel: dict[str, Any]) -> Decoder:
+    """Raises ValueError if the channel's schema cannot be used. Binary schemas come as base64."""
+    schema = b""
+    if channel["encoding"] == "protobuf":
+        try:
+            schema = base64.b64decode(str(channel.get("schema", "")), validate=True)
+        except ValueError as error:
+            raise ValueError(f"its schema is not base64 ({error})") from None
+    return decoder_of(str(channel["schemaName"]), channel["encoding"], schema, 0)
 
 
 def _shown(channel: dict[str, Any]) -> str:

@@ -43,7 +43,7 @@ def guarded(source: Source, what: str, hint: str) -> Iterator[None]:
     try:
         yield
     except Exception as error:
-        raise ValueError(f"{source.name}: a damaged {what} ({_detail(error)}); {hint}") from None
+        raise ValueError(f"{source.name}: a damaged {what} ({detail(error)}); {hint}") from None
 
 
 @contextmanager
@@ -52,14 +52,15 @@ def cut_off(source: Source, what: str, hint: str) -> Iterator[None]:
     try:
         yield
     except Exception as error:
-        tell_cut(source, what, _detail(error), hint)
+        tell_cut(source, what, detail(error), hint)
 
 
 def tell_cut(source: Source, what: str, why: str, hint: str) -> None:
     source.notes.notice("breaks off", f"A damaged {what} ({why}), read up to there; {hint}")
 
 
-def _detail(error: Exception) -> str:
+def detail(error: Exception) -> str:
+    """An error of a library in one line."""
     return re.sub(r"\('(.*?)\.?',?\)", r"\1", str(error)).strip().rstrip(".") or type(error).__name__
 
 

@@ -99,7 +99,15 @@ def protobuf_decoder(type: str, schema: bytes) -> Decoder:
         message = message_factory.GetMessageClass(pool.FindMessageTypeByName(type))
     except Exception as error:  # the library has several kinds of errors
         raise ValueError(f"the schema of {type} cannot be used ({error})") from None
-    return lambda data: _from_protobuf(message.FromString(data))
+
+    def decode(data: bytes) -> LaserScan:
+        try:
+            parsed = message.FromString(data)
+        except Exception as error:  # DecodeError is no ValueError
+            raise ValueError(f"it is no {type} ({error})") from None
+        return _from_protobuf(parsed)
+
+    return decode
 
 
 def _from_protobuf(message: Any) -> LaserScan:

@@ -9,8 +9,9 @@ from contextlib import ExitStack
 from typing import Any
 
 from ..scan import Recording
-from .bags import Stream, choose_streams, collect, cut_off, guarded
-from .decoders import Decoder
+from .bags import Stream, choose_streams, collect, cut_off, detail, tell_cut
+from .decoders import Decoder, is_laser
+from .ros1_records import Connection, scan_records
 from .source import Reader, Source
 
 
@@ -29,8 +30,10 @@ class Ros1Bag(Reader):
     def read(source: Source) -> Recording:
         _check_version(source)
         with ExitStack() as stack:
-            with guarded(source, "ROS bag", "`rosbag reindex` or `rosbag fix` may repair it."):
+            try:
                 bag = stack.enter_context(_open_bag(source))
+            except Exception as error:  # rosbags has errors of its own, and needs an index
+                return _without_index(source, detail(error))
             streams = [Stream(each.topic, each.msgtype, each.msgcount, each, "ros1") for each in bag.connections]
             topic, topics, chosen = choose_streams(source, streams)
             total = sum(stream.messages for stream in chosen)
@@ -78,3 +81,26 @@ def _messages(source: Source, bag: Any, streams: list[Stream]) -> Iterator[tuple
     with cut_off(source, "ROS bag", "`rosbag fix` may save more of it."):
         for connection, nanoseconds, data in bag.messages([stream.handle for stream in streams]):
             yield decoders[connection.id], nanoseconds, data
+
+
+def _without_index(source: Source, why: str) -> Recording:
+    """The scans of a bag that breaks off or was never closed, as far as it goes.
+
+    Raises ValueError if there are none.
+    """
+    hint = "`rosbag reindex` or `rosbag fix` may repair it."
+    found: dict[Connection, list[tuple[int, bytes]]] = {}
+    with cut_off(source, "ROS bag", hint):
+        for connection, nanoseconds, data in scan_records(source.path):
+            messages = found.setdefault(connection, [])
+            if is_laser(connection.type):
+                messages.append((nanoseconds, data))
+    if not any(found.values()):
+        raise ValueError(f"{source.name}: a damaged ROS bag ({why}); {hint}")
+    streams = [Stream(each.topic, each.type, len(messages), each, "ros1") for each, messages in found.items()]
+    topic, topics, chosen = choose_streams(source, streams)
+    if not any(notice.kind == "breaks off" for notice in source.notes.notices):
+        tell_cut(source, "ROS bag", why, hint)
+    total = sum(stream.messages for stream in chosen)
+    rows = [(stream.decoder(source), *row) for stream in chosen for row in found[stream.handle]]
+    return collect(source, sorted(rows, key=lambda row: row[1]), total, topic, topics, Ros1Bag.format)

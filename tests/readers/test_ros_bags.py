@@ -187,14 +187,28 @@ def test_a_callback_sees_progress_and_can_cancel(tmp_path):
         open_recording(path, progress=cancel)
 
 
-def test_a_bag_without_index_names_the_tool_that_makes_one(tmp_path):
+def test_a_bag_without_index_is_read_and_the_tool_that_makes_one_is_named(tmp_path):
     data = bytearray(bag1(tmp_path / "whole.bag", ("/scan", [1.0])).read_bytes())
     place = data.index(b"index_pos=") + len(b"index_pos=")
     data[place : place + 8] = struct.pack("<Q", 0)
     path = tmp_path / "active.bag"
     path.write_bytes(data)
-    with pytest.raises(ValueError, match="`rosbag reindex`"):
-        open_recording(path)
+    recording = open_recording(path)
+    (notice,) = recording.account.notices
+    assert (len(recording), notice.kind, "`rosbag reindex`" in notice.text) == (3, "breaks off", True)
+
+
+def test_a_long_bag_that_breaks_off_is_read_up_to_there(tmp_path):
+    ranges, stamps = [1.0] * 2000, np.arange(1.0, 600.0)
+    paths = [bag1(tmp_path / "whole.bag", ("/scan", ranges), stamps=stamps)]
+    folder = bag2(tmp_path / "b", ("/scan", ranges), stamps=stamps, plugin=StoragePlugin.MCAP)
+    paths += [path for path in folder.iterdir() if path.suffix != ".yaml"]
+    for path in paths:
+        broken = tmp_path / f"broken{path.suffix}"
+        broken.write_bytes(path.read_bytes()[: int(path.stat().st_size * 0.6)])
+        recording = open_recording(broken)
+        assert 250 < len(recording) < 400
+        assert "breaks off" in [notice.kind for notice in recording.account.notices]
 
 
 @pytest.mark.parametrize("share", [0.3, 0.9])

@@ -10,7 +10,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from foxglove import Channel, Context, Schema, start_server
+from foxglove import Channel, Context, Schema, messages, start_server
+from foxglove.channels import LaserScanChannel
 from foxglove.websocket import Capability, ChannelView, Client, ClientChannel, ServerListener, WebSocketServer
 from live import page_of
 from robots import nearest, wall, watching
@@ -102,6 +103,21 @@ def test_scans_arrive_in_each_encoding_and_segments_go_back(robots: list[Robot],
         header, points = decoded(back, data)
         assert header == (8, 123456789, "laser")
         np.testing.assert_allclose(points, [[2.0, -2.0], [2.0, 2.0]], atol=1e-3)
+
+
+def test_scans_of_foxglove_arrive_as_protobuf(robots: list[Robot], tmp_path: Path):
+    robots.append(robot := Robot())
+    channel = LaserScanChannel("/scan", context=robot.context)
+    with watching(robot.url, tmp_path) as server, page_of(server) as page:
+        page.say(type="hello")
+        assert robot.listener.subscribed.get(timeout=60) == "/scan"
+        sent = scan_message(wall(3.0))
+        end = sent["angle_min"] + sent["angle_increment"] * (len(sent["ranges"]) - 1)
+        ranges = [float(distance) for distance in sent["ranges"]]
+        message = messages.LaserScan(frame_id="laser", start_angle=sent["angle_min"], end_angle=end, ranges=ranges)
+        channel.log(message)
+        state = page.hear_a("drawn")["state"]
+        assert (nearest(state), state["frameId"]) == (pytest.approx(3.0, abs=1e-3), "laser")
 
 
 def decoded(encoding: str, data: bytes) -> tuple[tuple[int, int, str], list[list[float]]]:
