@@ -30,7 +30,7 @@ def view(
     """Show the page in the browser.
 
     Args:
-        file: recording to open: CARMEN log, ROS 1 or ROS 2 bag, MCAP, NPZ or text (default: a sample).
+        file: recording to open: a bag, MCAP, log, NPZ, JSON, CSV or other text, also compressed (default: a sample).
             Or a robot to watch live: ws://robot:9090 (rosbridge), ws://robot:8765 (Foxglove).
         how: how to read the file; of a robot, only the topic can be chosen.
         keep: number of a robot's scans to keep; older ones are dropped.
