@@ -111,10 +111,6 @@ class Scan:
         """
         return self.fan.around
 
-    def opened(self) -> Scan:
-        """The same scan treated as open, even on a full circle: nothing crosses from the last beam to the first."""
-        return replace(self, known=self.fan._replace(around=0))
-
 
 @dataclass(frozen=True)
 class Topic:

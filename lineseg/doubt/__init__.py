@@ -247,7 +247,7 @@ def probable_misses(lines, count, points, limits, dropped):
     """Number of lines found with LOOSER·ε and LOOSER·δ in the runs of points without a segment.
 
     A run lies between two neighbouring segments, before the first or after the last. Each is searched by itself, with
-    P_min, L_min and the other limits unchanged. Overwrites the rows of `lines` from `count` on, and those of
+    P_min, L_min and the other limits unchanged. Writes them to the rows of `lines` from `count` on; overwrites
     `dropped`.
     """
     looser = loosened(limits, LOOSER)
@@ -259,7 +259,7 @@ def probable_misses(lines, count, points, limits, dropped):
     for i in range(count + 1):
         end = lines[i].first if i < count else stop
         if end - start >= max(limits.min_points, limits.seed_points):
-            found += lines_in(points, start, end, looser, lines[count:], dropped)
+            found += lines_in(points, start, end, looser, lines[count + found :], dropped)
         if i < count:
             start = lines[i].last + 1
     return found
@@ -267,7 +267,7 @@ def probable_misses(lines, count, points, limits, dropped):
 
 @kernel
 def lines_in(points, start, end, limits, lines, dropped):
-    """Number of lines in the positions start..end − 1, searched by themselves."""
+    """Number of lines in the positions start..end − 1, searched by themselves and written to `lines`."""
     run = Points(
         points.x[start:end],
         points.y[start:end],
@@ -279,7 +279,12 @@ def lines_in(points, start, end, limits, lines, dropped):
         end - start,
     )
     dropped.used[0] = 0
-    return resolve_overlaps(run, lines, grow_lines(run, limits, lines, dropped, None), dropped, limits, None)
+    count = resolve_overlaps(run, lines, grow_lines(run, limits, lines, dropped, None), dropped, limits, None)
+    for i in range(count):
+        row = lines[i]
+        row.first += start
+        row.last += start
+    return count
 
 
 @kernel

@@ -2,20 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..arguments import need_scan, need_thresholds
-from ..extractors import extract, trace_growth
+from ..extractors import trace_growth
+from ..kernel import entry_kernel
 from ..params import Params
+from ..region_growing import Memory, grow_lines
 from ..region_growing.checks import GROWTH_STOPPED, LINE_DROPPED, SEED_REJECTED
+from ..region_growing.endpoints import place_endpoints
+from ..region_growing.limits import limits_of, unpacked
+from ..region_growing.lines import DROPPED, LINE, Dropping
+from ..region_growing.overlap import resolve_overlaps
+from ..region_growing.points import points_of
 from ..region_growing.trace import GrowthTrace, Trace, longest, nearest
 from ..scan import Scan
 from ..tracing.log import Row
-from . import LOOSER
+from . import probable_misses
 
 
 @dataclass(frozen=True)
@@ -44,17 +50,24 @@ def misses(scan: Scan, params: Params | None = None) -> tuple[Miss, ...]:
     params = Params() if params is None else params
     need_thresholds(params, Params)
     traced = trace_growth(scan, params)
-    looser = params.but(
-        epsilon=min(LOOSER * params.epsilon, 100.0), delta=min(LOOSER * params.delta, 1000.0), max_occluder=0.0
-    )
-    found: list[Miss] = []
-    for run in _runs(scan, traced):
-        # Objects that lines pass behind have already been removed.
-        beams = run[~traced.looked_past[run]]
-        part = Scan(scan.ranges[beams], np.unwrap(scan.bearings[beams]), scan.range_min, scan.range_max)
-        lines = extract(part.opened(), looser).segments
-        found += [_miss(traced, beams[line.first : line.last + 1], line.points, line.length) for line in lines]
-    return tuple(found)
+    memory = Memory(len(scan), scan.full_circle)
+    scene = (scan.ranges.astype(np.float64), scan.rays, float(scan.range_min), float(scan.range_max), scan.around)
+    count, found = missed_lines(*scene, limits_of(params), *memory.arguments)
+    missed = [_miss(traced, memory.numbers[0], row) for row in memory.lines[count : count + found]]
+    return tuple(sorted(missed, key=lambda miss: miss.first))
+
+
+@entry_kernel
+def missed_lines(ranges, rays, range_min, range_max, around, limits, xy, numbers, lines, dropped):
+    """Write the segments and then the `probable_misses` to `lines`, and return the number of each."""
+    limits = unpacked(limits)
+    lines, dropped = lines.view(LINE), Dropping(dropped.view(DROPPED), numbers[3])
+    dropped.used[0] = 0
+    points = points_of(ranges, rays, range_min, range_max, around, limits, xy, numbers)
+    count = resolve_overlaps(points, lines, grow_lines(points, limits, lines, dropped, None), dropped, limits, None)
+    found = probable_misses(lines, count, points, limits, dropped)
+    place_endpoints(points, lines[count:], found, None)
+    return count, found
 
 
 def why_none(traced: Trace, beams: NDArray[np.intp]) -> str:
@@ -75,32 +88,11 @@ def _widened(scan: Scan, beams: NDArray[np.intp]) -> NDArray[np.intp]:
     return wide % len(scan) if scan.full_circle else wide[(wide >= 0) & (wide < len(scan))]
 
 
-def _runs(scan: Scan, traced: Trace) -> Iterator[NDArray[np.intp]]:
-    """The beams before the first segment, between neighbours, and after the last."""
-    n, segments = len(scan), traced.extraction.segments
-    ends = [(segment.first, segment.last) for segment in segments]
-    if not scan.full_circle:
-        starts, stops = [0, *(last + 1 for _, last in ends)], [*(first for first, _ in ends), n]
-        yield from (np.arange(start, stop) for start, stop in zip(starts, stops, strict=True))
-    elif not ends:
-        yield (_opening(scan) + np.arange(n)) % n
-    else:
-        for (_, last), (first, _) in zip(ends, [*ends[1:], ends[0]], strict=True):
-            yield (last + 1 + np.arange((first - last - 1) % n)) % n
-
-
-def _opening(scan: Scan) -> int:
-    """The beam after the widest gap of a full circle."""
-    beams = np.flatnonzero(scan.valid)
-    if not len(beams):
-        return 0
-    gaps = np.hypot(*(scan.xy[np.roll(beams, -1)] - scan.xy[beams]).T)
-    return int(np.roll(beams, -1)[np.argmax(gaps)])
-
-
-def _miss(traced: Trace, beams: NDArray[np.intp], points: int, length: float) -> Miss:
-    check, beam, value, limit, reason = _reason(traced, beams)
-    first, last = int(beams[0]), int(beams[-1])
+def _miss(traced: Trace, beam_of: NDArray[np.integer], row: np.void) -> Miss:
+    n, around = len(traced.scan), traced.scan.around or len(traced.scan)
+    first, last = (int(beam_of[row[end]]) % around for end in ("first", "last"))
+    check, beam, value, limit, reason = _reason(traced, (first + np.arange((last - first) % n + 1)) % n)
+    points, length = int(row["last"] - row["first"]) + 1, float(row["length"])
     text = f"a line was probably missed: beams {first}–{last}, {points} points, {length:.1f} m – {reason}"
     return Miss(first, last, points, length, check, beam, value, limit, text)
 
