@@ -1,4 +1,4 @@
-"""Known failures of extraction, planted in a recording."""
+"""Known failures of extraction, planted in a recording: with the thresholds FAILING, each is one."""
 
 from __future__ import annotations
 
@@ -7,9 +7,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from lineseg import Recording, Scan, Segment, extract
+from lineseg import Params, Recording, Scan, Segment, extract
 
 Plant = Callable[[Scan, np.random.Generator], np.ndarray | None]
+# By default no line crosses an open door, and one of the failures is that it does.
+FAILING = Params(max_void=0.0)
 
 
 def _wall(scan: Scan, rng: np.random.Generator, points: int, length: float) -> np.ndarray | None:
@@ -49,7 +51,7 @@ def missed_wall(scan, rng):
 
 def bridged_door(scan, rng):
     """A few beams pass through an open door in a wall seen at a grazing angle, and the line continues beyond it."""
-    found = extract(scan)
+    found = extract(scan, FAILING)
     doors = []
     for k in range(len(found.segments)):
         beams = np.flatnonzero(found.labels == k)[3:-6]
@@ -57,7 +59,7 @@ def bridged_door(scan, rng):
     for beam in rng.permutation(doors).astype(int):
         ranges = scan.ranges.copy()
         ranges[beam + 1 : beam + 4] = np.nan
-        labels = extract(Scan(ranges, scan.bearings, scan.range_min, scan.range_max)).labels
+        labels = extract(Scan(ranges, scan.bearings, scan.range_min, scan.range_max), FAILING).labels
         if labels[beam] == labels[beam + 4] >= 0:
             return ranges
     return None

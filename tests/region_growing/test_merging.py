@@ -37,8 +37,9 @@ def test_more_strays_than_max_dropout_split_it():
 def test_strays_far_from_the_wall_split_it_because_one_line_would_fit_badly():
     middle = len(wall_ahead().ranges) // 2
     scan = wall_with({middle: 0.6, middle + 1: 0.6})
-    assert len(extract(scan).segments) == 2
-    (event,) = [event for event in trace(scan) if event.kind == "lines kept apart"]
+    params = Params(max_void=0)
+    assert len(extract(scan, params).segments) == 2
+    (event,) = [event for event in trace(scan, params) if event.kind == "lines kept apart"]
     assert event.check == "merge_rms"
     assert event.value > event.limit
     assert "merged, their rms would be" in event.text

@@ -55,7 +55,7 @@ def test_the_other_scores_stay_what_they_are():
     found = with_stability(recording, base, progress=lambda done, total: seen.append((done, total)))
     assert np.array_equal(found.scores[:, :-1], base.scores[:, :-1])
     assert np.isnan(base.score("unstable")).all()
-    assert seen[-1] == (20, 20)
+    assert seen[-1] == (2 * len(Params.names()),) * 2
 
 
 def test_it_can_be_stopped_and_needs_scores():

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from planted import planted
+from planted import FAILING, planted
 from scenes import wall_ahead
 
 from lineseg import EXTRACTORS, Recording, Scan, misses, open_recording, survey, why, with_stability
@@ -34,14 +34,14 @@ def case():
     return (
         recording,
         {name: frame for frame, name in where.items()},
-        with_stability(recording, survey(recording)).scores,
+        with_stability(recording, survey(recording, FAILING)).scores,
     )
 
 
 @pytest.mark.parametrize("name", EXPECTED)
 def test_a_planted_failure_is_named(case, name):
     recording, where, scores = case
-    remarks = why(recording, where[name], scores=scores)
+    remarks = why(recording, where[name], FAILING, scores)
     assert {remark.score for remark in remarks} & EXPECTED[name], [remark.text for remark in remarks]
     assert [remark.doubt for remark in remarks] == sorted((remark.doubt for remark in remarks), reverse=True)
     for remark in remarks:
@@ -52,21 +52,21 @@ def test_a_planted_failure_is_named(case, name):
 
 def test_the_most_doubtful_comes_first(case):
     recording, where, scores = case
-    assert why(recording, where["shifted_sensor"], scores=scores)[0].score == "jolt"
-    assert why(recording, where["dropped_sector"], scores=scores)[0].score in ("invalid", "gone")
+    assert why(recording, where["shifted_sensor"], FAILING, scores)[0].score == "jolt"
+    assert why(recording, where["dropped_sector"], FAILING, scores)[0].score in ("invalid", "gone")
 
 
 def test_a_score_without_a_sentence_of_its_own_is_told_by_label_and_value(case, monkeypatch):
     recording, where, scores = case
     monkeypatch.setattr(sys.modules["lineseg.survey.why"], "WITH_SENTENCE", frozenset(SCORES) - {"invalid"})
-    texts = [remark.text for remark in why(recording, where["lost_beams"], scores=scores)]
+    texts = [remark.text for remark in why(recording, where["lost_beams"], FAILING, scores)]
     assert any(re.fullmatch(r"invalid beams: 0\.\d+; nearby frames: 0(\.\d+)?", text) for text in texts), texts
 
 
 def test_every_probable_miss_is_told_with_its_reason(case):
     recording, where, scores = case
     frame = where["quantised"]
-    texts = [remark.text for remark in why(recording, frame, scores=scores)]
+    texts = [remark.text for remark in why(recording, frame, FAILING, scores)]
     assert {miss.text for miss in misses(recording[frame])} <= set(texts)
 
 
