@@ -16,7 +16,9 @@ from .numbers import all_numbers, is_number
 COMMENTS = (b"#", b"%", b"//")
 DECIMAL_COMMA = re.compile(rb"[-+]?\d+,\d+")
 EITHER = re.compile(rb"[-+]?\d+(?:,\d+)?")
-PAIR = re.compile(rb"([A-Za-z_][\w ]*?)\s*[:=]\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)(?![\w:])")
+PAIR = re.compile(
+    rb"([A-Za-z_][\w ]*?)\s*[:=]\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(mm|cm|m|deg|rad)?(?![\w:])"
+)
 INNERMOST = re.compile(rb"([^\[\]()]*)[\[(]([^\[\]()]*)[\])]")
 MISSING = (b"", b"-", b"--", b"null", b"none", b"na", b"n/a", b"#n/a", b"nan")
 LONGEST_ROW = 1 << 24
@@ -132,14 +134,19 @@ def labels_of(lines: list[bytes]) -> list[bytes] | None:
     found = [pairs for pairs in found if len(pairs) >= 2]
     if len(found) < 0.5 * len(lines) or not found:
         return None
-    names = [name.strip().split()[-1] for name, _ in found[-1]]
-    alike = sum([name.strip().split()[-1] for name, _ in pairs] == names for pairs in found)
+    names = [_label(name, unit) for name, _, unit in found[-1]]
+    alike = sum([_label(name, unit) for name, _, unit in pairs] == names for pairs in found)
     return names if alike > 0.8 * len(found) else None
+
+
+def _label(name: bytes, unit: bytes) -> bytes:
+    last = name.strip().split()[-1]
+    return b"%s (%s)" % (last, unit) if unit else last
 
 
 def unlabelled(rows: Iterable[Row], count: int) -> Iterator[Row]:
     """The numbers of labelled lines; lines without labels are passed over."""
     for number, text in rows:
-        values = [value for _, value in PAIR.findall(text)]
+        values = [value for _, value, _ in PAIR.findall(text)]
         if len(values) == count:
             yield Row(number, b" ".join(values))

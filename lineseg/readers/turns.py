@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 
 from ..scan import Floats
 
 # A beam so far ahead, where the angle also leaps back, begins the next scan rather than following a gap.
 WIDE = np.deg2rad(30)
+# So many steps one after the other in the other sense are a sweep back, and not jitter.
+STEADY = 10
 
 
 def turns(bearings: Floats) -> list[int]:
@@ -15,6 +19,28 @@ def turns(bearings: Floats) -> list[int]:
 
     A scan ends before the beam that would pass the direction of its first beam again, or where the angle leaps back.
     """
+    edges = [0]
+    for start, stop in pairwise([0, *_reversals(bearings), len(bearings)]):
+        edges += [start + edge for edge in _one_way(bearings[start:stop])[1:]]
+    return edges
+
+
+def _reversals(bearings: Floats) -> list[int]:
+    """Where a laser that sweeps to and fro turns back for good."""
+    steps = np.sign((np.diff(bearings) + np.pi) % (2 * np.pi) - np.pi)
+    if len(steps) < 2 * STEADY or (steps >= 0).all() or (steps <= 0).all():
+        return []
+    changes = np.flatnonzero(np.diff(steps)) + 1
+    edges, last = [], 0.0
+    for start, stop in pairwise([0, *changes.tolist(), len(steps)]):
+        if stop - start >= STEADY and steps[start] and steps[start] != last:
+            edges += [start] if last else []
+            last = steps[start]
+    return edges
+
+
+def _one_way(bearings: Floats) -> list[int]:
+    """The edges of scans that all go the same way."""
     if len(bearings) < 2:
         return [0, len(bearings)]
     raw = np.diff(bearings)

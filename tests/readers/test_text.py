@@ -78,6 +78,23 @@ def test_an_angle_that_leaps_back_begins_the_next_scan(text):
     assert np.diff(open_recording(text(content)).offsets).tolist() == [360, 360, 360]
 
 
+def test_a_laser_that_sweeps_to_and_fro_begins_a_scan_where_it_turns_back(text):
+    to = [f"angle={angle} dist={200 + angle}cm" for angle in range(0, 181, 2)]
+    recording = open_recording(text("\n".join(["booting", "ready", *to, *to[::-1], *to]), "serial.txt"))
+    assert np.diff(recording.offsets).tolist() == [91, 91, 91]
+    assert np.rad2deg([scan.bearings[0] for scan in recording]) == pytest.approx([0, 180, 0])
+    assert recording.ranges[0] == 2.0
+
+
+@pytest.mark.parametrize("first", [0, 7, 100, 352])
+@pytest.mark.parametrize("direction", [1, -1])
+def test_turns_may_begin_anywhere(text, first, direction):
+    angles = (first + direction * np.arange(3 * 360)) % 360
+    recording = open_recording(text("".join(f"{angle} 2.5\n" for angle in angles)))
+    assert np.diff(recording.offsets).tolist() == [360, 360, 360]
+    assert all(scan.full_circle for scan in recording)
+
+
 def test_a_table_with_lists_gives_geometry_stamp_and_frame_of_each_scan(text):
     header = "{'stamp': {'secs': 774, 'nsecs': 500000000}, 'frame_id': 'base'}"
     content = (
