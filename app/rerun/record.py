@@ -30,7 +30,10 @@ Progress = Callable[[int, int], None]
 
 @dataclass(frozen=True, eq=False)
 class Run:
-    """What to record. frames: of the recording; steps: whether to add every decision, on a timeline `step`."""
+    """What to record. frames: of the recording; steps: whether to add every decision, on a timeline `step`.
+
+    as_in_file: whether frames have their numbers in the file, of which the recording may be a part.
+    """
 
     recording: Recording
     label: str
@@ -38,6 +41,7 @@ class Run:
     params: Thresholds
     frames: range
     steps: bool = False
+    as_in_file: bool = False
 
 
 def save(run: Run, path: Path, progress: Progress = lambda done, total: None) -> None:
@@ -92,7 +96,8 @@ def moments_of(run: Run, frames: range) -> Moments:
     recorded = stamps[run.frames.start : run.frames.stop]
     # A file without stamps has the same stamp for every frame.
     stamped = np.isfinite(recorded).all() and np.ptp(recorded) > 0
-    return Moments(np.array(frames), stamps[frames.start : frames.stop] if stamped else None)
+    numbers = [run.recording.number(frame) for frame in frames] if run.as_in_file else frames
+    return Moments(np.array(numbers), stamps[frames.start : frames.stop] if stamped else None)
 
 
 def send_points(stream: rr.RecordingStream, traces: Sequence[Trace], here: Moments) -> None:
