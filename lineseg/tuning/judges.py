@@ -2,7 +2,7 @@
 
 The noise of a recording says which ε fits it (`proposal`). Lines that a smaller and a larger ε also find are beyond
 doubt. So a setting is scored against the lines of all three, as it would be against the truth. Two random settings
-have the same order by both in 96 % of the pairs, and in 99 % of those whose true scores differ by more than 0.02 (mean
+have the same order by both in 96 % of the pairs, and in 98 % of those whose true scores differ by more than 0.02 (mean
 over all sets with truth, by `tests/benchmarks/label_free.py`).
 """
 
