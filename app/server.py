@@ -51,6 +51,7 @@ from .session.warm_up import WarmUp
 from .shelf.label_files import LabelFiles
 from .shelf.library import Library
 from .shelf.recent import Recent
+from .shelf.scratch import remove_leftovers
 from .shelf.uploads import Uploads
 from .view import View
 from .view_field import page_module
@@ -92,6 +93,7 @@ def create_app(settings: Settings) -> FastAPI:
     """The application. Any address but the loopback requires a token."""
     if not is_loopback(settings.host) and not settings.token:
         raise ValueError(f"host is {settings.host!r}, which others can reach; set a token")
+    remove_leftovers(user_folder(settings.data_folder))
     uploads = Uploads(settings.upload_limit, settings.upload_number, settings.upload_total)
     live = Live(settings.robots, settings.keep)
     library = Library(settings.files, Recent(settings.data_folder), uploads, live)

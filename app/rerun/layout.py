@@ -15,6 +15,7 @@ from lineseg.rerun import LINE, NO_LINE, POINT, THIN
 
 from ..frame.geometry import Bounds, bounds_of
 from ..scene.palette import LIGHT
+from .closing import send_blueprint
 
 POINTS_OF = {"points": "laser/points", "seeds": "laser/seeds"}
 BIG = -3.0
@@ -56,7 +57,7 @@ def announce(
         ("replay/lines", LINE, LIGHT.accepted),
     ):
         stream.log(f"laser/{entity}", rr.LineStrips3D.from_fields(radii=radius, colors=colour), static=True)
-    stream.send_blueprint(blueprint(bounds_of(recording), steps))
+    send_blueprint(stream, blueprint(bounds_of(recording), steps))
 
 
 def properties(

@@ -19,6 +19,7 @@ from lineseg.tracing.vocabulary import Kind
 from ..scene.palette import LIGHT
 from ..scene.picture import truth
 from ..scene.replay import foot, is_line
+from .closing import sweep
 from .layout import POINTS_OF, announce
 from .rows import Moments, send_rows, times
 
@@ -61,6 +62,8 @@ def save(run: Run, path: Path, progress: Progress = lambda done, total: None) ->
     finally:
         stream.disconnect()
         part.unlink(missing_ok=True)
+        del stream
+        sweep()
 
 
 def send(run: Run, stream: rr.RecordingStream, progress: Progress = lambda done, total: None) -> None:

@@ -6,7 +6,6 @@ import asyncio
 import json
 import math
 import secrets
-import tempfile
 import threading
 from collections.abc import AsyncIterator
 from pathlib import Path
@@ -22,6 +21,7 @@ from lineseg.readers import Cancelled
 from ..places import data_folder
 from ..session.sessions import Sessions
 from ..shelf.library import Library
+from ..shelf.scratch import Scratch
 from .attachment import attachment
 from .slow import SlowWork
 
@@ -38,22 +38,16 @@ class RerunFiles:
     """A folder with the newest few recordings, and with the files of the viewer once requested."""
 
     def __init__(self) -> None:
-        self._temporary = tempfile.TemporaryDirectory(prefix="lineseg-rerun-", ignore_cleanup_errors=True)
-        self._folder = Path(self._temporary.name)
+        self._scratch = Scratch()
         self._recording = SlowWork("recordings for rerun", AT_ONCE, math.inf)
         self._kept: list[str] = []
         self._unpacking = threading.Lock()
 
     def close(self) -> None:
-        self._temporary.cleanup()
-
-    def _place(self) -> Path:
-        """The folder, made anew if something has removed it."""
-        self._folder.mkdir(mode=0o700, exist_ok=True)
-        return self._folder
+        self._scratch.close()
 
     def recorded(self, id: str) -> Path | None:
-        file = self._folder / f"{id}.rrd"
+        file = self._scratch.folder / f"{id}.rrd"
         return file if id in self._kept and file.exists() else None
 
     def viewer(self, name: str) -> Path:
@@ -61,10 +55,10 @@ class RerunFiles:
         from ..rerun.viewer import unpack
 
         with self._unpacking:
-            if not (self._folder / "unpacked").exists():
-                unpack(self._place())
-                (self._folder / "unpacked").touch()
-        return self._folder / name
+            if not (self._scratch.folder / "unpacked").exists():
+                unpack(self._scratch.folder)
+                (self._scratch.folder / "unpacked").touch()
+        return self._scratch.folder / name
 
     async def record(self, run: Run) -> AsyncIterator[str]:
         """Record, and yield lines of JSON: the progress, then the id of the recording or the reason for a failure.
@@ -81,7 +75,7 @@ class RerunFiles:
             told["done"] = done
 
         try:
-            work = self._recording.start(save, run, self._place() / f"{id}.rrd", advance)
+            work = self._recording.start(save, run, self._scratch.folder / f"{id}.rrd", advance)
         except HTTPException as error:
             yield _line({"message": error.detail})
             return
@@ -93,14 +87,14 @@ class RerunFiles:
                 yield _line({"message": f"recording failed: {error}"})
                 return
             self._keep(id)
-            yield _line({"recording": id, "bytes": (self._folder / f"{id}.rrd").stat().st_size})
+            yield _line({"recording": id, "bytes": (self._scratch.folder / f"{id}.rrd").stat().st_size})
         finally:
             stop.set()
 
     def _keep(self, id: str) -> None:
         self._kept.append(id)
         while len(self._kept) > MOST_KEPT:
-            (self._folder / f"{self._kept.pop(0)}.rrd").unlink(missing_ok=True)
+            (self._scratch.folder / f"{self._kept.pop(0)}.rrd").unlink(missing_ok=True)
 
 
 def add_rerun(app: FastAPI, library: Library, sessions: Sessions) -> RerunFiles:

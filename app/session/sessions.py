@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 from starlette.exceptions import HTTPException
 
+from ..memory import give_back
 from ..shelf.label_files import LabelFiles
 from ..shelf.library import Library
 from ..view import View
@@ -50,6 +51,7 @@ class Sessions:
         self._watch = watch
         self._sessions: dict[str, Session] = {}
         self._opening = 0
+        self._closed = 0
 
     def __len__(self) -> int:
         return len(self._sessions)
@@ -99,6 +101,7 @@ class Sessions:
     async def close(self, session: Session) -> None:
         if self._sessions.pop(session.id, None) is not None:
             await asyncio.to_thread(session.close)
+            self._closed += 1
 
     async def close_all(self) -> None:
         await asyncio.gather(*(self.close(session) for session in list(self._sessions.values())))
@@ -107,9 +110,17 @@ class Sessions:
         """Close unused sessions periodically."""
         while True:
             await asyncio.sleep(min(REAP_EVERY, self._limits.grace, self._limits.idle))
-            now = time.monotonic()
-            for session in list(self._sessions.values()):
-                away = session.detached_at
-                gone = away is not None and now - away > self._limits.grace
-                if gone or now - session.last_input > self._limits.idle:
-                    await self.close(session)
+            # A while after the tabs were closed, when nothing refers to them any more.
+            if self._closed:
+                self._closed = 0
+                await asyncio.to_thread(give_back)
+            await asyncio.gather(*map(self.close, self._outdated()))
+
+    def _outdated(self) -> list[Session]:
+        now = time.monotonic()
+        return [
+            session
+            for session in self._sessions.values()
+            if (session.detached_at is not None and now - session.detached_at > self._limits.grace)
+            or now - session.last_input > self._limits.idle
+        ]

@@ -5,13 +5,14 @@ from __future__ import annotations
 import asyncio
 import secrets
 import shutil
-import tempfile
 import threading
 import time
 import unicodedata
 from collections.abc import AsyncIterator
 from dataclasses import dataclass
 from pathlib import Path
+
+from .scratch import Scratch
 
 LONGEST_NAME = 120
 SILENT_SECONDS = 10.0
@@ -49,7 +50,7 @@ class Uploads:
         self._at_once = at_once
         self._arriving = 0
         self._kept: dict[str, Upload] = {}
-        self._folder: Path | None = None
+        self._scratch = Scratch()
         self._lock = threading.Lock()
 
     def __getitem__(self, id: str) -> Upload:
@@ -70,7 +71,8 @@ class Uploads:
             self._arriving += 1
         try:
             id = secrets.token_urlsafe(9)
-            path = self._place() / id / safe_name(name)
+            with self._lock:
+                path = self._scratch.folder / id / safe_name(name)
             try:
                 path.parent.mkdir()
                 size = await self._write(path, name, _steady(name, chunks))
@@ -93,10 +95,8 @@ class Uploads:
     def close(self) -> None:
         """Remove every upload and the folder."""
         with self._lock:
-            folder, self._folder = self._folder, None
             self._kept.clear()
-        if folder is not None:
-            shutil.rmtree(folder, ignore_errors=True)
+            self._scratch.close()
 
     async def _write(self, path: Path, name: str, chunks: AsyncIterator[bytes]) -> int:
         size = 0
@@ -118,13 +118,6 @@ class Uploads:
                 outdated.append(self._kept.pop(next(iter(self._kept))))
         for old in outdated:
             shutil.rmtree(old.path.parent, ignore_errors=True)
-
-    def _place(self) -> Path:
-        """The folder, made anew if something has removed it."""
-        with self._lock:
-            if self._folder is None or not self._folder.is_dir():
-                self._folder = Path(tempfile.mkdtemp(prefix="lineseg-"))
-            return self._folder
 
     def _too_large(self, name: str) -> str:
         return (

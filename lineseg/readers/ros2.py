@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import shutil
 import sqlite3
 import tempfile
@@ -13,7 +14,7 @@ from urllib.parse import quote
 
 from ..scan import Recording
 from .bags import Stream, choose_streams, collect, cut_off, guarded, tell_cut
-from .bounded import expand, limit_of
+from .bounded import MOST_MESSAGE, expand, limit_of
 from .decoders import Decoder
 from .folder import storage_files
 from .mcap_records import McapFile
@@ -22,6 +23,8 @@ from .source import Reader, Source
 SQLITE_MAGIC = b"SQLite format 3\0"
 MCAP_MAGIC = b"\x89MCAP"
 ZSTD_MAGIC = b"\x28\xb5\x2f\xfd"
+# Steps of SQLite's machine; a row takes some 50.
+STEPS_AT_ONCE, LEAST_STEPS, STEPS_A_BYTE = 100_000, 20_000_000, 20
 
 
 class Storage(Protocol):
@@ -176,7 +179,24 @@ def _connect(file: Path, stack: ExitStack) -> sqlite3.Connection:
         file, mode = folder / file.name, "mode=rw"
     database = sqlite3.connect(f"file:{quote(str(file.resolve()))}?{mode}", uri=True)
     stack.callback(database.close)
+    _restrict(database, file)
     return database
+
+
+def _restrict(database: sqlite3.Connection, file: Path) -> None:
+    """Only plain tables are read, in a number of steps that suits the size of the file, and no message is huge.
+
+    A view, or pages that refer to each other, could keep a query busy for ever. Raises ValueError for a view.
+    """
+    most = max(LEAST_STEPS, STEPS_A_BYTE * file.stat().st_size)
+    blocks = itertools.count()
+    database.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, MOST_MESSAGE)
+    database.set_progress_handler(lambda: next(blocks) * STEPS_AT_ONCE > most, STEPS_AT_ONCE)
+    database.execute("PRAGMA trusted_schema = OFF")
+    for name in ("topics", "messages"):
+        row = database.execute("SELECT type, sql FROM sqlite_master WHERE lower(name) = ?", [name]).fetchone()
+        if row and (row[0] != "table" or str(row[1]).upper().startswith("CREATE VIRTUAL")):
+            raise ValueError(f"{file.name}: {name} is a {row[0]} of another kind; a bag has a plain table there.")
 
 
 def _unpack_file(file: Path, stack: ExitStack) -> Path:

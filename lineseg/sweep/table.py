@@ -21,6 +21,8 @@ from . import MEASURES, Sweep
 ROWS_AT_ONCE = 50_000
 # Largest table that is read for display.
 MOST_ROWS = 100_000
+LARGEST_UNPACKED = 1 << 28
+LONGEST_NAME = 1000
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,9 +83,13 @@ def read_table(content: bytes, name: str) -> Table:
         if not 0 < rows <= MOST_ROWS:
             raise ValueError(f"it has {rows:,} rows; the page shows 1 to {MOST_ROWS:,}, so sweep fewer values or files")
         numbers = {column: _column(column, columns[column]) for column in wanted[1:]}
+        files = [str(cell) for cell in columns["file"]]
+        # An array of text takes as much for each row as for the longest.
+        if (longest := max(map(len, files))) > LONGEST_NAME:
+            raise ValueError(f"a name in column 'file' has {longest:,} characters; allowed are {LONGEST_NAME}")
     except ValueError as error:
         raise ValueError(f"{name} is not the table of a sweep: {error}") from None
-    return Table(np.array(columns["file"], dtype=np.str_), numbers)
+    return Table(np.array(files, dtype=np.str_), numbers)
 
 
 def _column(name: str, cells: list[Any]) -> NDArray[np.float64]:
@@ -114,12 +120,38 @@ def _read_csv(content: bytes) -> dict[str, list[str]]:
 def _read_parquet(content: bytes) -> dict[str, list[Any]]:
     arrow, parquet = _pyarrow()
     try:
-        file = parquet.ParquetFile(arrow.BufferReader(content))
-        if file.metadata.num_rows > MOST_ROWS:
-            raise ValueError(f"it has {file.metadata.num_rows:,} rows; the page shows at most {MOST_ROWS:,}")
-        return file.read().to_pydict()
+        file = parquet.ParquetFile(arrow.BufferReader(content), read_dictionary=["file"])
+        about = file.metadata
+        if about.num_rows > MOST_ROWS:
+            raise ValueError(f"it has {about.num_rows:,} rows; the page shows at most {MOST_ROWS:,}")
+        groups = [about.row_group(number) for number in range(about.num_row_groups)]
+        size = sum(
+            group.column(number).total_uncompressed_size for group in groups for number in range(about.num_columns)
+        )
+        if size > LARGEST_UNPACKED:
+            raise ValueError(f"it would have more than {LARGEST_UNPACKED >> 20} MB unpacked, which is not allowed")
+        table = file.read(columns=[field.name for field in file.schema_arrow if _is_plain(arrow, field)])
+        return {name: list(_cells(table[name])) for name in table.column_names}
     except (arrow.ArrowException, OSError) as error:
         raise ValueError(f"it is not Parquet: {error}") from None
+
+
+def _is_plain(arrow: Any, field: Any) -> bool:
+    """Whether a column can be one of ours: names of files, or numbers."""
+    kinds = arrow.types
+    if field.name == "file":
+        return kinds.is_dictionary(field.type)
+    return kinds.is_integer(field.type) or kinds.is_floating(field.type) or kinds.is_null(field.type)
+
+
+def _cells(column: Any) -> Iterator[Any]:
+    """The values of a column. A name that repeats is one object, however often it does."""
+    for chunk in column.chunks:
+        if not hasattr(chunk, "dictionary"):
+            yield from chunk.to_pylist()
+            continue
+        names = chunk.dictionary.to_pylist()
+        yield from (None if index is None else names[index] for index in chunk.indices.to_pylist())
 
 
 def _write_csv(result: Sweep, path: Path) -> None:

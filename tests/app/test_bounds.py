@@ -3,17 +3,27 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
+import gc
 import os
 import shutil
+import sqlite3
 import threading
+import time
+import weakref
 from collections.abc import AsyncIterator
 from pathlib import Path
 
 import pytest
 from lineseg_app.routes.slow import SlowWork
+from lineseg_app.scene.portless import PortlessServer
+from lineseg_app.server import Settings
+from lineseg_app.session.session import Session
+from lineseg_app.session.sessions import SessionLimits
 from lineseg_app.shelf import uploads
+from lineseg_app.shelf.scratch import LOCK, PREFIX, Scratch, remove_leftovers
 from lineseg_app.shelf.uploads import TooManyError, TooSlowError, Uploads
-from live import Address, Page
+from live import SECONDS, Address, Page, page_of, serving
 from starlette.exceptions import HTTPException
 
 from lineseg import open_recording
@@ -111,3 +121,68 @@ def test_a_message_that_is_not_text_gets_a_sentence(page: Page):
     assert "invalid JSON" in page.hear_a("error")["message"]
     page._socket.send(b'{"type": "view", "rev": 1, "patch": {"frame": 1}}')
     assert page.drawn(1)["state"]["frame"] == 1
+
+
+TOPICS = "CREATE TABLE topics(id INTEGER, name TEXT, type TEXT, serialization_format TEXT)"
+SCANS = "INSERT INTO topics VALUES (1, '/scan', 'sensor_msgs/msg/LaserScan', 'cdr')"
+NUMBERS = "WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n)"
+HUGE = "zeroblob(900000000)"
+ENDLESS_VIEW = (
+    TOPICS,
+    SCANS,
+    f"CREATE VIEW messages AS {NUMBERS} SELECT i id, 1 topic_id, i timestamp, i data FROM n",
+)
+HUGE_VIEW = (f"CREATE VIEW topics AS SELECT 1 id, {HUGE} name, '' type, '' serialization_format",)
+HUGE_MESSAGE = (
+    *(TOPICS, SCANS, f"CREATE TABLE messages(id, topic_id, timestamp, data BLOB AS ({HUGE}))"),
+    "INSERT INTO messages(id, topic_id, timestamp) VALUES (1, 1, 1)",
+)
+
+
+@pytest.mark.parametrize(
+    ("statements", "sentence"),
+    [(ENDLESS_VIEW, "messages is a view"), (HUGE_VIEW, "topics is a view"), (HUGE_MESSAGE, "too big")],
+    ids=["endless view", "huge view", "huge message"],
+)
+def test_a_bag_whose_query_would_not_end_or_would_fill_the_memory_is_refused(
+    tmp_path: Path, statements: tuple[str, ...], sentence: str
+):
+    with contextlib.closing(sqlite3.connect(tmp_path / "trap.db3")) as database:
+        for statement in statements:
+            database.execute(statement)
+        database.commit()
+    with pytest.raises(ValueError, match=sentence):
+        open_recording(tmp_path / "trap.db3")
+
+
+def test_folders_of_killed_processes_are_removed_at_the_next_start(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    ours = Scratch()
+    ours.folder.joinpath("upload.npz").write_bytes(b"x")
+    left = tmp_path / f"{PREFIX}left"
+    left.mkdir()
+    (left / LOCK).touch()
+    foreign = tmp_path / "lineseg-other"
+    foreign.mkdir()
+    (tmp_path / "open-abc.html").touch()
+    for path in (ours.folder, left, foreign, tmp_path / "open-abc.html"):
+        os.utime(path, (0, 0))
+    remove_leftovers(tmp_path)
+    assert set(tmp_path.iterdir()) == {ours.folder, foreign}
+    shutil.rmtree(ours.folder)
+    assert ours.folder.is_dir()
+    ours.close()
+    assert set(tmp_path.iterdir()) == {foreign}
+
+
+def test_tabs_that_are_gone_leave_nothing(tmp_path: Path):
+    kinds = (Session, PortlessServer)
+    with serving(Settings(data_folder=tmp_path, sessions=SessionLimits(grace=1.0))) as server:
+        with page_of(server) as page:
+            page.hello()
+            there = [weakref.ref(thing) for thing in gc.get_objects() if isinstance(thing, kinds)]
+        assert len(there) >= len(kinds)
+        late = time.monotonic() + SECONDS
+        while any(thing() is not None for thing in there):
+            assert time.monotonic() < late
+            time.sleep(0.1)

@@ -1,5 +1,6 @@
 """Reading the table of a sweep, and refusing other files."""
 
+import io
 from pathlib import Path
 
 import numpy as np
@@ -54,6 +55,7 @@ ROW = ",".join(["a.npz", *(str(value) for value in Params().numbers().values()),
         ("a.csv", f"{HEAD}\n{ROW}\na.npz,0.03\n".encode(), "row 2 has 2 cells"),
         ("a.csv", f"{HEAD}\n{ROW.replace('0.03', 'wide')}\n".encode(), "epsilon of row 1 is 'wide'"),
         ("a.csv", f"{HEAD}\n{ROW.replace('0.03', '')}\n".encode(), "epsilon of row 1 is missing"),
+        ("a.csv", f"{HEAD}\n{ROW.replace('a.npz', 1001 * 'a')}\n".encode(), "column 'file' has 1,001 characters"),
         ("a.csv", b"\xff\xfe\x00", "it is not CSV"),
         ("a.csv", f"{HEAD}\n".encode() + f"{ROW}\n".encode() * 100_001, "the page shows 1 to 100,000"),
         ("a.parquet", b"PAR1 and no more", "it is not Parquet"),
@@ -63,3 +65,18 @@ def test_a_file_that_is_not_a_sweep_table_is_refused_in_one_sentence(name: str, 
     with pytest.raises(ValueError, match=name) as refused:
         read_table(content, name)
     assert sentence in str(refused.value)
+
+
+def test_a_parquet_file_that_grows_when_it_is_unpacked_is_refused(monkeypatch: pytest.MonkeyPatch):
+    arrow, parquet = pytest.importorskip("pyarrow"), pytest.importorskip("pyarrow.parquet")
+
+    def packed(**columns: object) -> bytes:
+        out = io.BytesIO()
+        parquet.write_table(arrow.table(columns), out, compression="zstd")
+        return out.getvalue()
+
+    monkeypatch.setattr("lineseg.sweep.table.LARGEST_UNPACKED", 1 << 20)
+    content = packed(file=[f"{number}{100_000 * 'x'}" for number in range(20)])
+    assert len(content) < 20_000
+    with pytest.raises(ValueError, match="more than 1 MB unpacked"):
+        read_table(content, "sweep.parquet")

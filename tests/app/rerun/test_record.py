@@ -5,6 +5,7 @@ from __future__ import annotations
 import subprocess
 import sys
 import textwrap
+import time
 from pathlib import Path
 from typing import Any
 
@@ -214,3 +215,18 @@ def test_rerun_is_imported_only_when_it_is_used():
     script = "import sys, lineseg, lineseg_app.server, lineseg_app.commands; print('rerun' in sys.modules)"
     done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=120)
     assert done.stdout.strip() == "False", done.stderr
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="only Linux lists the threads of a process")
+def test_recording_leaves_no_thread(hallway: Recording, tmp_path: Path):
+    counts = []
+    for number in range(4):
+        save(Run(hallway, "hallway", "region-growing", Params(), range(2)), tmp_path / f"{number}.rrd")
+        # Ended threads take a moment to go.
+        late = time.monotonic() + 10
+        while (count := len(list(Path("/proc/self/task").iterdir()))) > min(counts, default=count) and (
+            time.monotonic() < late
+        ):
+            time.sleep(0.05)
+        counts.append(count)
+    assert counts[-1] <= counts[0]
