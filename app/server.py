@@ -39,6 +39,7 @@ from .routes.export import add_export
 from .routes.inspection import add_inspection
 from .routes.labels import add_labels
 from .routes.push import add_push
+from .routes.rereading import add_rereading
 from .routes.rerun import add_rerun
 from .routes.robot import add_back
 from .routes.sweep_table import add_sweep_table
@@ -126,6 +127,7 @@ def create_app(settings: Settings) -> FastAPI:
     add_export(app, library, sessions)
     add_inspection(app, sessions, files)
     add_labels(app, library, files)
+    add_rereading(app, library)
     add_sockets(app, library, sessions, settings.reading)
     add_sweep_table(app)
     add_tuning(app, sessions, user_folder(settings.data_folder) / "studies")

@@ -112,11 +112,15 @@ def _changed_weights(values: Mapping[str, float]) -> tuple[tuple[str, float], ..
 REREAD = tuple(name for name in Reading.declared() if name != "topic")
 
 
-def _reread(reading: Reading, values: Mapping[str, Any]) -> Reading:
+def reread(reading: Reading, values: Mapping[str, Any]) -> Reading:
     """A copy with some fields changed; links give numbers as text."""
-    if "topic" in values:
-        raise ValueError("reading has no topic; set the topic of the view")
     return reading.but(**{name: _typed(name, value) for name, value in values.items()})
+
+
+def _without_topic(reading: Reading) -> Reading:
+    if reading.topic is not None:
+        raise ValueError("reading has no topic in a view; set the topic of the view")
+    return reading
 
 
 def _typed(name: str, value: Any) -> Any:
@@ -164,7 +168,7 @@ class View:
             mirrored=True,
             reset_by=("recording", "topic"),
             patch=ReadingValues,
-            take=lambda view, values: _reread(view.reading, values),
+            take=lambda view, values: _without_topic(reread(view.reading, values)),
             tell=told_reading,
             written="reading",
         ),

@@ -14,6 +14,7 @@ import { createLabels } from "./label/labels.js";
 import { mountLearn } from "./learn/learn.js";
 import { createLive } from "./live/pill.js";
 import { createOpening } from "./open/open.js";
+import { createReread } from "./open/reread.js";
 import { createWork } from "./open/work.js";
 import { Page } from "./page.js";
 import { createReceiver } from "./receive.js";
@@ -105,6 +106,7 @@ const timeline = new Timeline(place("timeline"), text.timeline, {
 const status = mountStatus(place("status"), text.status, live.element);
 const work = createWork(notices, text.stage, () => page.drawn !== null);
 const opening = createOpening(page, { work, notices }, text, { onSweep: tune.openSweep, rest: address.linked.rest });
+const reread = createReread(page, words.reading, notices);
 const exports = createExportMenu(page, words, {
   status: () => live.status,
   work,
@@ -112,12 +114,13 @@ const exports = createExportMenu(page, words, {
   onFollowLink: address.copyFollowLink,
 });
 const theme = createTheme((dark) => dark !== page.view.dark && change({ dark }));
-const topbar = mountTopbar(place("topbar"), text, {
+const topbar = mountTopbar(place("topbar"), words, {
   exchange: exports,
   ab: inspect.ab.button,
   modes: modes.element,
   theme: theme.saved(),
-  onRecording: (recording) => change({ recording }),
+  onRecording: reread.choose,
+  onReread: reread.openShown,
   onOpen: opening.choose,
   onTopic: (topic) => change({ topic, frame: 0, step: null, selected: null }),
   onMethod: (method) => change({ method, step: page.learning ? 0 : null }),
@@ -133,10 +136,10 @@ addEventListener("keydown", press);
 opening.acceptDrops(window);
 
 // Sizes must be set before the camera, and the labels of a frame before the lists that they filter.
-page.parts = [address, following, modes, topbar, timeline, live, packCard, ...tune.parts, learn, draw, status];
+page.parts = [address, following, modes, topbar, timeline, live, packCard, ...tune.parts, learn, draw, status, reread];
 page.parts.push(labels, rerun, ...inspect.parts, ...scene.parts);
 page.connect(
-  createReceiver(page, { address, notices, work, following, packCard, opening, panel: tune.panel }, text),
+  createReceiver(page, { address, notices, work, following, packCard, opening, reread, panel: tune.panel }, text),
   following,
 );
 // A link says nothing of the theme: what it is read on top of must have it already.

@@ -9,11 +9,11 @@
  * @param {{address: ReturnType<typeof import("./view/address.js").createAddress>, notices: ReturnType<typeof import("./stage/notices.js").mountNotices>,
  *          work: ReturnType<typeof import("./open/work.js").createWork>, following: {readonly active: boolean},
  *          panel: {refuse: (why: string) => void}, packCard: {take: (pack: import("./wire.js").Pack) => void},
- *          opening: {choose: () => void}}} parts
+ *          opening: {choose: () => void}, reread: ReturnType<typeof import("./open/reread.js").createReread>}} parts
  * @param {typeof import("./text/page.js").pageText} text
  * @returns {(message: Message, latencyMs: number | null) => void}
  */
-export function createReceiver(page, { address, notices, work, following, panel, packCard, opening }, text) {
+export function createReceiver(page, { address, notices, work, following, panel, packCard, opening, reread }, text) {
   const { linked } = address;
 
   /** @param {import("./wire.js").Welcome} welcome */
@@ -31,7 +31,7 @@ export function createReceiver(page, { address, notices, work, following, panel,
   }
 
   /** @param {import("./wire.js").Trouble} trouble */
-  function complain({ where, message }) {
+  function complain({ where, message, refused }) {
     const { drawn, store } = page;
     const gone = where === "recording" && linked.names(page.view.recording);
     if (gone) address.lose();
@@ -44,7 +44,8 @@ export function createReceiver(page, { address, notices, work, following, panel,
     notices.setEmpty();
     const way = { note: text.stage.linkKept(linked.name), label: text.top.openFile, run: opening.choose };
     const about = gone && linked.name && !message.includes(linked.name) ? `${linked.name}: ${message}` : message;
-    return notices.setError(about, drawn !== null, gone ? way : undefined);
+    const note = drawn ? text.stage.kept : "";
+    return notices.setError(about, drawn !== null, refused ? reread.way(refused, note) : gone ? way : undefined);
   }
 
   /** @param {State} state @param {"page" | "scene"} origin */

@@ -226,6 +226,19 @@ export interface MethodEntry {
   knobs: KnobEntry[];
 }
 
+/** A field of the Reading. choices: allowed values, [] for any; only: formats that have it, [] for all. */
+export interface ReadingEntry {
+  name: string;
+  kind: "str" | "int" | "float";
+  label: string;
+  help: string;
+  group: "scans" | "numbers" | "left out";
+  unit: string;
+  form: string;
+  choices: string[];
+  only: string[];
+}
+
 /** A score of the strip. least: smallest difference that matters; weight: default weight in the suspicion. */
 export interface ScoreEntry {
   name: string;
@@ -246,6 +259,7 @@ export interface Welcome {
   version: string;
   methods: MethodEntry[];
   scores: ScoreEntry[];
+  reading: ReadingEntry[];
   recordings: RecordingEntry[];
   uploadLimit: number;
   presenter: string;
@@ -292,11 +306,13 @@ export interface LiveStatus {
   publishTrouble: string;
 }
 
-/** A recording that could not be opened as it was to be read. */
+/** A recording that could not be opened as it was to be read. named: fields of the Reading in the message. */
 export interface Refused {
   recording: string;
+  label: string;
   topic: string | null;
   reading: Record<string, string | number>;
+  named: string[];
 }
 
 /** A failed request, and why; rev: of the change that caused it, if any. refused: the recording, if it is one. */
@@ -699,6 +715,23 @@ export interface Truth {
   labelled: string;
   agreement: Agreement;
   stride: number;
+}
+
+/**
+ * A recording under a Reading that someone tries. job: of the wish.
+ *
+ * message: why it cannot be read in this way, and `named`: the fields that it names. scans: the points of the first
+ * scans [m]. whole: whether all of the file was read.
+ */
+export interface Previewed {
+  job: number;
+  message: string | null;
+  named: string[];
+  format: string;
+  topics: string[];
+  account: Account | null;
+  scans: [number, number][][];
+  whole: boolean;
 }
 
 /** Summary of the labels of a frame. lines: number of true lines, null if they are not labelled. */

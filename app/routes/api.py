@@ -29,9 +29,13 @@ def add_api(app: FastAPI, library: Library, sessions: Sessions) -> None:
     """Routes of /api except the session's socket."""
 
     @app.post("/api/upload")
-    async def upload(request: Request, name: str = "recording") -> dict[str, str]:
+    async def upload(request: Request, name: str = "recording", bundle: str = "", into: str = "") -> dict[str, str]:
+        """bundle: the name of a recording of several files, with its first; into: its id, with each of the others."""
         try:
-            kept = await library.uploads.receive(name, _announced_size(request), request.stream())
+            size = _announced_size(request)
+            kept = await library.uploads.receive(
+                name, size, request.stream(), bundle[:200], into.removeprefix("upload:")
+            )
         except TooLargeError as error:
             raise HTTPException(413, str(error)) from None
         except TooManyError as error:

@@ -22,7 +22,7 @@ from ..session.following import OWN
 from ..session.session import Session
 from ..session.sessions import Sessions, TooManySessionsError
 from ..shelf.library import Library
-from ..told.messages import Failure, MethodEntry, Recordings, ScoreEntry, Surveyed, Welcome
+from ..told.messages import Failure, MethodEntry, ReadingEntry, Recordings, ScoreEntry, Surveyed, Welcome
 from ..view import STRIP_SCORES, View
 from ..wire import BadMessageError, Cancel, Change, Close, Follow, Hello, OpenLink, parse
 from .heard import text_from
@@ -41,6 +41,7 @@ def add_sockets(app: FastAPI, library: Library, sessions: Sessions, reading: Rea
     """Routes of /api/session and /s/{session}/viser/."""
     methods = [MethodEntry.of(method) for method in EXTRACTORS.values()]
     scores = [ScoreEntry(**asdict(score)) for score in STRIP_SCORES.values()]
+    fields = ReadingEntry.all()
 
     @app.websocket("/api/session")
     async def session_socket(socket: WebSocket) -> None:
@@ -62,6 +63,7 @@ def add_sockets(app: FastAPI, library: Library, sessions: Sessions, reading: Rea
                 version=__version__,
                 methods=methods,
                 scores=scores,
+                reading=fields,
                 recordings=library.entries(),
                 uploadLimit=library.uploads.limit,
                 presenter=session.presenter.id,

@@ -23,6 +23,7 @@ from ..scene.portless import Door
 from ..scene.viser_scene import ViserScene
 from ..shelf.label_files import LabelFiles
 from ..shelf.library import Library
+from ..shelf.preview import named_in
 from ..told.drawn import DrawnState, Timings
 from ..told.messages import Drawn, Failure, Loading, Refused, Traced
 from ..view import View
@@ -347,11 +348,20 @@ class Session:
         if message is None and cancelled:
             message = f"loading {self._library.label(view.recording)} was cancelled"
         if message is not None:
-            said = (
-                None if cancelled else Refused(recording=view.recording, topic=view.topic, reading=view.reading.given())
-            )
-            self._tell(Failure(where="recording", message=message, rev=request.rev, refused=said))
+            refused = None if cancelled else self._refused(view, message)
+            self._tell(Failure(where="recording", message=message, rev=request.rev, refused=refused))
         self._survey()
+
+    def _refused(self, view: View, message: str) -> Refused | None:
+        """What could not be read; None if it is not a file that exists."""
+        try:
+            if not self._library.path(view.recording).exists():
+                return None
+        except ValueError:
+            return None
+        given, named = view.reading.given(), named_in(message)
+        label = self._library.label(view.recording)
+        return Refused(recording=view.recording, label=label, topic=view.topic, reading=given, named=named)
 
     def _tell(self, message: BaseModel) -> None:
         with self._lock:

@@ -132,5 +132,7 @@ def _stream(recording: Recording) -> str:
 
 @lru_cache(maxsize=64)
 def _digest(path: Path) -> str:
+    if path.is_dir():
+        return hashlib.sha256("".join(map(_digest, sorted(path.iterdir()))).encode()).hexdigest()
     with path.open("rb") as stream:
         return hashlib.file_digest(stream, "sha256").hexdigest()

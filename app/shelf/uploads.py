@@ -61,8 +61,14 @@ class Uploads:
         with self._lock:
             return list(self._kept.values())
 
-    async def receive(self, name: str, announced: int | None, chunks: AsyncIterator[bytes]) -> Upload:
-        """Stream one file to disk; a refused file leaves nothing behind."""
+    async def receive(
+        self, name: str, announced: int | None, chunks: AsyncIterator[bytes], bundle: str = "", into: str = ""
+    ) -> Upload:
+        """Stream one file to disk; a refused file leaves nothing behind.
+
+        bundle: the name of a folder that it is the first file of; into: the id of a folder that it belongs to.
+        Raises ValueError, TooLargeError or TooManyError.
+        """
         if announced is not None and announced > self.limit:
             raise TooLargeError(self._too_large(name))
         with self._lock:
@@ -70,20 +76,33 @@ class Uploads:
                 raise TooManyError(f"{self._arriving} files are being uploaded; wait for one of them to finish")
             self._arriving += 1
         try:
-            id = secrets.token_urlsafe(9)
+            begun = self._begun(into)
+            id = begun.id if begun else secrets.token_urlsafe(9)
             with self._lock:
-                path = self._scratch.folder / id / safe_name(name)
+                home = self._scratch.folder / id
+            folder = begun.path if begun else home / safe_name(bundle) if bundle else home
+            path = folder / safe_name(name)
             try:
-                path.parent.mkdir()
+                folder.mkdir(parents=True, exist_ok=begun is not None)
                 size = await self._write(path, name, _steady(name, chunks))
             except BaseException:
-                shutil.rmtree(path.parent, ignore_errors=True)
+                self.discard(id)
+                shutil.rmtree(home, ignore_errors=True)
                 raise
         finally:
             with self._lock:
                 self._arriving -= 1
-        upload = Upload(id, path.name, path, size)
+        whole = folder if begun or bundle else path
+        upload = Upload(id, whole.name, whole, size + (begun.size if begun else 0))
         self._keep(upload)
+        return upload
+
+    def _begun(self, id: str) -> Upload | None:
+        """The folder that a file belongs to; None if it is a file of its own."""
+        with self._lock:
+            upload = self._kept.get(id)
+        if id and (upload is None or not upload.path.is_dir()):
+            raise ValueError("the files that belong to this one are no longer on the server; drop all of them again")
         return upload
 
     def discard(self, id: str) -> None:

@@ -9,7 +9,7 @@ from typing_extensions import TypedDict
 
 from lineseg.what_if import WhatIf
 
-from .drawn import Agreement, Params, Point, Reference
+from .drawn import Account, Agreement, Params, Point, Reference
 from .typescript import As
 
 Job = Literal["curves", "map", "auto", "fit"]
@@ -47,6 +47,23 @@ class Truth(TypedDict):
     labelled: str
     agreement: Agreement
     stride: int
+
+
+class Previewed(TypedDict):
+    """A recording under a Reading that someone tries. job: of the wish.
+
+    message: why it cannot be read in this way, and `named`: the fields that it names. scans: the points of the first
+    scans [m]. whole: whether all of the file was read.
+    """
+
+    job: int
+    message: str | None
+    named: list[str]
+    format: str
+    topics: list[str]
+    account: Account | None
+    scans: list[list[Point]]
+    whole: bool
 
 
 class Brief(TypedDict):

@@ -8,6 +8,7 @@ from pydantic import BaseModel, Field, GetPydanticSchema
 from pydantic_core import core_schema
 
 from lineseg import Extractor, Knob
+from lineseg.readers.reading import Reading, ReadingField
 
 from .drawn import DrawnState, TraceColumns
 
@@ -91,6 +92,39 @@ class MethodEntry(BaseModel):
         return cls(**texts, ros=ros, knobs=knobs)
 
 
+class ReadingEntry(BaseModel):
+    """A field of the Reading. choices: allowed values, [] for any; only: formats that have it, [] for all."""
+
+    name: str
+    kind: Literal["str", "int", "float"]
+    label: str
+    help: str
+    group: Literal["scans", "numbers", "left out"]
+    unit: str
+    form: str
+    choices: list[str]
+    only: list[str]
+
+    @classmethod
+    def all(cls) -> list[ReadingEntry]:
+        return [cls.of(name, entry) for name, entry in Reading.declared().items()]
+
+    @classmethod
+    def of(cls, name: str, entry: ReadingField) -> ReadingEntry:
+        choices = list(Reading.choices(name))
+        return cls(
+            name=name,
+            kind="str" if choices else Reading.type_of(name).__name__,
+            label=entry.label,
+            help=entry.help,
+            group=entry.group,
+            unit=entry.unit,
+            form=entry.metavar,
+            choices=choices,
+            only=list(entry.only),
+        )
+
+
 class ScoreEntry(BaseModel):
     """A score of the strip. least: smallest difference that matters; weight: default weight in the suspicion."""
 
@@ -113,6 +147,7 @@ class Welcome(BaseModel):
     version: str
     methods: list[MethodEntry]
     scores: list[ScoreEntry]
+    reading: list[ReadingEntry]
     recordings: list[RecordingEntry]
     uploadLimit: int
     presenter: str
@@ -162,11 +197,13 @@ class LiveStatus(BaseModel):
 
 
 class Refused(BaseModel):
-    """A recording that could not be opened as it was to be read."""
+    """A recording that could not be opened as it was to be read. named: fields of the Reading in the message."""
 
     recording: str
+    label: str
     topic: str | None
     reading: dict[str, str | int | float]
+    named: list[str]
 
 
 class Failure(BaseModel):

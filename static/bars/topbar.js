@@ -7,41 +7,47 @@ import { tooltip } from "../widgets/tooltip.js";
 /** @typedef {import("../wire.js").RecordingEntry} RecordingEntry */
 /** @typedef {import("../wire.js").Method} Method */
 /** @typedef {import("../wire.js").State} State */
+/** @typedef {typeof import("../text/words.js").words} Words */
 
 const THEMES = /** @type {const} */ (["auto", "light", "dark"]);
 /** @typedef {(typeof THEMES)[number]} Theme */
 
 /**
  * The menu of recordings that can be opened.
- * @param {typeof import("../text/page.js").pageText} words
- * @param {{onOpen: () => void, onRecording: (id: string) => void}} handlers
+ * @param {Words} words
+ * @param {{onOpen: () => void, onRecording: (entry: RecordingEntry) => void, onReread: () => void}} handlers
  */
-function createRecordings(words, { onOpen, onRecording }) {
-  const text = words.top;
+function createRecordings(words, { onOpen, onRecording, onReread }) {
+  const text = words.page.top;
   /** @type {RecordingEntry[]} */
   let recordings = [];
   /** @type {string | null} */
   let current = null;
+  /** What the file was taken for. */
+  let line = "";
   const menu = createMenu({ label: text.noRecording, name: text.recording, className: "recording", groups });
 
   /** @param {RecordingEntry} entry */
-  function item({ id, label, missing }) {
+  function item(entry) {
+    const { id, label, missing } = entry;
     return {
       label,
       note: missing ? text.missing : "",
       current: id === current,
       disabled: missing,
-      run: () => onRecording(id),
+      run: () => onRecording(entry),
     };
   }
 
   function groups() {
     const names = [...new Set(recordings.map(({ group }) => group))];
     const open = { label: text.openFile, note: text.openHint, run: onOpen };
+    const taken = line ? [{ title: line, items: [{ label: words.reading.change, run: onReread }] }] : [];
     return [
+      ...taken,
       { title: "", items: [open] },
       ...names.map((name) => ({
-        title: words.groups[name] ?? name,
+        title: words.page.groups[name] ?? name,
         items: recordings.filter(({ group }) => group === name).map(item),
       })),
     ];
@@ -53,9 +59,10 @@ function createRecordings(words, { onOpen, onRecording }) {
     offer(next) {
       recordings = next;
     },
-    /** @param {string} recording @param {string} label */
-    set(recording, label) {
+    /** @param {State} state */
+    set({ recording, label, account }) {
       current = recording;
+      line = account?.line ?? "";
       menu.setLabel(label);
     },
   };
@@ -81,13 +88,13 @@ function createThemeButton(text, theme, onTheme) {
 
 /**
  * @param {HTMLElement} bar
- * @param {typeof import("../text/page.js").pageText} words
- * @param {{exchange: HTMLElement, ab: HTMLElement, modes: HTMLElement, theme: Theme, onRecording: (id: string) => void, onOpen: () => void,
+ * @param {Words} words
+ * @param {{exchange: HTMLElement, ab: HTMLElement, modes: HTMLElement, theme: Theme, onRecording: (entry: RecordingEntry) => void, onReread: () => void, onOpen: () => void,
  *          onTopic: (topic: string) => void, onMethod: (method: string) => void, onLink: () => void,
  *          onTheme: (theme: Theme) => void, onHelp: () => void}} handlers
  */
 export function mountTopbar(bar, words, handlers) {
-  const text = words.top;
+  const text = words.page.top;
   const recordings = createRecordings(words, handlers);
   const topic = h("select", { class: "select", "aria-label": text.topic, hidden: true });
   topic.addEventListener("change", () => handlers.onTopic(topic.value));
@@ -106,7 +113,7 @@ export function mountTopbar(bar, words, handlers) {
     "?",
   );
   bar.append(
-    h("h1", { class: "app-name" }, words.appName),
+    h("h1", { class: "app-name" }, words.page.appName),
     recordings.element,
     topic,
     method,
@@ -139,7 +146,7 @@ export function mountTopbar(bar, words, handlers) {
     },
     /** @param {State} state */
     setState(state) {
-      recordings.set(state.recording, state.label);
+      recordings.set(state);
       const { topics } = state;
       topic.hidden = topics.length < 2;
       const key = topics.map(({ name }) => name).join("\n");

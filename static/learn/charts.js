@@ -1,7 +1,7 @@
 // @ts-check
 // Three charts that move with the step. A dot is a point of the scan; the dashed line is the threshold.
 import { h } from "../widgets/dom.js";
-import { onTheme } from "./colours.js";
+import { onTheme } from "../widgets/colours.js";
 import { DotChart } from "./dot_chart.js";
 import { lengthOf } from "./geometry.js";
 import { GrowthChart } from "./growth_chart.js";

@@ -1,7 +1,7 @@
 // @ts-check
 // Values by beam and a threshold; pointer and keyboard can highlight and select a beam.
 import { createWalk } from "../widgets/walk.js";
-import { colour } from "./colours.js";
+import { colour } from "../widgets/colours.js";
 import { Plot } from "./plot.js";
 
 /** @typedef {import("./plot.js").Box} Box */

@@ -1,6 +1,6 @@
 // @ts-check
 // Length and count of a growing line, each divided by its threshold, so that one dashed line serves both.
-import { colour } from "./colours.js";
+import { colour } from "../widgets/colours.js";
 import { Plot } from "./plot.js";
 
 /** @typedef {{points: number, length: number}} Grown */

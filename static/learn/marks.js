@@ -1,7 +1,7 @@
 // @ts-check
 // A strip under the scrubber that shows what happens where in a trace: phases as bands, events as ticks.
 import { freshCanvas } from "../widgets/canvas.js";
-import { colour, onTheme } from "./colours.js";
+import { colour, onTheme } from "../widgets/colours.js";
 
 /** @typedef {import("./trace.js").Trace} Trace */
 

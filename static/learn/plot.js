@@ -2,7 +2,7 @@
 // The canvas of a chart: its size, its axes, the dashed line of a threshold, and text if there is nothing to draw.
 import { freshCanvas } from "../widgets/canvas.js";
 import { h, setText } from "../widgets/dom.js";
-import { colour } from "./colours.js";
+import { colour } from "../widgets/colours.js";
 
 /** @typedef {{left: number, right: number, top: number, bottom: number}} Box */
 

@@ -4,7 +4,7 @@ import { freshCanvas } from "../widgets/canvas.js";
 import { h, setText } from "../widgets/dom.js";
 import { clamp, format, placeOf, reaching, valueAt, withUnit } from "../widgets/scale.js";
 import { createSlider, gestureCount } from "../widgets/slider.js";
-import { colour, onTheme } from "./colours.js";
+import { colour, onTheme } from "../widgets/colours.js";
 import { fetchInto } from "./fetched.js";
 
 /** @typedef {import("../wire.js").Knob} Knob */

@@ -3,7 +3,7 @@
 import { freshCanvas } from "../widgets/canvas.js";
 import { h, setText } from "../widgets/dom.js";
 import { createWalk } from "../widgets/walk.js";
-import { colour, onTheme } from "./colours.js";
+import { colour, onTheme } from "../widgets/colours.js";
 
 /** @typedef {import("./trace.js").Trace} Trace */
 /** @typedef {typeof import("../text/learn.js").learnText.ladder} Text */

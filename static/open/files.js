@@ -5,6 +5,8 @@ import { messageOf } from "../fetch.js";
 
 const PARAMETERS = /\.(ya?ml|launch|xml|json|py)$|flags[^/]*\.txt$/i;
 const RECORDING_INSIDE = /\.(db3|mcap|bag|log|gz|npz|csv|txt|dat)$/i;
+const PART_OF_BAG = /\.(db3|mcap)(\.zstd)?$/i;
+const METADATA = "metadata.yaml";
 const LARGEST_PARAMETERS = 1_000_000;
 
 /**
@@ -55,38 +57,59 @@ async function filesInFolder(folder) {
 }
 
 /**
- * Which of several files to open. The metadata.yaml beside a bag is not a parameter file.
+ * What several files are: recordings, each of one file or more, or parameters. The metadata.yaml beside a bag is not a
+ * parameter file.
  * @param {File[]} files
- * @returns {{kind: "recording" | "parameters", file: File} | null}
+ * @returns {{kind: "recordings", recordings: File[][]} | {kind: "parameters", file: File} | null}
  */
 export function pick(files) {
+  const parts = files.filter(({ name }) => PART_OF_BAG.test(name));
+  if (parts.length > 1) {
+    const about = files.filter(({ name }) => name === METADATA);
+    const rest = files.filter((file) => !parts.includes(file) && !about.includes(file));
+    const others = pick(rest);
+    return {
+      kind: "recordings",
+      recordings: [[...parts, ...about], ...(others?.kind === "recordings" ? others.recordings : [])],
+    };
+  }
   const parameters = files.filter(({ name, size }) => PARAMETERS.test(name) && size < LARGEST_PARAMETERS);
   const others = files.filter((file) => !parameters.includes(file));
-  const recording = others.find(({ name }) => RECORDING_INSIDE.test(name)) ?? others[0];
-  if (recording) return { kind: "recording", file: recording };
+  const recordings = others.filter(({ name }) => RECORDING_INSIDE.test(name));
+  const chosen = recordings.length ? recordings : others.slice(0, 1);
+  if (chosen.length) return { kind: "recordings", recordings: chosen.map((file) => [file]) };
   return parameters[0] ? { kind: "parameters", file: parameters[0] } : null;
+}
+
+/** The name of a recording of several files: what their names have in common. @param {File[]} files */
+export function nameOfAll(files) {
+  const names = files.filter(({ name }) => name !== METADATA).map(({ name }) => name);
+  let length = 0;
+  while (length < names[0].length && names.every((name) => name[length] === names[0][length])) length++;
+  return names[0].slice(0, length).replace(/[\W_]+$/, "") || "bag";
 }
 
 /**
  * @param {(files: File[]) => void} onFiles
  */
 export function chooseFile(onFiles) {
-  const input = h("input", { type: "file" });
+  const input = h("input", { type: "file", multiple: true });
   input.addEventListener("change", () => onFiles([...(input.files ?? [])]));
   input.click();
 }
 
 /**
- * Sends a recording.
+ * Sends a recording or, with `whole`, one of its files.
  * @param {File} file
  * @param {(done: number, total: number) => void} onProgress
  * @param {AbortSignal} signal
  * @param {string} broken what to say if the connection breaks
+ * @param {{bundle?: string, into?: string}} [whole] bundle: the name of the recording that it is the first file of; into: its id
  * @returns {Promise<string>} its id; rejected with a sentence
  */
-export function upload(file, onProgress, signal, broken) {
+export function upload(file, onProgress, signal, broken, whole = {}) {
   const request = new XMLHttpRequest();
-  request.open("POST", `/api/upload?name=${encodeURIComponent(file.name)}`);
+  request.open("POST", `/api/upload?${new URLSearchParams({ name: file.name, ...whole })}`);
   request.setRequestHeader("Content-Type", "application/octet-stream");
   request.upload.onprogress = ({ loaded, total }) => onProgress(loaded, total);
   signal.addEventListener("abort", () => request.abort());

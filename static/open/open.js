@@ -3,7 +3,7 @@
 import { isSweepTable } from "../tune/sweep_table.js";
 import { fetchText } from "../fetch.js";
 import { toast } from "../widgets/toast.js";
-import { catchDrops, chooseFile, pick, upload } from "./files.js";
+import { catchDrops, chooseFile, nameOfAll, pick, upload } from "./files.js";
 
 /**
  * @param {import("../page.js").Page} page
@@ -17,24 +17,45 @@ export function createOpening(page, { work, notices }, text, { onSweep, rest }) 
   async function open(files) {
     const picked = pick(files);
     if (!picked) return work.refuse(text.stage.nothingDropped);
-    if (picked.kind === "recording" && (await isSweepTable(picked.file))) return onSweep(picked.file);
-    if (picked.kind === "recording") return send(picked.file);
+    if (picked.kind === "recordings") {
+      const [[file]] = picked.recordings;
+      return (await isSweepTable(file)) ? onSweep(file) : send(picked.recordings);
+    }
     const why = await importParams(await picked.file.text());
     if (why) work.refuse(`${picked.file.name}: ${why}`);
     return undefined;
   }
 
-  /** @param {File} file */
-  function send(file) {
+  /** Sends recordings, and opens the first. @param {File[][]} recordings the files of each */
+  function send(recordings) {
     const limit = page.welcome?.uploadLimit ?? Infinity;
-    if (file.size > limit) {
+    const large = recordings.flat().find(({ size }) => size > limit);
+    if (large) {
       cancelWork();
-      return work.refuse(text.stage.tooLarge(file.name, megabytes(file.size), megabytes(limit)));
+      return work.refuse(text.stage.tooLarge(large.name, megabytes(large.size), megabytes(limit)));
     }
-    return work.run(text.stage.uploading(file.name), async (show, signal) => {
-      const recording = await upload(file, show, signal, text.stage.uploadFailed(file.name));
-      if (!signal.aborted) page.change({ ...rest(file.name), recording });
+    const [first] = recordings;
+    const name = first.length > 1 ? nameOfAll(first) : first[0].name;
+    return work.run(text.stage.uploading(name), async (show, signal) => {
+      const recording = await sendOne(first, show, signal);
+      if (signal.aborted) return;
+      page.change({ ...rest(name), recording });
+      for (const others of recordings.slice(1)) await sendOne(others, show, signal);
+      if (recordings.length > 1) toast(text.stage.othersInMenu(recordings.length - 1));
     });
+  }
+
+  /** @param {File[]} files @param {(done: number, total: number) => void} show @param {AbortSignal} signal @returns {Promise<string>} its id */
+  async function sendOne(files, show, signal) {
+    const total = files.reduce((sum, { size }) => sum + size, 0);
+    let [id, before] = ["", 0];
+    for (const file of files) {
+      const whole = files.length < 2 ? {} : id ? { into: id } : { bundle: nameOfAll(files) };
+      const progress = (/** @type {number} */ done) => show(before + done, total);
+      id = await upload(file, progress, signal, text.stage.uploadFailed(file.name), whole);
+      before += file.size;
+    }
+    return id;
   }
 
   /** @returns {boolean} whether there was something to cancel */

@@ -156,6 +156,8 @@ export function mountNotices(stage, text, { onCancel, onRetry }) {
       if (shown && place !== shown) error.dismiss();
       shown = place;
     },
+    /** Another notice, below the others. @param {HTMLElement} notice */
+    add: (notice) => notices.append(notice),
     /** @param {boolean} over */
     setDropping(over) {
       drop.hidden = !over;

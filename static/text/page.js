@@ -80,6 +80,8 @@ export const pageText = {
     tooLarge: (/** @type {string} */ name, /** @type {string} */ size, /** @type {string} */ limit) =>
       `${name} is ${size}; uploads may be up to ${limit}. Open it from the command line instead: lineseg ${name}`,
     uploadFailed: (/** @type {string} */ name) => `${name} could not be uploaded: the connection was lost. Try again.`,
+    othersInMenu: (/** @type {number} */ n) =>
+      `${n === 1 ? "The other recording is" : `The other ${n} recordings are`} in the menu of recordings.`,
     nothingDropped: "What you dropped contains no recording and no parameter file.",
   },
   follow: {

@@ -9,6 +9,7 @@ import { labelText } from "./label.js";
 import { learnText } from "./learn.js";
 import { liveText } from "./live.js";
 import { pageText } from "./page.js";
+import { readingText } from "./reading.js";
 import { rerunText } from "./rerun.js";
 import { tuningText } from "./tuning.js";
 
@@ -21,5 +22,6 @@ export const words = {
   draw: drawText,
   export: exportText,
   live: liveText,
+  reading: readingText,
   rerun: rerunText,
 };
