@@ -6,6 +6,9 @@ import math
 from dataclasses import dataclass
 from typing import Annotated
 
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
 from .knobs import Knob, Thresholds
 
 # Some of these thresholds are shared with other methods.
@@ -148,3 +151,18 @@ class Params(Thresholds):
             extension=True,
         ),
     ] = 0.3  # fmt: skip
+    epsilon_growth: Annotated[
+        float,
+        Knob(
+            "κ", 0.0, 0.02, "m/m", 0.0005, least=0.0, most=1.0,
+            label="growth of ε with range",
+            why="noise does not shrink with the range",
+            help="At the range ρ, a point may lie √(ε² + (κρ)²) from its line. Higher accepts noisier points far from "
+            "the laser; 0 is the same ε at every range, as in the paper.",
+            extension=True,
+        ),
+    ] = 0.002  # fmt: skip
+
+    def epsilon_at(self, ranges: ArrayLike) -> NDArray[np.float64]:
+        """Largest distance from its line of a point at these ranges [m]: √(ε² + (κρ)²)."""
+        return np.sqrt(self.epsilon**2 + (self.epsilon_growth * np.asarray(ranges, np.float64)) ** 2)

@@ -162,17 +162,17 @@ def line_through(s):
 
 
 @kernel
-def is_nearer(s, x, y, limit):
-    """Whether (x, y) lies nearer than `limit` to the line fitted to n points (Eqs. 2, 3), without a division or a root.
+def is_nearer(s, x, y, square):
+    """Whether the squared distance of (x, y) from the line fitted to n points (Eqs. 2, 3) is less than `square`.
 
-    With p the point relative to the mean and φ the direction of the line, its distance d has
-    2·d² = |p|² − (px² − py²)·cos 2φ − 2·px·py·sin 2φ. Both sides are compared by their squares, with their signs. This
-    runs once for every point added to a line.
+    Needs no division and no root. With p the point relative to the mean and φ the direction of the line, its distance
+    d has 2·d² = |p|² − (px² − py²)·cos 2φ − 2·px·py·sin 2φ. Both sides are compared by their squares, with their signs.
+    This runs once for every point added to a line.
     """
     px, py = x - s.x, y - s.y
     norm = fma(s.cosine, s.cosine, s.sine * s.sine)
     along = fma(px * px - py * py, s.cosine, 2.0 * (px * py) * s.sine)
-    beyond = px * px + py * py - 2.0 * limit * limit
+    beyond = px * px + py * py - 2.0 * square
     # Coinciding points have no direction; a point close to them joins.
     return along * abs(along) > norm * (beyond * abs(beyond)) or (norm == 0.0 and beyond < 0.0)
 

@@ -56,6 +56,7 @@ class RegionGrowing:
     def is_thing(self, points, k, j):
         """Whether the points between k and j are a thin thing in front of these two."""
         ahead, widest = max(self.params.delta, 2 * self.params.epsilon), self.params.max_occluder
+        far = [max(ahead, 2 * self.epsilon(point)) for point in points[k + 1 : j]]
         ranges = np.linalg.norm(points[k : j + 1], axis=1)
         if ranges[0] - ranges[1] <= ahead or ranges[-1] - ranges[-2] <= ahead:
             return False
@@ -67,7 +68,11 @@ class RegionGrowing:
             return False
         normal = np.array([-chord[1], chord[0]])
         predicted = [r * (normal @ points[k]) / (normal @ p) for r, p in zip(ranges, points[k : j + 1], strict=True)]
-        return all(far - near > ahead for far, near in zip(predicted[1:-1], ranges[1:-1], strict=True))
+        return all(p - r > least for p, r, least in zip(predicted[1:-1], ranges[1:-1], far, strict=True))
+
+    def epsilon(self, point):
+        """ε at the range of a point."""
+        return np.hypot(self.params.epsilon, self.params.epsilon_growth * np.linalg.norm(point))
 
     def at(self, k):
         return self.points[k % self.n]
@@ -108,9 +113,9 @@ class RegionGrowing:
         for here, beyond in ((k, k - 1), (k + 1, k + 2)):
             if self.circle or 0 <= beyond < self.n:
                 step = self.at(beyond) - self.at(here)
-                aside = abs(chord[0] * step[1] - chord[1] * step[0]) / width
-                each = np.linalg.norm(step) / abs(self.number(beyond) - self.number(here))
-                if aside <= 2 * self.params.epsilon and width <= 4 * each:
+                aside = abs(chord[0] * step[1] - chord[1] * step[0])
+                straight = aside <= np.sqrt(8 * (chord @ chord + step @ step)) * self.epsilon(self.at(here))
+                if straight and width * abs(self.number(beyond) - self.number(here)) <= 4 * np.linalg.norm(step):
                     return False
         return True
 
@@ -127,7 +132,7 @@ class RegionGrowing:
             point = self.at(k)
             bearing = point / np.linalg.norm(point)
             predicted = -c / (normal @ bearing) * bearing
-            if np.linalg.norm(point - predicted) > self.params.delta or self.distance(k, line) > self.params.epsilon:
+            if np.linalg.norm(point - predicted) > self.params.delta or self.distance(k, line) > self.epsilon(point):
                 return False
         return True
 
@@ -136,7 +141,7 @@ class RegionGrowing:
             return False
         if last - first + 1 >= self.n or not self.joined(here, there):
             return False
-        return self.distance(there, self.fit(first, last)) < self.params.epsilon
+        return self.distance(there, self.fit(first, last)) < self.epsilon(self.at(there))
 
     def grow(self, first):
         last = first + self.params.seed_points - 1

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from lineseg import Decision, Scan
+from lineseg import Decision, Params, Scan
 from lineseg.colours import SEGMENTS, segment_colours
 from lineseg.region_growing.prediction import predicted_ranges
 
@@ -88,8 +88,8 @@ def decision_geometry(found: Findings, step: int, theme: Theme) -> tuple[dict[st
         touched = [*inside, decision.beam] if decision.beam >= 0 else list(inside)
         start, end = span(scan.xy[touched], decision.line)
         lines["growing"] = lines_between(start, end, tone)
-        width = band_width(found, decision)
-        if width:
+        width = band_width(found, decision, start, end)
+        if np.any(width):
             lines["band"] = band(start, end, decision.line, width, theme)
     if decision.other is not None and is_line(decision.other):
         start, end = span(scan.xy[inside], decision.other)
@@ -104,12 +104,14 @@ def decision_geometry(found: Findings, step: int, theme: Theme) -> tuple[dict[st
     return points, lines
 
 
-def band_width(found: Findings, decision: Decision) -> float:
-    """Largest allowed distance from the line at this decision [m]; 0 if distance is not tested."""
+def band_width(found: Findings, decision: Decision, start: NDArray, end: NDArray) -> NDArray[np.float64]:
+    """(2,) largest allowed distance from the line at both ends at this decision [m]; 0 if distance is not tested."""
     if decision.phase in ("seed", "growth") and decision.kind not in ("line kept", "line dropped"):
-        return found.trace.params.epsilon
+        params = found.trace.params
+        ranges = np.hypot(*np.column_stack((start, end)))
+        return params.epsilon_at(ranges) if isinstance(params, Params) else np.full(2, params.epsilon)
     units = {name: knob.unit for name, _, knob in found.trace.params.knobs()}
-    return decision.limit if decision.beam >= 0 and units.get(decision.check) == "m" else 0.0
+    return np.full(2, decision.limit if decision.beam >= 0 and units.get(decision.check) == "m" else 0.0)
 
 
 def prediction(scan: Scan, decision: Decision, theme: Theme) -> tuple[Points, Lines]:
@@ -125,10 +127,10 @@ def prediction(scan: Scan, decision: Decision, theme: Theme) -> tuple[Points, Li
     return points_at(predicted if near else NO_XY, theme.strong), joined(beam, measured)
 
 
-def band(start: NDArray, end: NDArray, line: Line, width: float, theme: Theme) -> Lines:
-    """Two parallel lines at ±width."""
-    shift = width * np.array(line[:2])
-    return lines_between(np.stack((start + shift, start - shift)), np.stack((end + shift, end - shift)), theme.faint)
+def band(start: NDArray, end: NDArray, line: Line, width: NDArray, theme: Theme) -> Lines:
+    """Two lines beside the line, at ±width (2,) at its ends."""
+    one, other = width[:, None] * np.array(line[:2])
+    return lines_between(np.stack((start + one, start - one)), np.stack((end + other, end - other)), theme.faint)
 
 
 def span(xy: NDArray, line: Line) -> tuple[NDArray, NDArray]:

@@ -94,7 +94,7 @@ class Task(Part):
 
 
 # Lessons teach the method of the paper.
-USUAL = {"max_occluder": 0.0, "merge_rms": 0.0, "max_void": 0.0}
+USUAL = {"max_occluder": 0.0, "merge_rms": 0.0, "max_void": 0.0, "epsilon_growth": 0.0}
 
 
 class Lesson(Part):

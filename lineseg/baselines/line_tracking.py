@@ -91,8 +91,8 @@ def track(x, y, gaps, first, start_points, epsilon, max_gap):
         last += 1
     if last + 1 < first + start_points:
         return last
-    scatter = scatter_of(moments_of(x, y, first, last))
-    while last + 1 < stop and gaps[last + 1] <= max_gap and is_nearer(scatter, x[last + 1], y[last + 1], epsilon):
+    scatter, near = scatter_of(moments_of(x, y, first, last)), epsilon * epsilon
+    while last + 1 < stop and gaps[last + 1] <= max_gap and is_nearer(scatter, x[last + 1], y[last + 1], near):
         last += 1
         scatter = with_point(scatter, x[last], y[last])
     return last

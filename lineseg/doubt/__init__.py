@@ -12,11 +12,11 @@ from numpy.typing import NDArray
 
 from ..kernel import entry_kernel, kernel
 from ..region_growing import grow_lines
-from ..region_growing.limits import loosened
+from ..region_growing.limits import loosened, near, unpacked
 from ..region_growing.lines import line_at
 from ..region_growing.overlap import resolve_overlaps
 from ..region_growing.points import Points
-from ..total_least_squares import signed_distance
+from ..total_least_squares import squared_distance
 
 # A score must not follow the threshold it judges, so these do not depend on merge_angle and max_gap.
 SPLIT_ANGLE = 0.1
@@ -157,21 +157,22 @@ def largest_rms(lines, count):
 
 @kernel
 def fits_near_epsilon(lines, count, limits):
-    """Number of segments with √(Σd² / points) > NEAR_EPSILON·ε."""
+    """Number of segments with √(Σd² / points) > NEAR_EPSILON·ε, with ε at the range of their middle."""
     found = 0
     for i in range(count):
-        found += lines[i].rms > NEAR_EPSILON * limits.epsilon
+        x, y = 0.5 * (lines[i].x1 + lines[i].x2), 0.5 * (lines[i].y1 + lines[i].y2)
+        found += lines[i].rms > NEAR_EPSILON * math.sqrt(near(limits, x * x + y * y))
     return found
 
 
 @kernel
-def over_split(lines, count, circle, epsilon, pairs):
+def over_split(lines, count, circle, limits, pairs):
     """Number of pairs of neighbouring segments that are one line cut in two; on a full circle the last and the first
     are neighbours. Writes the first segment of each pair to `pairs`, up to its length."""
     neighbours = count if circle and count > 1 else count - 1
     found = 0
     for i in range(neighbours):
-        if are_one_line(lines, i, i + 1 if i + 1 < count else 0, epsilon):
+        if are_one_line(lines, i, i + 1 if i + 1 < count else 0, limits):
             if found < len(pairs):
                 pairs[found] = i
             found += 1
@@ -179,7 +180,7 @@ def over_split(lines, count, circle, epsilon, pairs):
 
 
 @kernel
-def are_one_line(lines, i, j, epsilon):
+def are_one_line(lines, i, j, limits):
     """Whether segment j continues segment i.
 
     With (x₂, y₂) the end of i and (x₁, y₁) the start of j: |sin of the angle between the lines| <
@@ -191,15 +192,15 @@ def are_one_line(lines, i, j, epsilon):
     return (
         (abs(line[0] * other[1] - line[1] * other[0]) < math.sin(SPLIT_ANGLE))
         & ((x_next - x) ** 2 + (y_next - y) ** 2 <= SPLIT_GAP**2)
-        & (abs(signed_distance(line, x_next, y_next)) <= LOOSER * epsilon)
-        & (abs(signed_distance(other, x, y)) <= LOOSER * epsilon)
+        & (squared_distance(line, x_next, y_next) <= LOOSER**2 * near(limits, x_next**2 + y_next**2))
+        & (squared_distance(other, x, y) <= LOOSER**2 * near(limits, x**2 + y**2))
     )
 
 
 @entry_kernel
-def find_splits(segments, circle, epsilon, pairs):
-    """`over_split` of the segments of a survey."""
-    return over_split(segments, len(segments), circle, epsilon, pairs)
+def find_splits(segments, circle, limits, pairs):
+    """`over_split` of the segments of a survey; limits: see `limits_of`."""
+    return over_split(segments, len(segments), circle, unpacked(limits), pairs)
 
 
 @kernel
@@ -355,7 +356,7 @@ def score_frame(lines, count, points, beams, limits, dropped, now, before, score
     scores[COLUMN.coverage] = coverage_of(lines, count, points)
     scores[COLUMN.invalid] = invalid_share(points, beams)
     scores[COLUMN.rms] = largest_rms(lines, count)
-    scores[COLUMN.splits] = over_split(lines, count, points.around > 0, limits.epsilon, points.beam[:0])
+    scores[COLUMN.splits] = over_split(lines, count, points.around > 0, limits, points.beam[:0])
     scores[COLUMN.gap] = widest_gap(lines, count, points)
     scores[COLUMN.misses] = probable_misses(lines, count, points, limits, dropped)
     scores[COLUMN.change] = change_of(now, before, points.around > 0)

@@ -39,5 +39,11 @@ def unpacked(limits):
 
 @kernel
 def loosened(limits, times):
-    """The limits with ε and δ multiplied by a factor."""
-    return Limits(times * limits.epsilon, times * limits.delta, *limits[2:])
+    """The limits with ε, at every range, and δ multiplied by a factor."""
+    return Limits(times * limits.epsilon, times * limits.delta, *limits[2:-1], times * limits.epsilon_growth)
+
+
+@kernel
+def near(limits, square):
+    """ε² at a point whose range has this square: constant noise plus noise in proportion to the range."""
+    return limits.epsilon * limits.epsilon + limits.epsilon_growth * limits.epsilon_growth * square

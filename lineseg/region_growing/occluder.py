@@ -6,15 +6,16 @@ import numpy as np
 
 from ..kernel import kernel
 from ..total_least_squares import at
+from .limits import near
 
 
 @kernel
 def look_past(x, y, rho, beam, passed, steps, n, limits):
     """Remove the points of thin objects in front of a wall, in place; returns the number of points left.
 
-    An object is a run of points that all lie more than δ, and more than 2 ε, in front of where their beams meet the
-    chord between the two points next to the run (as in Eqs. 4–6). These two points must be at most `max_occluder`
-    apart, and so must the outermost points of the run, not counting mixed pixels at its edges.
+    An object is a run of points that all lie more than δ, and more than 2 ε at their range, in front of where their
+    beams meet the chord between the two points next to the run (as in Eqs. 4–6). These two points must be at most
+    `max_occluder` apart, and so must the outermost points of the run, not counting mixed pixels at its edges.
     x, y, rho, beam: (n,) of the points in scan order; rho is not changed. passed: (n,) int32, set to 1 if an object
     was removed before the point, else to 0; steps: (n,) int32, memory.
     """
@@ -30,7 +31,7 @@ def look_past(x, y, rho, beam, passed, steps, n, limits):
         # On a wall seen at a grazing angle many falls in a row wait for the same rise.
         while rise < len(steps) and (rise <= fall or rho[steps[rise]] < rho[steps[rise] - 1]):
             rise += 1
-        j = behind_thing(x, y, rho, steps[rise:], k, ahead, limits.max_occluder)
+        j = behind_thing(x, y, rho, steps[rise:], k, limits)
         if j > k:
             left = close_up(x, y, beam, behind, k + 1, left)
             passed[left], behind = 1, j
@@ -61,13 +62,14 @@ def close_up(x, y, beam, start, stop, to):
 
 
 @kernel
-def behind_thing(x, y, rho, steps, k, ahead, widest):
+def behind_thing(x, y, rho, steps, k, limits):
     """The first point after an object that begins with point k + 1, or −1; steps: from the first rise after k on."""
+    widest = limits.max_occluder
     for j in steps:
         if rho[j] > rho[j - 1]:
             if j - 2 > k + 2 and square(x, y, k + 2, j - 2) > widest * widest:
                 return -1
-            if square(x, y, k, j) <= widest * widest and is_thing(x, y, rho, k, j, ahead, widest):
+            if square(x, y, k, j) <= widest * widest and is_thing(x, y, rho, k, j, limits):
                 return j
     return -1
 
@@ -79,17 +81,19 @@ def square(x, y, i, j):
 
 
 @kernel
-def is_thing(x, y, rho, k, j, ahead, widest):
-    """Whether every point between k and j lies more than `ahead` in front of the chord from k to j, along its beam.
+def is_thing(x, y, rho, k, j, limits):
+    """Whether every point between k and j lies far in front of the chord from k to j, along its beam.
 
     They must also be no wider than an object may be.
     """
+    widest = limits.max_occluder
     dx, dy = x[j] - x[k], y[j] - y[k]
     offset = dx * y[k] - dy * x[k]
     for i in range(k + 1, j):
         along = dx * y[i] - dy * x[i]
         # ρ′ = ρ · offset / along
-        if not rho[i] * (offset / along - 1.0) > ahead:
+        ahead = rho[i] * (offset / along - 1.0)
+        if not (ahead > limits.delta and ahead * ahead > 4.0 * near(limits, rho[i] * rho[i])):
             return False
         if k + 2 < i < j - 1 and square(x, y, k + 2, i) > widest * widest:
             return False

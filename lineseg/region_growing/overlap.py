@@ -19,6 +19,7 @@ from .checks import (
     number_of,
 )
 from .lines import drop, line_at, remove
+from .seed import is_whole
 
 MERGE_RMS = number_of("merge_rms")
 
@@ -91,7 +92,7 @@ def merged(points, lines, i, j, turn, limits, log):
 def parted_by_strays(points, last, first, limits):
     """Whether at most `max_dropout` points and no break lie between two lines (an extension)."""
     few = first - last - 1 <= limits.max_dropout
-    return limits.merge_rms > 0.0 and few and points.breaks[last] == points.breaks[first]
+    return limits.merge_rms > 0.0 and few and is_whole(points, last, first, limits)
 
 
 @kernel

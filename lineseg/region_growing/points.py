@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from ..kernel import kernel
 from ..total_least_squares import at
 from .checks import NONE, number_of
+from .limits import near
 from .occluder import look_past, square
 
 MAX_DROPOUT, MAX_GAP, MAX_VOID = number_of("max_dropout"), number_of("max_gap"), number_of("max_void")
@@ -18,6 +19,7 @@ MAX_DROPOUT, MAX_GAP, MAX_VOID = number_of("max_dropout"), number_of("max_gap"),
 # On a wall seen at a grazing angle each gap between its points is at most 3 times as wide as the gap before. A gap
 # between neighbouring beams is a void if it is more than this many times as wide as the gaps next to it on its line.
 TIMES = 4.0
+BREAK, WIDE = 1, 2
 
 
 class Points(NamedTuple):
@@ -27,9 +29,9 @@ class Points(NamedTuple):
     numbers, so that a line may cross the seam in both directions. Beams missing at the seam are counted.
 
     x, y: (m,) [m]; beam: (m,) int32, rising; start: the position of the first point; period: number of points.
-    breaks: (m,) int32, rising by 1 at each step that no seed or line may cross; two positions without a break between
-    them have equal values. around: see `Scan.around`. returns: number of valid beams, including those on ignored
-    objects.
+    breaks: (m,) int32, of the step to each point: BREAK if no seed or line may cross it, WIDE if it may be a void, 0 if
+    neither, see `are_parted`. around: see `Scan.around`. returns: number of valid beams, including those on
+    ignored objects.
     """
 
     x: NDArray[np.float64]
@@ -69,7 +71,7 @@ def points_of(ranges, rays, range_min, range_max, around, limits, xy, numbers):
         lay_round(x, y, beam, numbers[4], n, around, xy, numbers[0], breaks, looking, limits)
     else:
         m = n
-        find_breaks(xy[0], xy[1], numbers[0], breaks, m, circle, looking, limits)
+        find_breaks(xy[0], xy[1], numbers[0], breaks, m, looking, limits)
     return Points(xy[0, :m], xy[1, :m], numbers[0, :m], breaks[:m], start, n, around, returns)
 
 
@@ -150,8 +152,9 @@ def lay_round(x, y, beam, passed, n, around, to, to_beam, breaks, looked, limits
     repeat(to_beam, n, around)
     turn(passed, n, opening, 0, breaks)
     breaks[n] = breaks[0]
-    find_breaks(to[0], to[1], to_beam, breaks, min(n + 1, 4 * n), True, looked, limits)
-    repeat(breaks, n, breaks[n])
+    find_breaks(to[0], to[1], to_beam, breaks, min(n + 1, 4 * n), looked, limits)
+    breaks[0] = breaks[n]
+    repeat(breaks, n, 0)
 
 
 @kernel
@@ -176,57 +179,56 @@ def shifted(values, shift, to):
 
 
 @kernel
-def find_breaks(x, y, beam, breaks, n, circle, looked, limits):
-    """Number the breaks: more than max_dropout beams without a return, a gap wider than max_gap, a void (extensions).
+def find_breaks(x, y, beam, breaks, n, looked, limits):
+    """Mark the steps with more than max_dropout beams without a return or a gap wider than max_gap, and the wide ones.
 
     looked: whether `look_past` ran before: at its 1s, the missing beams belong to an object and are neither a dropout
     nor a void.
     """
     widest = limits.max_gap * limits.max_gap
     void = limits.max_void * limits.max_void if limits.max_void > 0.0 else math.inf
-    breaks[0] = total = 0
+    breaks[0] = 0
     for k in range(1, n):
-        gap, beams = square(x, y, k - 1, k), at(beam, k) - at(beam, k - 1)
+        gap, lost = square(x, y, k - 1, k), at(beam, k) - at(beam, k - 1) - 1
         seen = (breaks[k] == 0) | (not looked)
-        breaks[k] = (seen & (beams - 1 > limits.max_dropout)) | (gap > widest) | (2 * (seen & (gap > void)))
-        total += breaks[k]
-    # Most scans have none.
-    if total > 0:
-        for k in range(1, n):
-            if breaks[k] == 2:
-                breaks[k] = is_void(x, y, beam, k, n, circle, limits.epsilon)
-            breaks[k] = breaks[k - 1] + (breaks[k] > 0)
+        breaks[k] = (BREAK * ((seen & (lost > limits.max_dropout)) | (gap > widest))) | (WIDE * (seen & (gap > void)))
 
 
 @kernel
-def is_void(x, y, beam, k, n, circle, epsilon):
-    """Whether a wide gap before point k is a void.
+def are_parted(points, k, limits):
+    """Whether no seed or line may cross the step from point k − 1 to point k."""
+    return points.breaks[k] != 0 and (points.breaks[k] != WIDE or is_void(points, k, limits))
 
-    It is one if other beams lie between; without these, unless a gap next to it continues it. A jump from one surface
-    to another counts, too, which no line crosses anyway.
+
+@kernel
+def is_void(points, k, limits):
+    """Whether the wide gap before point k is a void: other beams lie between, or no gap next to it continues it.
+
+    A jump to another surface is one, too.
     """
+    x, y, beam = points.x, points.y, points.beam
     if at(beam, k) - at(beam, k - 1) > 1:
         return True
-    if circle and k == 1:
-        # The points of a full circle are stored again after the last.
-        k = n
-    before = k > 1 and continues(x, y, beam, k, k - 1, k - 2, epsilon)
-    return not (before or ((circle or k < n - 1) and continues(x, y, beam, k - 1, k, k + 1, epsilon)))
+    if k > 1 and continues(x, y, beam, k, k - 1, k - 2, limits):
+        return False
+    return k == len(x) - 1 or not continues(x, y, beam, k - 1, k, k + 1, limits)
 
 
 @kernel
-def continues(x, y, beam, i, j, k, epsilon):
+def continues(x, y, beam, i, j, k, limits):
     """Whether the gap from point j to k continues that from i to j: nearly straight on, and not TIMES narrower."""
     xa, ya, xb, yb = at(x, j) - at(x, i), at(y, j) - at(y, i), at(x, k) - at(x, j), at(y, k) - at(y, j)
-    gap, away, beams = xa * xa + ya * ya, xa * yb - ya * xb, float(at(beam, k) - at(beam, j))
-    straight = away * away <= 4.0 * epsilon * epsilon * gap
-    return straight and TIMES * TIMES * (xb * xb + yb * yb) >= gap * beams * beams
+    a, b, away, beams = xa * xa + ya * ya, xb * xb + yb * yb, xa * yb - ya * xb, float(at(beam, k) - at(beam, j))
+    # If all three are within ε of one line, k lies at most 2·ε·(1 + |jk|/|ij|) from the line ij. To spare the roots,
+    # (p + q)² ≤ 2·(p² + q²).
+    near_line = 8.0 * near(limits, at(x, j) * at(x, j) + at(y, j) * at(y, j)) * (a + b)
+    return TIMES * TIMES * b >= a * beams * beams and away * away <= near_line
 
 
 @kernel
 def breach(points, k, neighbour, limits):
     """(check, value, limit) of the extension that forbids the step from point k to its neighbour, else check NONE."""
-    if points.breaks[neighbour] == points.breaks[k]:
+    if not are_parted(points, max(k, neighbour), limits):
         return NONE, 0.0, 0.0
     dropout, gap = abs(points.beam[neighbour] - points.beam[k]) - 1, math.sqrt(square(points.x, points.y, k, neighbour))
     # Behind an ignored object, only a gap makes a break.

@@ -8,7 +8,8 @@ from ..kernel import inlined_kernel, kernel
 from ..total_least_squares import NO_SCATTER, at, halved, line_through, scatter_of_few, signed_distance
 from ..tracing.log import note
 from .checks import DELTA, EPSILON, NONE, SEED_FOUND, SEED_REJECTED
-from .points import MAX_VOID, breach
+from .limits import near
+from .points import MAX_VOID, are_parted, breach
 from .prediction import predicted_distance
 
 NOWHERE = (0.0, 0.0, 0.0)
@@ -27,7 +28,7 @@ def find_seed(points, start, stop, limits, candidate, log):
     while first < stop:
         last = first + limits.seed_points - 1
         scatter = scatter_of_few(points.x, points.y, first, last)
-        if at(points.breaks, first) == at(points.breaks, last) and is_seed(points, first, last, scatter, limits):
+        if is_seed(points, first, last, scatter, limits) and is_whole(points, first, last, limits):
             if log is not None:
                 note(log, SEED_FOUND, NONE, candidate, 0, (first, last), -1, line_through(scatter), 0.0, 0.0)
             return first, scatter
@@ -62,10 +63,20 @@ def is_edge(points, k, limits):
     xc, yc = at(points.x, k + 1), at(points.y, k + 1)
     ab, bc, ac = xa * yb - ya * xb, xb * yc - yb * xc, xa * yc - ya * xc
     a, b, c = xa * xa + ya * ya, xb * xb + yb * yb, xc * xc + yc * yc
-    nearest = math.sqrt(min(a, b, c))
     # Of points on one beam the products are no more than what rounding leaves.
-    most = limits.delta * (abs(ab) + abs(bc) + abs(ac)) + 1e-14 * max(a, b, c) * nearest
-    return abs(ab + bc - ac) * (nearest - limits.delta) > most
+    twice = abs(ab + bc - ac)
+    most, least = limits.delta * (abs(ab) + abs(bc) + abs(ac) + twice), twice - 1e-14 * max(a, b, c)
+    # Squared, which spares the root of ρ².
+    return least > 0.0 and least * least * min(a, b, c) > most * most
+
+
+@kernel
+def is_whole(points, first, last, limits):
+    """Whether a line may cross every step from point `first` to point `last`."""
+    whole = True
+    for k in range(first + 1, last + 1):
+        whole &= not are_parted(points, k, limits)
+    return whole
 
 
 @inlined_kernel
@@ -80,9 +91,10 @@ def is_seed(points, first, last, scatter, limits):
 
 @inlined_kernel
 def test_of(scatter, limits):
-    """The input of `fails` for a window: u along its line, u × any point of the line, and both limits, squared."""
+    """The input of `fails` for a window: u along its line, u × any point of the line, and the limits, squared."""
     ux, uy = halved(scatter.cosine, scatter.sine, scatter.x, scatter.y)
-    return ux, uy, ux * scatter.y - uy * scatter.x, limits.delta**2, limits.epsilon**2 * (ux * ux + uy * uy)
+    norm, offset = ux * ux + uy * uy, ux * scatter.y - uy * scatter.x
+    return ux, uy, offset, limits.delta**2, limits.epsilon**2 * norm, limits.epsilon_growth**2 * norm
 
 
 @inlined_kernel
@@ -92,11 +104,11 @@ def fails(x, y, test):
     P and P′ lie on one beam, so their distance is |ρ − ρ′| = d / |cos of the angle of incidence|, and that
     cosine is |a·x + b·y| / ρ. Squared and multiplied out, neither check needs a root, a division or the bearing.
     """
-    ux, uy, offset, predicted, near = test
+    ux, uy, offset, predicted, constant, growing = test
     along = ux * y - uy * x
     d = along - offset
-    square = d * d
-    return square * (x * x + y * y) > predicted * along * along, square > near
+    square, beam = d * d, x * x + y * y
+    return square * beam > predicted * along * along, square > constant + growing * beam
 
 
 @kernel
@@ -122,7 +134,8 @@ def note_refusal(points, first, last, scatter, limits, candidate, log):
             note(log, SEED_REJECTED, DELTA, candidate, 0, span, k, line, value, limits.delta)
             return
         if off_line:
-            value = abs(signed_distance(line, points.x[k], points.y[k]))
-            note(log, SEED_REJECTED, EPSILON, candidate, 0, span, k, line, value, limits.epsilon)
+            x, y = points.x[k], points.y[k]
+            value, limit = abs(signed_distance(line, x, y)), math.sqrt(near(limits, x * x + y * y))
+            note(log, SEED_REJECTED, EPSILON, candidate, 0, span, k, line, value, limit)
             return
     note(log, SEED_REJECTED, MAX_VOID, candidate, 0, span, void, line, width, limits.max_void)

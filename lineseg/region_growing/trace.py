@@ -109,7 +109,7 @@ class GrowthTrace(Trace):
     def _why_in(self, beam: int, segment: int) -> Explanation:
         line = self.extraction.segments[segment]
         value = float(line.distance(self.scan.xy[beam]))
-        limit = self.params.epsilon
+        limit = float(self.params.epsilon_at(self.scan.ranges[beam]))
         own = self._grown_into(segment)
         rows = self.log[self._decided_on(beam)]
         joined = rows[(rows["kind"] == POINT_ADDED) & np.isin(rows["candidate"], own)]

@@ -18,13 +18,14 @@ from ..segment import Extraction
 from .stretch import Workspace
 
 # Thresholds that a score takes from the method if it has them. The others keep their defaults, to judge alike.
-JUDGED_BY = ("epsilon", "delta", "seed_points", "min_points", "min_length")
+JUDGED_BY = ("epsilon", "epsilon_growth", "delta", "seed_points", "min_points", "min_length")
 COVERAGE = list(SCORES).index("coverage")
 
 
 def judge_of(params: Thresholds) -> Params:
     """The region-growing thresholds used for scoring the segments of a method."""
-    return Params().but(**{name: value for name, value in params.numbers().items() if name in JUDGED_BY})
+    own = {name: value for name, value in params.numbers().items() if name in JUDGED_BY}
+    return Params(epsilon_growth=0.0).but(**own)
 
 
 def survey_stretch(

@@ -17,6 +17,7 @@ from ..doubt.suspicion import AROUND, WEIGHTS, doubts
 from ..extractors import extract, trace
 from ..knobs import Thresholds
 from ..params import Params
+from ..region_growing.limits import limits_of
 from ..scan import Recording, Scan
 from .frame_by_frame import judge_of
 from .result import Survey
@@ -93,7 +94,7 @@ class _Scene:
 
     def __init__(self, recording: Recording, found: Survey, frame: int, params: Thresholds) -> None:
         self.recording, self.found, self.frame, self.params = recording, found, frame, params
-        self.epsilon = judge_of(params).epsilon
+        self.judge = judge_of(params)
         self.scan: Scan = recording[frame]
         self.rows = found[frame]
 
@@ -117,15 +118,16 @@ class _Scene:
 
 def _lines(scene: _Scene) -> Iterator[Remark]:
     """Doubts about single lines."""
-    rows, epsilon = scene.rows, scene.epsilon
+    rows = scene.rows
     yield from _misses(scene)
     pairs = np.empty(len(rows), np.int64)
-    for i in pairs[: find_splits(rows, scene.scan.full_circle, epsilon, pairs)].tolist():
+    for i in pairs[: find_splits(rows, scene.scan.full_circle, limits_of(scene.judge), pairs)].tolist():
         one, other = rows[i], rows[(i + 1) % len(rows)]
         cut = f"cut in two between beams {one['last']} and {other['first']}"
         text = f"segments {i} and {(i + 1) % len(rows)} are one line, {cut}"
         yield Remark("splits", text, int(one["first"]), int(other["last"]))
     for i, row in enumerate(rows):
+        epsilon = scene.judge.epsilon_at(0.5 * np.hypot(row["x1"] + row["x2"], row["y1"] + row["y2"]))
         if row["rms"] > NEAR_EPSILON * epsilon:
             text = f"segment {i} only just fits: its rms distance is {row['rms']:.3f} m, ε = {epsilon:.3f} m"
             yield Remark("near", text, int(row["first"]), int(row["last"]))

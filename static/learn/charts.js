@@ -40,18 +40,31 @@ export function createCharts(text, onBeam, onRun) {
     if (line) {
       const beams = around(event, trace);
       const within = new Set(trace.span(event.first, event.last));
-      const dots = (/** @type {(beam: number) => number} */ of) =>
-        beams.map((beam) => ({ x: beam, y: of(beam), inside: within.has(beam), now: beam === event.beam }));
+      /** @param {(beam: number) => number} of @param {(beam: number) => number} limitAt */
+      const dots = (of, limitAt) =>
+        beams.map((beam) => ({
+          x: beam,
+          y: of(beam),
+          limit: limitAt(beam),
+          inside: within.has(beam),
+          now: beam === event.beam,
+        }));
+      const epsilon = (/** @type {number} */ beam) => {
+        const [x, y] = trace.point(beam) ?? [0, 0];
+        return Math.hypot(params.epsilon, (params.epsilon_growth ?? 0) * Math.hypot(x, y));
+      };
       distance.set(
-        dots((beam) => trace.distance(beam, line)),
-        params.epsilon,
+        dots((beam) => trace.distance(beam, line), epsilon),
         event.beam >= 0 ? text.sayBeam(event.beam, event.value) : "",
       );
       const off = (/** @type {number} */ beam) => {
         const { range, meets } = trace.predicted(beam, line);
         return Math.abs(range - meets);
       };
-      predicted.set(dots(off), params.delta, event.beam >= 0 ? text.sayBeam(event.beam, off(event.beam)) : "");
+      predicted.set(
+        dots(off, () => params.delta),
+        event.beam >= 0 ? text.sayBeam(event.beam, off(event.beam)) : "",
+      );
     } else {
       distance.clear(text.noLine);
       predicted.clear(text.noLine);

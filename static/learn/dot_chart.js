@@ -5,7 +5,7 @@ import { colour } from "../widgets/colours.js";
 import { Plot } from "./plot.js";
 
 /** @typedef {import("./plot.js").Box} Box */
-/** @typedef {{x: number, y: number, inside: boolean, now: boolean}} Dot x: its beam */
+/** @typedef {{x: number, y: number, limit: number, inside: boolean, now: boolean}} Dot x: its beam; limit: the threshold there */
 /** @typedef {{onBeam: (beam: number | null) => void, onRun: (beam: number) => void, say: (beam: number, value: number) => string}} Beams onBeam: pointed at; onRun: chosen */
 
 // Values are drawn up to this many times the threshold; larger ones are shown as an arrow at the edge.
@@ -19,7 +19,6 @@ export class DotChart {
   #plot;
   #walk;
   /** @type {Dot[]} */ #dots = [];
-  #limit = 0;
   /** By the pointer or the keyboard. @type {number | null} */ #pointed = null;
 
   /** @param {{title: string, y: string}} text y: the threshold's symbol @param {Beams} beams */
@@ -70,15 +69,17 @@ export class DotChart {
 
   #draw() {
     const { pen, box } = this.#plot.begin();
-    const top = REACH * this.#limit;
+    const limits = this.#dots.map((dot) => dot.limit);
+    const top = REACH * Math.max(...limits, 0);
     const y = (/** @type {number} */ value) => box.bottom - (Math.min(value, top) / top) * (box.bottom - box.top);
-    this.#plot.threshold(pen, y(this.#limit), this.#symbol);
+    if (limits.length === 1) limits.push(limits[0]);
+    if (limits.length) this.#plot.threshold(pen, limits.map(y), this.#symbol);
     const radius = this.#dots.length > 150 ? 1.4 : 2.2;
     this.#dots.forEach((dot, k) => {
       const x = this.#x(k, box);
       const beyond = !(dot.y <= top);
       const at = beyond ? box.top + 3 : y(dot.y);
-      pen.fillStyle = colour(dot.y > this.#limit || Number.isNaN(dot.y) ? "--failed" : "--passed");
+      pen.fillStyle = colour(dot.y > dot.limit || Number.isNaN(dot.y) ? "--failed" : "--passed");
       pen.globalAlpha = dot.inside || dot.now ? 1 : 0.38;
       pen.beginPath();
       if (beyond) arrow(pen, x, box.top);
@@ -120,10 +121,10 @@ export class DotChart {
     this.#plot.blank(why);
   }
 
-  /** @param {Dot[]} dots @param {number} limit @param {string} words */
-  set(dots, limit, words) {
+  /** @param {Dot[]} dots @param {string} words */
+  set(dots, words) {
     const beam = this.#pointed === null ? null : this.#dots[this.#pointed].x;
-    [this.#dots, this.#limit] = [dots, limit];
+    this.#dots = dots;
     const at = dots.findIndex((dot) => dot.x === beam);
     this.#point(at < 0 ? null : at);
     this.#walk.renew(this.#pointed);

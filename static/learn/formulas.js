@@ -44,10 +44,10 @@ export function createFormulas(text, onTerm) {
       light(name);
       if (name) body.querySelector(`[data-term="${name}"]`)?.scrollIntoView({ block: "nearest" });
     },
-    /** @param {Event | null} event @param {Trace | null} trace */
-    set(event, trace) {
+    /** @param {Event | null} event @param {Trace | null} trace @param {import("../wire.js").Params} params */
+    set(event, trace, params) {
       lit = null;
-      const shown = event && trace ? formulasOf(event, trace, text) : [];
+      const shown = event && trace ? formulasOf(event, trace, params, text) : [];
       element.hidden = shown.length === 0;
       body.replaceChildren(
         ...shown.map(({ title, rows }) =>
@@ -71,13 +71,16 @@ export function createFormulas(text, onTerm) {
   };
 }
 
-/** @param {Event} event @param {Trace} trace @param {Text} text @returns {Formula[]} */
-function formulasOf(event, trace, text) {
+/**
+ * @param {Event} event @param {Trace} trace @param {import("../wire.js").Params} params @param {Text} text
+ * @returns {Formula[]}
+ */
+function formulasOf(event, trace, params, text) {
   const { kind, check, line, beam } = event;
   if (kind === "seed found") return [fitted(event, trace, text)];
   if (check === "delta" && line) return [predictedPoint(event, trace, line, text)];
   if (check === "epsilon" && line && beam >= 0) {
-    const compare = toLine(event, trace, line, text);
+    const compare = toLine(event, trace, line, params, text);
     return kind === "point added" ? [compare, fitted(event, trace, text)] : [compare];
   }
   if (kind === "line kept" || (kind === "line dropped" && check !== "nearer")) return [acceptance(event, trace, text)];
@@ -90,8 +93,11 @@ function formulasOf(event, trace, text) {
   return [];
 }
 
-/** @param {Event} event @param {Trace} trace @param {Line} line @param {Text} text @returns {Formula} */
-function toLine({ beam, value, limit, kind }, trace, [a, b, c], text) {
+/**
+ * @param {Event} event @param {Trace} trace @param {Line} line @param {import("../wire.js").Params} params @param {Text} text
+ * @returns {Formula}
+ */
+function toLine({ beam, value, limit, kind }, trace, [a, b, c], params, text) {
   const [x, y] = trace.point(beam) ?? [NaN, NaN];
   const d = term("distance", "d");
   const normal = row(term("normal", "a"), term("point", "x"), "+", term("normal", "b"), term("point", "y"), "+ c");
@@ -102,8 +108,15 @@ function toLine({ beam, value, limit, kind }, trace, [a, b, c], text) {
       math(d, "=", fraction(row("|", normal, "|"), root(row(power("a", "2"), "+", power("b", "2"))))),
       math("= |", signed(a), "·", signed(x), "+", signed(b), "·", signed(y), "+", signed(c), "|"),
       math("=", num(value), sign, term("band", "ε"), "=", num(limit), words(` m: ${verdict(kind, text)}`)),
+      ...(params.epsilon_growth ? [epsilonAt(Math.hypot(x, y), params)] : []),
     ],
   };
+}
+
+/** ε at a range, where it grows with the range. @param {number} range @param {import("../wire.js").Params} params */
+function epsilonAt(range, { epsilon, epsilon_growth: growth }) {
+  const grown = power(row("(", num(growth, 4), "·", num(range), ")"), "2");
+  return math(term("band", "ε"), "=", root(row(power(num(epsilon), "2"), "+", grown)), words(" m"));
 }
 
 /** @param {string} kind @param {Text} text */

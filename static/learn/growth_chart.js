@@ -35,7 +35,7 @@ export class GrowthChart {
     const x = (/** @type {number} */ k) =>
       box.left + 6 + (k / Math.max(steps.length - 1, 20)) * (box.right - box.left - 12);
     const y = (/** @type {number} */ value) => box.bottom - (Math.min(value, top) / top) * (box.bottom - box.top);
-    this.#plot.threshold(pen, y(1), this.#symbol);
+    this.#plot.threshold(pen, [y(1), y(1)], this.#symbol);
     const last = steps[steps.length - 1];
     const curves = /** @type {const} */ ([
       [lengths, "--accent", `L ${last.length.toFixed(2)} m`],

@@ -201,7 +201,7 @@ class Learn {
     if (asked && asked.index !== (this.#step ?? -2) + 1) this.#predict.drop();
     if (!this.#predict.asked) this.#overlay.set("question", null);
     this.#dock.classList.toggle("asking", this.#predict.asked !== null);
-    this.#formulas.set(explained, this.#trace);
+    this.#formulas.set(explained, this.#trace, this.#params);
     this.#charts.set(explained, this.#trace, this.#params);
     this.#listing?.set(explained, event ? variables(event) : [], event ? compared(event, this.#knobs) : "");
   }

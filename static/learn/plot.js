@@ -59,18 +59,22 @@ export class Plot {
     return { pen, box };
   }
 
-  /** @param {CanvasRenderingContext2D} pen @param {number} y @param {string} words */
-  threshold(pen, y, words) {
+  /**
+   * The dashed line of a threshold through heights at evenly spaced places.
+   * @param {CanvasRenderingContext2D} pen
+   * @param {number[]} heights
+   * @param {string} words
+   */
+  threshold(pen, heights, words) {
     const { left, right } = this.box;
     pen.strokeStyle = colour("--ink");
     pen.setLineDash([4, 3]);
     pen.beginPath();
-    pen.moveTo(left, y);
-    pen.lineTo(right, y);
+    heights.forEach((y, k) => pen.lineTo(left + (k / Math.max(1, heights.length - 1)) * (right - left), y));
     pen.stroke();
     pen.setLineDash([]);
     pen.fillStyle = colour("--ink");
     pen.textAlign = "right";
-    pen.fillText(words, left - 4, y + 3.5);
+    pen.fillText(words, left - 4, heights[0] + 3.5);
   }
 }

@@ -1,7 +1,7 @@
 // @ts-check
 import { h } from "../widgets/dom.js";
 
-const SYMBOL = /((?<!\w)[A-Za-zαγ]′?_[a-z0-9]+|\b[ijkdn]\b(?!')|[εδρθ]′?|\bP′)/u;
+const SYMBOL = /((?<!\w)[A-Za-zαγ]′?_[a-z0-9]+|\b[ijkdn]\b(?!')|[εδρθκ]′?|\bP′)/u;
 
 /**
  * Text with the symbols of the paper in italics and their indices as subscripts: P_min, S_num, ε, ρ′.

@@ -115,8 +115,8 @@ export const pageText = {
     presetChoose: "Laser preset",
     presetPaper: "Paper (Table 2)",
     presetHelp:
-      "Sets ε from the range precision in the laser’s data sheet. The other thresholds stay unchanged, because they depend on the scene and not on the laser.",
-    presetHint: (/** @type {string} */ range, /** @type {string} */ value) => `${range} → ε\u00a0${value}`,
+      "Sets ε and its growth κ from the range precision in the laser’s data sheet. The other thresholds stay unchanged, because they depend on the scene and not on the laser.",
+    presetHint: (/** @type {string} */ range, /** @type {string} */ values) => `${range} → ${values}`,
     undo: "Undo (Ctrl+Z)",
     redo: "Redo (Ctrl+Shift+Z)",
     resetAll: "Reset all",

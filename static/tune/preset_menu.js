@@ -8,7 +8,7 @@ import { PRESETS } from "./presets.js";
 /** @typedef {import("../wire.js").Params} Params */
 
 /**
- * The menu of the paper's thresholds and of lasers whose ε is known.
+ * The menu of the paper's thresholds and of lasers whose ε and κ are known.
  * @param {typeof import("../text/page.js").pageText.tune} text
  * @param {{knobs: () => Knob[], onParams: (params: Params) => void}} handlers
  */
@@ -17,10 +17,11 @@ export function createPresetMenu(text, { knobs, onParams }) {
   tooltip(menu.button, text.presetHelp, "left");
 
   function groups() {
-    const epsilon = knobs().find((knob) => knob.name === "epsilon");
+    const told = (/** @type {Params} */ params) =>
+      knobs().flatMap((knob) => (params[knob.name] ? [`${knob.symbol}\u00a0${format(knob, params[knob.name])}`] : []));
     const lasers = PRESETS.map(({ laser, range, params }) => ({
       label: laser,
-      note: text.presetHint(range, epsilon ? format(epsilon, params.epsilon) : String(params.epsilon)),
+      note: text.presetHint(range, told(params).join(", ")),
       run: () => onParams(params),
     }));
     const paper = { label: text.presetPaper, note: "", run: () => onParams(defaultsOf(knobs())) };

@@ -85,6 +85,8 @@ def test_an_erased_line_saves_the_one_behind_it():
 def test_without_its_departures_it_is_region_growing(scan):
     """But for a start one beam earlier at the end, the length of a line, and lines that lose points when cut."""
     found = {(s.first, s.last) for s in extract(scan, PAPER).segments}
-    paper = Params(max_dropout=10_000, max_gap=1000.0, merge_rms=0.0, max_occluder=0.0, max_void=0.0)
+    paper = Params(
+        max_dropout=10_000, max_gap=1000.0, merge_rms=0.0, max_occluder=0.0, max_void=0.0, epsilon_growth=0.0
+    )
     other = {(s.first, s.last) for s in extract(scan, paper).segments}
     assert len(found ^ other) <= 2

@@ -23,7 +23,9 @@ def test_index_ranges_equal_the_authors_and_endpoints_lie_within_a_millimetre(re
             float(recording["angle_increment"]),
             range_max=float(recording["range_max"]),
         )
-        segments = extract(scan, Params(max_dropout=0, merge_rms=0.0, max_occluder=0.0, max_void=0.0)).segments
+        segments = extract(
+            scan, Params(max_dropout=0, merge_rms=0.0, max_occluder=0.0, max_void=0.0, epsilon_growth=0.0)
+        ).segments
         assert [[s.first, s.last] for s in segments] == [row[4:] for row in frame]
         for segment, row in zip(segments, frame, strict=True):
             assert np.abs(np.subtract((*segment.start, *segment.end), row[:4])).max() < 1e-3

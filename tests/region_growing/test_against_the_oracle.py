@@ -26,6 +26,7 @@ def thresholds(draw):
         merge_rms=draw(st.sampled_from([0.0, 1.0, 1.2, 3.0])),
         max_occluder=draw(st.sampled_from([0.0, 0.1, 0.3, 1.0])),
         max_void=draw(st.sampled_from([0.0, 0.05, 0.3, 1.0])),
+        epsilon_growth=draw(st.sampled_from([0.0, 0.003, 0.02])),
     )
 
 

@@ -33,6 +33,7 @@ def test_the_welcome_describes_every_threshold(page: Page):
         "merge_rms",
         "max_occluder",
         "max_void",
+        "epsilon_growth",
     ]
 
 
