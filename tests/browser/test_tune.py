@@ -70,11 +70,12 @@ def test_the_dot_resets_one_threshold_and_the_button_all(tab):
     tab.until("s.params.delta === 0.1")
 
 
-def test_a_preset_sets_epsilon_and_leaves_the_others(tab):
+def test_a_preset_sets_epsilon_and_its_growth_and_leaves_the_others(tab):
     tab.type_value("min_length", "0.8")
     tab.page.get_by_role("button", name="Preset").click()
     tab.page.get_by_role("menuitem", name="SICK LMS200").click()
-    assert tab.until("s.params.epsilon === 0.02")["params"]["min_length"] == 0.8
+    params = tab.until("s.params.epsilon === 0.02")["params"]
+    assert (params["epsilon_growth"], params["min_length"]) == (0, 0.8)
 
 
 def test_the_cut_of_a_histogram_stands_under_the_thumb(tab):

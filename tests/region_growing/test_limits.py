@@ -12,6 +12,7 @@ def test_each_threshold_arrives_in_the_kernels():
     assert [type(value) for value in limits] == [kind for _, kind, _ in Params.knobs()]
 
 
-def test_looser_limits_differ_in_epsilon_and_delta_alone():
+def test_looser_limits_differ_in_epsilon_its_growth_and_delta_alone():
     limits = Limits(*(getattr(PARAMS, name) for name in Params.names()))
-    assert loosened(limits, 2.0) == limits._replace(epsilon=2.0 * limits.epsilon, delta=2.0 * limits.delta)
+    twice = {name: 2.0 * getattr(limits, name) for name in ("epsilon", "epsilon_growth", "delta")}
+    assert loosened(limits, 2.0) == limits._replace(**twice)

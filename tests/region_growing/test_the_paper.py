@@ -10,11 +10,28 @@ from lineseg import Params, Scan, extract, open_recording, trace
 
 def test_a_bumped_point_is_named_with_the_threshold_it_broke():
     scan = wall_ahead(distance=2.0, bump={3: 0.2})
-    why = trace(scan, Params()).explain(beam=3)
+    why = trace(scan, Params(epsilon_growth=0.0)).explain(beam=3)
     assert (why.check, why.limit) == ("epsilon", 0.03)
     assert why.value == pytest.approx(0.2 * np.cos(scan.bearings[3]), abs=0.01)
     assert why.segment == -1
     assert why.margin < 0
+
+
+def test_epsilon_grows_with_the_range_and_the_trace_says_what_it_was_at_the_point():
+    params = Params(epsilon=0.03, epsilon_growth=0.01)
+    bump = {3: 0.1}
+    near, far = wall_ahead(distance=2.0, bump=bump), wall_ahead(distance=14.0, half_width=10, bump=bump)
+    refused = trace(near, params).explain(3)
+    joined = trace(far, params).explain(3)
+    assert (refused.segment, joined.segment) == (-1, 0)
+    assert refused.limit == pytest.approx(np.hypot(0.03, 0.01 * near.ranges[3]))
+    assert joined.limit == pytest.approx(np.hypot(0.03, 0.01 * far.ranges[3]))
+    assert all(
+        each.limit == pytest.approx(float(params.epsilon_at(far.ranges[each.beam])))
+        for each in trace(far, params)
+        if each.kind == "point added"
+    )
+    assert trace(far, params.but(epsilon_growth=0.0)).explain(3).limit == 0.03
 
 
 def test_a_wall_is_one_segment_from_its_first_beam_to_its_last():

@@ -154,12 +154,14 @@ def test_a_refused_seed_shows_its_window_its_line_and_where_the_beam_meets_it():
 
 def test_the_band_is_epsilon_wide_on_both_sides():
     recording = Recording.from_scans([wall_ahead(noise=0.004)])
-    found = findings(recording, 0, "region-growing", Params(epsilon=0.05))
+    params = Params(epsilon=0.05, epsilon_growth=0.02)
+    found = findings(recording, 0, "region-growing", params)
     step = int(found.trace.indices("point added")[5])
-    drawing = draw(View(step=step, params=Params(epsilon=0.05)), recording)
+    xy = draw(View(step=step, params=params), recording).lines["band"].xyz[:, :, :2]
     a, b, c = found.trace[step].line
-    distances = drawing.lines["band"].xyz[:, :, 0] * a + drawing.lines["band"].xyz[:, :, 1] * b + c
-    assert np.sort(distances[:, 0]) == pytest.approx([-0.05, 0.05], abs=1e-6)
+    ranges = np.linalg.norm(xy.mean(axis=0), axis=1)
+    for distances in np.sort(xy @ (a, b) + c, axis=0):
+        assert np.abs(distances) == pytest.approx(params.epsilon_at(ranges), abs=1e-6)
 
 
 def test_true_walls_are_seen_from_the_laser():
