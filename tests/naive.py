@@ -115,7 +115,7 @@ class RegionGrowing:
                 step = self.at(beyond) - self.at(here)
                 aside = abs(chord[0] * step[1] - chord[1] * step[0])
                 straight = aside <= np.sqrt(8 * (chord @ chord + step @ step)) * self.epsilon(self.at(here))
-                if straight and width * abs(self.number(beyond) - self.number(here)) <= 4 * np.linalg.norm(step):
+                if straight and width <= 4 * np.linalg.norm(step):
                     return False
         return True
 

@@ -209,20 +209,20 @@ def is_void(points, k, limits):
     x, y, beam = points.x, points.y, points.beam
     if at(beam, k) - at(beam, k - 1) > 1:
         return True
-    if k > 1 and continues(x, y, beam, k, k - 1, k - 2, limits):
+    if k > 1 and continues(x, y, k, k - 1, k - 2, limits):
         return False
-    return k == len(x) - 1 or not continues(x, y, beam, k - 1, k, k + 1, limits)
+    return k == len(x) - 1 or not continues(x, y, k - 1, k, k + 1, limits)
 
 
 @kernel
-def continues(x, y, beam, i, j, k, limits):
+def continues(x, y, i, j, k, limits):
     """Whether the gap from point j to k continues that from i to j: nearly straight on, and not TIMES narrower."""
     xa, ya, xb, yb = at(x, j) - at(x, i), at(y, j) - at(y, i), at(x, k) - at(x, j), at(y, k) - at(y, j)
-    a, b, away, beams = xa * xa + ya * ya, xb * xb + yb * yb, xa * yb - ya * xb, float(at(beam, k) - at(beam, j))
+    a, b, away = xa * xa + ya * ya, xb * xb + yb * yb, xa * yb - ya * xb
     # If all three are within ε of one line, k lies at most 2·ε·(1 + |jk|/|ij|) from the line ij. To spare the roots,
     # (p + q)² ≤ 2·(p² + q²).
     near_line = 8.0 * near(limits, at(x, j) * at(x, j) + at(y, j) * at(y, j)) * (a + b)
-    return TIMES * TIMES * b >= a * beams * beams and away * away <= near_line
+    return TIMES * TIMES * b >= a and away * away <= near_line
 
 
 @kernel

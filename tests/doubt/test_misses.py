@@ -32,7 +32,7 @@ def rough(scan, by) -> Scan:
 
 
 def test_a_rough_wall_was_refused_by_epsilon():
-    (miss,) = misses(rough(wall_ahead(), by=0.015), Params(epsilon=0.01))
+    (miss,) = misses(rough(wall_ahead(), by=0.015), Params(epsilon=0.01, epsilon_growth=0.0))
     assert miss.check == "epsilon"
     assert miss.value > miss.limit == 0.01
     assert miss.first <= miss.beam <= miss.last

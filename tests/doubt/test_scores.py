@@ -49,7 +49,8 @@ def test_the_largest_rms_and_widest_gap_are_those_of_the_segments():
 def test_a_gap_bridged_over_lost_beams_is_found():
     scan = wall_ahead(beams=20, lost=(9, 10))
     across, beside = (np.hypot(*(scan.xy[k] - scan.xy[8])) for k in (11, 7))
-    assert scores_of(scan, params=Params(max_void=0))["gap"] == pytest.approx(across - beside, abs=1e-3)
+    assert scores_of(scan, params=Params(max_void=0.0))["gap"] == pytest.approx(across - beside, abs=1e-3)
+    assert scores_of(scan)["gap"] == 0
 
 
 def test_far_points_of_a_wall_seen_at_a_grazing_angle_bridge_nothing():

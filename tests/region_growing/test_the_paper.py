@@ -18,14 +18,14 @@ def test_a_bumped_point_is_named_with_the_threshold_it_broke():
 
 
 def test_epsilon_grows_with_the_range_and_the_trace_says_what_it_was_at_the_point():
-    params = Params(epsilon=0.03, epsilon_growth=0.01)
-    bump = {3: 0.1}
+    params = Params(epsilon=0.03, epsilon_growth=0.015)
+    bump = {3: 0.2}
     near, far = wall_ahead(distance=2.0, bump=bump), wall_ahead(distance=14.0, half_width=10, bump=bump)
     refused = trace(near, params).explain(3)
     joined = trace(far, params).explain(3)
     assert (refused.segment, joined.segment) == (-1, 0)
-    assert refused.limit == pytest.approx(np.hypot(0.03, 0.01 * near.ranges[3]))
-    assert joined.limit == pytest.approx(np.hypot(0.03, 0.01 * far.ranges[3]))
+    assert refused.limit == pytest.approx(np.hypot(0.03, 0.015 * near.ranges[3]))
+    assert joined.limit == pytest.approx(np.hypot(0.03, 0.015 * far.ranges[3]))
     assert all(
         each.limit == pytest.approx(float(params.epsilon_at(far.ranges[each.beam])))
         for each in trace(far, params)
