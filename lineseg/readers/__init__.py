@@ -91,6 +91,13 @@ def _whole(source: Source, reader: type[Reader]) -> Recording:
         if broken is None:
             raise
         raise ValueError(f"{source.name}: {broken[0].lower()}{broken[1:]} {error}") from None
+    except (Cancelled, PermissionError, MemoryError):
+        raise
+    except Exception as error:  # what a library over a damaged file may raise
+        why = " ".join(str(error).split()) or type(error).__name__
+        raise ValueError(
+            f"{source.name}: a damaged {reader.format} ({why}); a whole one has {reader.expects}."
+        ) from error
 
 
 def _own_folder(path: Path) -> type[Reader] | None:

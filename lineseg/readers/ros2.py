@@ -131,7 +131,8 @@ class _Database:
         except sqlite3.DatabaseError:
             counts, cut = {}, 1  # the file breaks off; its messages are read up to there
         self.streams = [
-            Stream(name, type, counts.get(id, cut), id, encoding or "cdr") for id, name, type, encoding in rows
+            Stream(str(name), str(type), counts.get(id, cut), id, encoding or "cdr")
+            for id, name, type, encoding in rows
         ]
 
     def messages(self, streams: list[Stream]) -> Iterator[tuple[Stream, int, bytes]]:

@@ -54,14 +54,14 @@ def _one_way(bearings: Floats) -> list[int]:
     ahead = np.where(ahead > 2 * np.pi - back, ahead - 2 * np.pi, ahead)
     leaps = (raw < -back) & (ahead > WIDE)
     travelled = np.concatenate(([0.0], np.cumsum(ahead)))
-    limit = 2 * np.pi - step / 2
+    limit = 2 * np.pi - min(step / 2, np.pi)
     hard = (np.flatnonzero(leaps) + 1).tolist()
     edges, start = [0], 0
     farthest = np.maximum.accumulate(travelled)
     while True:
         passed = int(np.searchsorted(farthest, travelled[start] + limit))
         next_hard = next((at for at in hard if at > start), len(bearings))
-        start = min(passed, next_hard)
+        start = max(start + 1, min(passed, next_hard))
         if start >= len(bearings):
             return [*edges, len(bearings)]
         edges.append(start)

@@ -95,6 +95,11 @@ def test_turns_may_begin_anywhere(text, first, direction):
     assert all(scan.full_circle for scan in recording)
 
 
+def test_angles_of_any_size_end(text):
+    content = "angle,distance\n" + "".join(f"{angle},1.5\n" for angle in (0, 1e9, -1e9, 3, 1e300, 2, 5, 1e18))
+    assert len(open_recording(text(content)).ranges) == 8
+
+
 def test_a_table_with_lists_gives_geometry_stamp_and_frame_of_each_scan(text):
     header = "{'stamp': {'secs': 774, 'nsecs': 500000000}, 'frame_id': 'base'}"
     content = (
