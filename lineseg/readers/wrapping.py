@@ -117,7 +117,7 @@ def _unzipped(path: Path, name: str, stack: ExitStack, notes: Notes, progress: P
         try:
             with archive.open(entry) as packed:
                 why = expand(packed, target, f"{entry.filename} in {name}", limit_of(path.stat().st_size))
-        except (zipfile.BadZipFile, NotImplementedError, RuntimeError) as error:
+        except (zipfile.BadZipFile, NotImplementedError, RuntimeError, OSError) as error:
             raise ValueError(f"{name}: {entry.filename} cannot be unpacked ({str(error).rstrip('.')}).") from None
         _tell_break(why, target, f"{entry.filename} in {name}", "zip", notes)
     return folder if len(parts) > 1 else next(folder.iterdir())
