@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import os
 import sys
 from collections.abc import Sequence
@@ -10,10 +11,12 @@ import tyro
 from tyro.conf import DisallowNone, FlagCreatePairsOff
 
 from lineseg import __version__
+from lineseg.failing import mistake
 
 from .commands import COMMANDS
 from .commands.progress import interruptible
 
+log = logging.getLogger(__name__)
 INTERRUPTED = 130
 REFUSED = 2
 
@@ -45,6 +48,10 @@ def main(argv: Sequence[str] | None = None) -> int:
         return 0
     except (ValueError, OSError, MemoryError, ModuleNotFoundError) as error:
         print(f"lineseg: {_sentence(error)}", file=sys.stderr)
+        return REFUSED
+    except Exception as error:
+        log.debug("not expected", exc_info=True)
+        print(f"lineseg: {mistake(error)}", file=sys.stderr)
         return REFUSED
     return 0
 

@@ -27,6 +27,7 @@ from starlette.exceptions import HTTPException
 from starlette.staticfiles import StaticFiles
 from starlette.types import Scope
 
+from lineseg.failing import mistake
 from lineseg.readers import Reading
 
 from .body_limit import BodyLimit
@@ -59,6 +60,7 @@ from .view_field import page_module
 
 SHUTDOWN_SECONDS = 3
 WAITING_THREADS = 32
+LARGEST_PORT = 65_535
 
 
 @dataclass(frozen=True)
@@ -123,6 +125,7 @@ def create_app(settings: Settings) -> FastAPI:
     app.add_middleware(Guard, host=settings.host, token=settings.token, names=settings.names)
     app.add_exception_handler(HTTPException, _sentence)
     app.add_exception_handler(RequestValidationError, _complaint)
+    app.add_exception_handler(Exception, _mistake)
     add_api(app, library, sessions)
     add_export(app, library, sessions)
     add_inspection(app, sessions, files)
@@ -195,6 +198,8 @@ def listen(host: str, port: int) -> socket.socket:
         family = socket.getaddrinfo(host or None, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE)[0][0]
     except OSError:
         raise OSError(f"host is {host!r}, which is not an address of this machine; try 127.0.0.1") from None
+    if not 0 <= port <= LARGEST_PORT:
+        raise ValueError(f"--port is {port}; give one from 1 to {LARGEST_PORT}, or 0 for a free one")
     # With an explicit protocol, asyncio turns off Nagle's algorithm, which would delay a second message by 40 ms.
     listener = socket.socket(family, socket.SOCK_STREAM, socket.IPPROTO_TCP)
     try:
@@ -263,6 +268,11 @@ def _module(text: str) -> Response:
 async def _sentence(request: Request, error: Exception) -> Response:
     assert isinstance(error, HTTPException)
     return JSONResponse({"message": error.detail}, status_code=error.status_code, headers=error.headers)
+
+
+async def _mistake(request: Request, error: Exception) -> Response:
+    """What nobody expected; the server also logs it."""
+    return JSONResponse({"message": mistake(error)}, status_code=500)
 
 
 async def _complaint(request: Request, error: Exception) -> Response:

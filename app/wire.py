@@ -60,8 +60,8 @@ class Follow(Message):
     id: Annotated[str, Field(max_length=64)] | None
 
 
-Incoming = Annotated[Hello | Change | OpenLink | Cancel | Close | Follow, Field(discriminator="type")]
-_INCOMING: TypeAdapter[Hello | Change | OpenLink | Cancel | Close | Follow] = TypeAdapter(Incoming)
+Incoming = Hello | Change | OpenLink | Cancel | Close | Follow
+_INCOMING: TypeAdapter[Incoming] = TypeAdapter(Annotated[Incoming, Field(discriminator="type")])
 LONGEST_MESSAGE = 64 * 1024
 
 
@@ -74,7 +74,7 @@ class BadMessageError(ValueError):
         self.rev = rev
 
 
-def parse(text: str) -> Hello | Change | OpenLink | Cancel | Close | Follow:
+def parse(text: str) -> Incoming:
     """Parse a message of the page. Raises BadMessageError with one sentence if it is not valid."""
     if len(text) > LONGEST_MESSAGE:
         raise BadMessageError(f"the message has {len(text)} characters; send at most {LONGEST_MESSAGE}")

@@ -16,6 +16,7 @@ from starlette.responses import RedirectResponse, Response
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from lineseg import EXTRACTORS, __version__
+from lineseg.failing import mistake
 from lineseg.readers import Reading
 
 from ..session.following import OWN
@@ -24,7 +25,7 @@ from ..session.sessions import Sessions, TooManySessionsError
 from ..shelf.library import Library
 from ..told.messages import Failure, MethodEntry, ReadingEntry, Recordings, ScoreEntry, Surveyed, Welcome
 from ..view import STRIP_SCORES, View
-from ..wire import BadMessageError, Cancel, Change, Close, Follow, Hello, OpenLink, parse
+from ..wire import BadMessageError, Cancel, Change, Close, Follow, Hello, Incoming, OpenLink, parse
 from .heard import text_from
 from .live_status import tell_live
 from .viser_relay import client_page, relay
@@ -166,36 +167,44 @@ async def _listen(socket: WebSocket, session: Session, sessions: Sessions) -> No
     while True:
         try:
             message = parse(await text_from(socket))
-        except BadMessageError as error:
-            await _tell(socket, Failure(where=error.where, message=str(error), rev=error.rev))
-            continue
-        match message:
-            case Change() | OpenLink() if session.following and not OWN.issuperset(_named(message)):
-                await _tell(socket, Failure(where="view", message=MIRRORING, rev=message.rev))
-            case Follow():
-                await _follow(socket, session, sessions, message.id)
-            case Change():
-                changes = message.patch.changes()
-                try:
-                    session.change(changes, message.rev)
-                except ValueError as error:
-                    where = "params" if "params" in changes else "view"
-                    await _tell(socket, Failure(where=where, message=str(error), rev=message.rev))
-            case OpenLink():
-                complaint = session.restore(message.patch, message.rev)
-                if complaint is not None:
-                    # The picture answers this revision.
-                    await _tell(socket, Failure(where="view", message=complaint))
-            case Cancel():
-                session.cancel()
-            case Close():
+            if isinstance(message, Close):
                 await sessions.close(session)
                 return
-            case Hello():
-                await _tell(socket, Failure(where="server", message="this tab has already said hello; reload the page"))
+            await _handle(message, socket, session, sessions)
+        except BadMessageError as error:
+            await _tell(socket, Failure(where=error.where, message=str(error), rev=error.rev))
+        except (WebSocketDisconnect, RuntimeError):
+            raise
+        except Exception as error:
+            log.exception("a message failed")
+            await _tell(socket, Failure(where="server", message=mistake(error)))
 
 
-def _named(message: Change | OpenLink) -> set[str]:
+async def _handle(message: Incoming, socket: WebSocket, session: Session, sessions: Sessions) -> None:
+    match message:
+        case Change() | OpenLink() if session.following and not OWN.issuperset(_said(message)):
+            await _tell(socket, Failure(where="view", message=MIRRORING, rev=message.rev))
+        case Follow():
+            await _follow(socket, session, sessions, message.id)
+        case Change():
+            changes = message.patch.changes()
+            try:
+                session.change(changes, message.rev)
+            except ValueError as error:
+                where = "params" if "params" in changes else "view"
+                await _tell(socket, Failure(where=where, message=str(error), rev=message.rev))
+        case OpenLink():
+            complaint = session.restore(message.patch, message.rev)
+            if complaint is not None:
+                # The picture answers this revision.
+                await _tell(socket, Failure(where="view", message=complaint))
+        case Cancel():
+            session.cancel()
+        case Hello():
+            await _tell(socket, Failure(where="server", message="this tab has already said hello; reload the page"))
+
+
+def _said(message: Change | OpenLink) -> set[str]:
     """The fields that a message is about."""
     return message.patch.model_fields_set if isinstance(message, Change) else set(message.patch)
 

@@ -20,6 +20,7 @@ from starlette.exceptions import HTTPException
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from lineseg import Cancelled, Params
+from lineseg.failing import mistake
 from lineseg.sweep import MEASURES, pool
 from lineseg.sweep.workers import Pool
 from lineseg.tuning import Objective, RecordingBlocks, Trial, Tuning
@@ -134,7 +135,7 @@ class Slot:
             self._send(about | {"done": True, "message": str(error)})
         except Exception as error:
             log.exception("%s failed", self._name)
-            self._send(about | {"done": True, "message": f"this failed: {type(error).__name__}: {error}"})
+            self._send(about | {"done": True, "message": mistake(error)})
 
 
 def add_tuning(app: FastAPI, sessions: Sessions, folder: Path) -> None:
@@ -196,6 +197,9 @@ def _obey(text: str, slots: dict[str, Slot], sessions: Sessions, session: str, f
         return error.detail
     except ValueError as error:
         return str(error)
+    except Exception as error:
+        log.exception("a wish failed")
+        return mistake(error)
     return None
 
 

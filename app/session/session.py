@@ -12,6 +12,7 @@ from typing import Any, Literal
 from pydantic import BaseModel
 
 from lineseg import Recording
+from lineseg.failing import mistake
 from lineseg.readers import Cancelled
 
 from ..frame.findings import Findings
@@ -232,7 +233,7 @@ class Session:
             self._fall_back(request, str(error))
         except Exception as error:
             log.exception("drawing %s failed", request.view)
-            self._fall_back(request, f"drawing failed: {type(error).__name__}: {error}")
+            self._fall_back(request, mistake(error))
         self._keep_up()
 
     def _keep_up(self) -> None:

@@ -10,7 +10,10 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from ..arguments import need_path
+from ..failing import named
 from ..scan import Recording
 from .account import Account, Guess, Notice, Skipped
 from .applying import applied
@@ -59,7 +62,8 @@ def open_recording(
         raise FileNotFoundError(f"{path}: there is no such file or folder.")
     if not (path.is_file() or path.is_dir()):
         raise ValueError(f"{path} is neither a file nor a folder, such as a pipe or a device; save it as a file first.")
-    with ExitStack() as stack:
+    # Damaged numbers may be anything, and are checked in the end.
+    with named(path.name or str(path), passed=(Cancelled,)), np.errstate(all="ignore"), ExitStack() as stack:
         try:
             return _read(Source(path, reading, progress or (lambda done, total: None), named=path), stack)
         except PermissionError:

@@ -131,7 +131,7 @@ class _Database:
         except sqlite3.DatabaseError:
             counts, cut = {}, 1  # the file breaks off; its messages are read up to there
         self.streams = [
-            Stream(str(name), str(type), counts.get(id, cut), id, encoding or "cdr")
+            Stream(str(name), str(type), counts.get(id, cut), id, str(encoding or "cdr"))
             for id, name, type, encoding in rows
         ]
 

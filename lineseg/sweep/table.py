@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ..failing import named
 from ..installation import install_command
 from ..params import Params
 from ..writers.finite import finite_or_none
@@ -75,7 +76,8 @@ def read_table(content: bytes, name: str) -> Table:
     if suffix not in TABLE_READERS:
         raise ValueError(f"{name}: the table of a sweep ends in {' or '.join(TABLE_READERS)}; rename the file")
     try:
-        columns = TABLE_READERS[suffix](content)
+        with named(""):
+            columns = TABLE_READERS[suffix](content)
         wanted = ["file", *(field for field, _, _ in Params.knobs()), "frames", *MEASURES]
         if missing := [column for column in wanted if column not in columns]:
             raise ValueError(f"it has no column {missing[0]!r}; `lineseg sweep` writes {', '.join(wanted)}")

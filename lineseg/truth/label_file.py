@@ -14,6 +14,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from ..failing import named
 from ..scan import Recording
 from .labels import FrameLabels, Labels, TrueLine, check_labels
 
@@ -61,6 +62,11 @@ def read_labels(path: str | Path, recording: Recording) -> Labels:
     Raises ValueError for a damaged file, a newer version, or a recording with other frames or beams.
     """
     path = Path(path)
+    with named(path.name, passed=(OSError,)):
+        return _read(path, recording)
+
+
+def _read(path: Path, recording: Recording) -> Labels:
     try:
         if path.stat().st_size > MOST_BYTES:
             raise ValueError(f"{path.name} has {path.stat().st_size} bytes; label files have at most {MOST_BYTES}.")

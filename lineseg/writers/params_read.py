@@ -9,6 +9,7 @@ from collections.abc import Callable, Iterator, Mapping
 from typing import Any, TypeVar
 from xml.parsers import expat
 
+from ..failing import named
 from ..knobs import Thresholds
 from ..params import Params
 
@@ -29,9 +30,18 @@ def read_params(text: str, kind: type[T] = Params) -> T:
     """
     if len(text) > MOST_CHARACTERS:
         raise ValueError(f"the text has {len(text)} characters; a file of thresholds has at most {MOST_CHARACTERS}.")
+    try:
+        text.encode()
+    except UnicodeEncodeError as error:
+        raise ValueError(f"character {error.start + 1} is half of a pair; save the file as UTF-8.") from None
     start = text.lstrip("\ufeff \t\r\n")[:1]
     if not start:
         raise ValueError("the text is empty; give a ROS 1 launch file, ROS 2 YAML or JSON with thresholds.")
+    with named("", what="the text cannot be read"):
+        return _read(text, start, kind)
+
+
+def _read(text: str, start: str, kind: type[T]) -> T:
     known = {alias: name for name, _, knob in kind.knobs() for alias in (name, knob.ros) if alias}
     found = list(_finder(text, start)(text.removeprefix("\ufeff"), known))
     if not found:

@@ -1,0 +1,59 @@
+"""Turns errors of any kind into one sentence that names the place: libraries raise many over damaged input."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+log = logging.getLogger(__name__)
+LONGEST = 600
+DAMAGED = "a damaged or unknown file"
+
+
+@contextmanager
+def named(place: str, passed: tuple[type[Exception], ...] = (), what: str = DAMAGED) -> Iterator[None]:
+    """Errors inside become a ValueError or OSError that says `place`, unless they do already.
+
+    Whatever is neither was not expected: it is logged, with its traceback, and told with its kind. place: "" if the
+    caller adds it. passed: what is left alone.
+    """
+    try:
+        yield
+    except passed:
+        raise
+    except Exception as error:
+        sentence = sentence_of(error, place, what)
+        if isinstance(error, OSError):
+            raise type(error)(sentence) from None
+        if isinstance(error, ValueError) and sentence == str(error):
+            raise
+        if isinstance(error, ValueError):
+            raise ValueError(sentence) from None
+        log.warning("%s", sentence, exc_info=True)
+        raise ValueError(sentence) from None
+
+
+def sentence_of(error: BaseException, place: str, what: str = DAMAGED) -> str:
+    """One line about an error, which names the place."""
+    start, text = f"{place}: " if place else "", _line(str(error))
+    if isinstance(error, MemoryError):
+        return f"{start}there is not enough memory for it; try a smaller one."
+    if isinstance(error, OSError) and error.strerror:
+        return f"{start}{error.strerror}."
+    if isinstance(error, UnicodeError):
+        return f"{start}{what}; it has bytes that are not text ({text})."
+    if isinstance(error, (ValueError, OSError)) and text:
+        return text if place in text else f"{start}{text}"
+    return f"{start}{what} ({type(error).__name__}{': ' + text if text else ''})."
+
+
+def mistake(error: BaseException) -> str:
+    """One line about an error that nobody expected."""
+    return f"this is a mistake of lineseg; please report it: {type(error).__name__}: {_line(str(error))}"
+
+
+def _line(text: str) -> str:
+    """The text in one line that can be encoded, and not too long."""
+    line = " ".join(text.encode("utf-8", "backslashreplace").decode().split())
+    return line if len(line) <= LONGEST else line[: LONGEST - 1] + "…"

@@ -1,0 +1,48 @@
+"""A short run of `tests/fuzz.py`."""
+
+import contextlib
+import json
+import random
+from collections.abc import Iterator
+from pathlib import Path
+
+import fuzz
+import pytest
+from lineseg_app.server import Settings
+from live import Address, page_of, serving
+from websockets.exceptions import WebSocketException
+from websockets.sync.client import connect
+
+CASES = 5000
+
+
+@pytest.fixture
+def server(tmp_path: Path) -> Iterator[Address]:
+    with serving(Settings(data_folder=tmp_path)) as address:
+        yield address
+
+
+def test_damaged_files_and_messages_open_or_are_refused_with_one_sentence(caplog: pytest.LogCaptureFixture):
+    told = []
+    counts = fuzz.run(0, CASES, tell=told.append)
+    assert (counts["cases"], told) == (CASES, [])
+    unexpected = [record.getMessage() for record in caplog.records if record.name == "lineseg.failing"]
+    assert unexpected == []
+
+
+def test_a_tab_goes_on_whatever_its_page_sends(server: Address, caplog: pytest.LogCaptureFixture):
+    chance = random.Random(1)
+    with page_of(server) as page:
+        page.hello()
+        for number in range(300):
+            message = fuzz.mutant(json.dumps(fuzz.MESSAGES[1 + number % 4]).encode(), chance)
+            page._socket.send(message if number % 3 else message.decode("utf-8", "replace"))
+        # What a mutant has changed may be impossible together with this; the page starts anew.
+        page.say(type="link", rev=10**6, patch={"recording": page.welcome["recordings"][0]["id"], "frame": 1})
+        assert page.drawn_or_told(10**6)["frame"] == 1
+    for path in ("/api/tuning?session=x", "/api/scans/lidar", "/api/scans/l%C3%BC", "/s/x/viser"):
+        with contextlib.suppress(WebSocketException), connect(server.ws + path, proxy=None) as socket:
+            for message in (b"\xff\x00", "\U0001f600", "[" * 5000, '{"type": "\\ud800"}', "9" * 5000):
+                socket.send(message)
+            socket.recv(timeout=5)
+    assert [record.getMessage() for record in caplog.records if record.levelname == "ERROR"] == []
