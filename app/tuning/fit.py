@@ -29,11 +29,13 @@ def fit(recording: Recording, params: Thresholds, method: str, stop: NDArray[np.
 
 
 def _changes(params: Thresholds, found: Proposal) -> dict[str, int | float]:
-    """The values that fit, of the thresholds that depend on the noise."""
+    """The values that fit, of the thresholds that depend on the noise, and others that differ."""
     if found.fitting is None:
         return {}
     values = found.fitting.numbers()
-    return {name: values[name] for name, _, knob in params.knobs() if knob.scatter and getattr(params, name)}
+    present = params.numbers()
+    follows = (name for name, _, knob in params.knobs() if present[name] and knob.scatter)
+    return {name: values[name] for name in dict.fromkeys([*follows, *(n for n in values if values[n] != present[n])])}
 
 
 def _noise(noise: RangeNoise) -> Noise | None:

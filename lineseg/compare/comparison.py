@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from ..extractors import EXTRACTORS, Extractor
 from ..knobs import Thresholds
 from ..noise import noise
+from ..params import Params
 from ..scan import Recording
 from ..truth import Agreement
 from ..tuning.objective import Objective
@@ -125,9 +126,9 @@ class Comparison:
         if judge is None or not self.budget:
             return
         blind = self._blind()
-        scale = blind.scale if blind else 0.0
-        yield from self._searched("proposed", blind, judge, scale, WISHES)
-        yield from self._searched("tuned", Judge.by_truth(self.recording, self.halves.training), judge, scale, ())
+        fitting = blind.fitting if blind else None
+        yield from self._searched("proposed", blind, judge, fitting, WISHES)
+        yield from self._searched("tuned", Judge.by_truth(self.recording, self.halves.training), judge, fitting, ())
 
     def _blind(self) -> Judge | None:
         """None if nothing fits the noise of the recording."""
@@ -137,17 +138,17 @@ class Comparison:
             return None
 
     def _searched(
-        self, setting: Setting, learner: Judge | None, judge: Judge, scale: float, fixed: Sequence[str]
+        self, setting: Setting, learner: Judge | None, judge: Judge, fitting: Params | None, fixed: Sequence[str]
     ) -> Iterator[None]:
         """The best setting of each method on the training half by `learner`; the defaults without one.
 
-        scale: the ε that fits the noise, with which the search begins; 0 if unknown.
+        fitting: what fits the noise, for region growing; the search of every method begins there. None if unknown.
         """
         start, budget = len(self.rows), self.budget if learner else 0
         for method in filter(tunable, self.methods):
             best = method.params_type()
             if learner is not None:
-                best = yield from self._found(method, learner, scaled(best, scale) if scale else best, fixed)
+                best = yield from self._found(method, learner, _start(best, fitting), fixed)
             self.rows.append(self._row(method, best, setting, budget, judge))
             yield
         yield from self._timed(start)
@@ -190,3 +191,10 @@ def _method(name: str) -> Extractor:
     if name not in EXTRACTORS:
         raise ValueError(f"there is no method {name!r}; choose from {', '.join(EXTRACTORS)}")
     return EXTRACTORS[name]
+
+
+def _start(default: Thresholds, fitting: Params | None) -> Thresholds:
+    """The thresholds of a method that correspond to those of region growing."""
+    if fitting is None:
+        return default
+    return fitting if isinstance(default, Params) else scaled(default, fitting.epsilon)

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ..extractors import Extractor, extract
 from ..knobs import Thresholds
+from ..params import Params
 from ..scan import Recording, Scan
 from ..truth import Agreement, agreement, near_lines, true_ends, true_lines
 from ..tuning.judges import judges
@@ -55,11 +56,13 @@ class Lines(NamedTuple):
 class Judge:
     """Scores methods on some scans, each with the lines that should be found, with P_min and L_min of the defaults.
 
-    scale: the ε that fits the noise [m]; 0 if it was not looked for.
+    fitting: thresholds of region growing that fit the noise; None if they were not looked for.
     """
 
-    def __init__(self, scans: Sequence[Scan], expected: Sequence[Sequence[Lines]], scale: float = 0.0) -> None:
-        self._scans, self._expected, self.scale = scans, expected, scale
+    def __init__(
+        self, scans: Sequence[Scan], expected: Sequence[Sequence[Lines]], fitting: Params | None = None
+    ) -> None:
+        self._scans, self._expected, self.fitting = scans, expected, fitting
 
     @classmethod
     def by_truth(cls, recording: Recording, frames: Sequence[int]) -> Self:
@@ -77,7 +80,7 @@ class Judge:
         part = recording.only(np.array(frames))
         panel, scans = judges(part), list(part)
         lines = [[Lines(extract(scan, params).labels) for params in panel] for scan in scans]
-        return cls(scans, lines, panel[len(panel) // 2].epsilon)
+        return cls(scans, lines, panel[len(panel) // 2])
 
     def agreement(self, method: Extractor, params: Thresholds, ends: bool = True) -> Agreement:
         """The agreement over all scans; ends: whether to compute endpoint errors, which takes time."""

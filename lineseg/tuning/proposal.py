@@ -40,6 +40,9 @@ USUAL, PULL = 3.2, 0.1
 AS_GOOD, AS_GOOD_NEARBY = 0.01, 0.05
 # Below this ε [m] walls break, however good the laser: plaster, skirting boards and doors are no straighter.
 LEAST_EPSILON = 0.02
+# The threshold by which ε grows with the range, and how many times as large as the constant part of the scatter its
+# growing part must be at the farthest points to count: an ε that grows where noise does not makes walls swallow doors.
+GROWTH, COUNTS = "epsilon_growth", 0.7
 # Above this ε [m], walls and what stands before them become one line.
 MOST_EPSILON = 0.5
 
@@ -75,7 +78,8 @@ def propose(
 ) -> Proposal:
     """Thresholds of a method that fit this laser, compared with the present ones.
 
-    Only thresholds that depend on the noise change (see `Knob.scatter`), and none that is 0, which means "off".
+    Only thresholds that depend on the noise change (see `Knob.scatter`), and none that is 0, which means "off". ε stops
+    growing with the range if the noise does not.
     Raises Cancelled as soon as `wanted` returns False.
     """
     extractor = EXTRACTORS[method]
@@ -101,7 +105,7 @@ def scaled(params: Thresholds, scale: float) -> Thresholds:
 
 def rescaled(params: T, factor: float) -> T:
     """`params` with every threshold that depends on the noise multiplied by a factor."""
-    following = ((name, knob) for name, _, knob in params.knobs() if knob.scatter)
+    following = ((name, knob) for name, _, knob in params.knobs() if knob.scatter or name == GROWTH)
     return params.but(
         **{name: float(np.clip(factor * getattr(params, name), knob.least, knob.most)) for name, knob in following}
     )
@@ -125,6 +129,7 @@ class _Search:
         ranges = np.concatenate([scan.ranges[scan.valid] for scan in self._scans]) if self._scans else np.empty(0)
         self._white = float(self.noise.at(float(np.median(ranges)))) if len(ranges) else math.nan
         self.scatter = math.hypot(self._white, self.noise.roughness)
+        self._far = float(np.percentile(ranges, 95)) if len(ranges) else math.nan
         self.scales = np.empty(0)
         if math.isfinite(self._white) and self._white > 0:
             lowest = max(LOWEST * self._white, LEAST_EPSILON)
@@ -143,8 +148,15 @@ class _Search:
             return "No straight wall was found, so the noise of the laser is unknown."
         return ""
 
+    def fitting(self, scale: float) -> Thresholds:
+        """The present thresholds for an ε of `scale` [m]; it grows with the range only if the noise does."""
+        params, constant = scaled(self.present, scale), math.hypot(self.noise.base, self.noise.roughness)
+        if self.noise.growth * self._far < COUNTS * constant and params.numbers().get(GROWTH):
+            return params.but(**{GROWTH: 0.0})
+        return params
+
     def try_scale(self, scale: float) -> None:
-        params = scaled(self.present, scale)
+        params = self.fitting(scale)
         self._lines.append([self._extract(scan, params) for scan in self._scans])
 
     def nothing(self, why: str) -> Proposal:
@@ -162,7 +174,7 @@ class _Search:
                 f"Points scatter by {1e3 * self.scatter:.0f} mm here. That is too much: lines would have to take in "
                 f"points more than {MOST_EPSILON:g} m away."
             )
-        proposed, judges = scaled(self.present, self.scales[best]), self._lines[best + 1]
+        proposed, judges = self.fitting(self.scales[best]), self._lines[best + 1]
         present = [self._extract(scan, self.present) for scan in self._scans]
         lacking = _agreement(self._lines[best], judges) - _agreement(present, judges)
         pieces = _pieces(present, self._lines[best])

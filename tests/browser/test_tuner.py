@@ -199,7 +199,7 @@ def test_what_fits_the_laser_is_offered_taken_over_and_undone(tab, coarse: Path)
     tab.upload(coarse)
     tab.until("s.label === 'coarse.npz'")
     fits = tuner(tab, "fit", "s.better")["fits"]
-    assert set(fits) == {"epsilon", "delta"}
+    assert set(fits) == {"epsilon", "delta", "epsilon_growth"}
     assert fits["epsilon"] > 0.05
     assert re.match(r"Points scatter by 2\d mm here. ε = \S+ fits", text.inner_text())
     assert tab.state["params"]["epsilon"] == 0.03

@@ -94,13 +94,14 @@ def test_other_methods_get_their_own_thresholds(board_room, method):
     assert type(found.params) is kind
     assert found.changed
     for name, _, knob in kind.knobs():
-        assert (getattr(found.params, name) != getattr(kind(), name)) <= (knob.scatter > 0)
+        assert (getattr(found.params, name) != getattr(kind(), name)) <= (knob.scatter > 0 or name == "epsilon_growth")
 
 
 def test_only_what_depends_on_the_noise_is_changed():
     present = Params(seed_points=8, min_length=0.4)
     found = propose(world("flat", 0.075, RPLIDAR_A2), present)
-    assert replace(found.params, epsilon=present.epsilon, delta=present.delta) == present
+    kept = {name: getattr(present, name) for name in ("epsilon", "epsilon_growth", "delta")}
+    assert replace(found.params, **kept) == present
 
 
 def scans_of(*ranges):
@@ -129,3 +130,11 @@ def test_a_sentence_says_why_nothing_can_be_proposed(recording, why):
 def test_a_search_that_is_no_longer_wanted_ends():
     with pytest.raises(Cancelled):
         propose(world("flat", 0.02, RPLIDAR_A2), wanted=lambda: False)
+
+
+@pytest.mark.parametrize(("name", "grows"), [("corridor", False), ("lobby", True)])
+def test_epsilon_grows_with_the_range_only_if_the_noise_does(name, grows):
+    found = propose(WORLDS[name].recording(name, FRAMES))
+    assert found.changed
+    assert (found.params.epsilon_growth > 0) is grows
+    assert propose(WORLDS[name].recording(name, FRAMES), Params(epsilon_growth=0)).params.epsilon_growth == 0
