@@ -344,7 +344,7 @@ export interface Drawn {
  * Sent as one binary frame: the length of the head (uint32); the head in JSON, padded with spaces to a multiple of
  * 4 bytes; and `values`: float32, score after score in the order of Welcome.scores, each with ⌈frames / stride⌉
  * frames. All little-endian. The last score, the differences from A, and the totals of every fate are present only
- * if there is an A and every frame is known. place, first: as in the state.
+ * if there is an A and every frame is known. place, first, every: as in the state.
  */
 export interface Surveyed {
   type: "survey";
@@ -355,6 +355,7 @@ export interface Surveyed {
   params: Record<string, number>;
   frames: number;
   first: number;
+  every: number;
   stride: number;
   message: string | null;
   totals: Record<string, number> | null;
@@ -522,12 +523,13 @@ export interface Account {
  * view: the whole View, as a patch that restores it. label: of the recording; pack: description in a failure pack.
  * topic: on the screen. place: equal for states of the same scans. readAs: the Reading that was asked for, with the
  * topic. account: what the file was taken for, null if there is no file. live: whether the newest frame is
- * followed, null if the recording is not live; first: number of the first frame, above 0 if a live recording has
- * dropped frames. stamp: time since the first scan [s]. covered: number of `valid` beams in segments. steps: number
- * of decisions. difference: fates of the lines of A. truth: whether the recording has its true walls. agreement: in
- * the mode Inspect if the truth is known; labels: in the mode Inspect if the recording can have labels. references:
- * available references; judgedBy: the one in use, "" without truth. extent: box around the points of the frame,
- * bounds: of the recording [m]. extractionUs: time of the extraction [µs].
+ * followed, null if the recording is not live; first, every: the number of the first frame in the file or source,
+ * counted from 0, and the step to the next. stamp: of the scan [s]; since: time since the first scan [s]. covered:
+ * number of `valid` beams in segments. steps: number of decisions. difference: fates of the lines of A. truth:
+ * whether the recording has its true walls. agreement: in the mode Inspect if the truth is known; labels: in the
+ * mode Inspect if the recording can have labels. references: available references; judgedBy: the one in use, ""
+ * without truth. extent: box around the points of the frame, bounds: of the recording [m]. extractionUs: time of
+ * the extraction [µs].
  */
 export interface Scene {
   view: View;
@@ -545,7 +547,9 @@ export interface Scene {
   frames: number;
   live: boolean | null;
   first: number;
+  every: number;
   stamp: number | null;
+  since: number | null;
   frameId: string;
   beams: number;
   valid: number;
@@ -605,7 +609,9 @@ export interface DrawnState {
   frames: number;
   live: boolean | null;
   first: number;
+  every: number;
   stamp: number | null;
+  since: number | null;
   frameId: string;
   beams: number;
   valid: number;

@@ -11,7 +11,7 @@ from lineseg.readers import Account
 from lineseg.scan import PackAbout
 from lineseg.writers.finite import finite_or_none
 
-from ..live.ring import LiveRecording, first_of
+from ..live.ring import LiveRecording, numbering
 from ..shelf.label_files import Known
 from ..told import drawn as told
 from ..view import View
@@ -32,6 +32,7 @@ def state_of(
 ) -> told.Scene:
     """Everything except the drawing time and the marks, which are long and change only with the trace."""
     scan, trace = found.scan, found.trace
+    first, every = numbering(recording)
     chosen = trace[view.step] if view.step is not None else None
     return {
         "view": view.as_json()
@@ -53,8 +54,10 @@ def state_of(
         "frame": view.frame,
         "frames": len(recording),
         "live": view.live if isinstance(recording, LiveRecording) else None,
-        "first": first_of(recording),
+        "first": first,
+        "every": every,
         "stamp": finite_or_none(scan.stamp),
+        "since": finite_or_none(scan.stamp - recording.stamps[0]),
         "frameId": scan.frame_id,
         "beams": len(scan),
         "valid": int(scan.valid.sum()),

@@ -29,9 +29,14 @@ class LiveRecording(Recording):
         return self.first + len(self)
 
 
-def first_of(recording: Recording) -> int:
-    """The number of its first frame; 0 if none was dropped."""
-    return recording.first if isinstance(recording, LiveRecording) else 0
+def numbering(recording: Recording) -> tuple[int, int]:
+    """The number of its first frame in the file or source, counted from 0, and the step to the next."""
+    if isinstance(recording, LiveRecording):
+        return recording.first, 1
+    numbers = recording.numbers
+    if numbers is None:
+        return 0, 1
+    return int(numbers[0]), int(numbers[1] - numbers[0]) if len(numbers) > 1 else 1
 
 
 class Ring:

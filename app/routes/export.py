@@ -13,7 +13,7 @@ from starlette.exceptions import HTTPException
 from lineseg import EXTRACTORS, Extraction, Scan, write_pack
 from lineseg.writers import SEGMENT_WRITERS, figure_svg, figure_title, segment_lines
 
-from ..live.ring import first_of
+from ..live.ring import numbering
 from ..made import about_of
 from ..session.session import Shown
 from ..session.sessions import Sessions
@@ -29,8 +29,9 @@ def add_export(app: FastAPI, library: Library, sessions: Sessions) -> None:
     """Routes of /api that export what a tab shows."""
 
     def named(shown: Shown, suffix: str) -> dict[str, str]:
-        """Headers for a file of one frame, numbered from 1 as on the page."""
-        number = first_of(shown.recording) + shown.view.frame + 1
+        """Headers for a file of one frame, with its number."""
+        first, every = numbering(shown.recording)
+        number = first + every * shown.view.frame
         return attachment(f"{library.label(shown.view.recording)}_{number}", suffix)
 
     @app.get("/api/figure")

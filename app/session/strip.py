@@ -22,7 +22,7 @@ from lineseg.survey import BESIDE, Survey, survey
 from lineseg.survey.difference import FATES, KEPT
 from lineseg.survey.stability import with_stability
 
-from ..live.ring import first_of
+from ..live.ring import numbering
 from ..newest import Newest
 from ..told.messages import Surveyed
 from ..view import Against, View, all_weights
@@ -218,6 +218,7 @@ def surveyed(
     totals: dict[str, int] | None = None,
 ) -> Surveyed:
     """The message with scores (frames, scores) of every stride-th frame."""
+    first, every = numbering(subject.recording)
     return Surveyed(
         rev=subject.rev,
         recording=subject.key.recording,
@@ -225,7 +226,8 @@ def surveyed(
         method=subject.key.method,
         params=subject.key.params.numbers(),
         frames=len(subject.recording),
-        first=first_of(subject.recording),
+        first=first,
+        every=every,
         stride=stride,
         message=message,
         totals=totals,

@@ -40,10 +40,10 @@ def figure_svg(scan: Scan, extraction: Extraction, title: str = "") -> str:
 
 
 def figure_title(recording: Recording, frame: int, method: str) -> str:
-    """ "corridor.bag, frame 18 of 300, Region growing", with frames counted from 1 as on the page."""
+    """ "corridor.bag, frame 17 of 300, Region growing", with frames counted from 0."""
     if recording.pack is not None:
-        return f"{recording.pack.recording}, frame {recording.pack.frame + 1}, {method}"
-    return f"{recording.name}, frame {frame + 1} of {len(recording)}, {method}"
+        return f"{recording.pack.recording}, frame {recording.pack.frame}, {method}"
+    return f"{recording.name}, frame {recording.number(frame)} of {len(recording)}, {method}"
 
 
 class _Place:

@@ -47,7 +47,7 @@ def write_pack(
     traced = method.trace(scan, params)
     found = traced.extraction
     former = recording.pack
-    name, number = (former.recording, former.frame) if former is not None else (recording.name, frame)
+    name, number = (former.recording, former.frame) if former is not None else (recording.name, recording.number(frame))
     about = {"format": FORMAT, "version": VERSION} | asdict(
         PackAbout(name, number, method.name, params.numbers(), note)
     )
@@ -59,7 +59,7 @@ def write_pack(
         _add(pack, ABOUT, json.dumps(about, ensure_ascii=False, indent=2))
         _add(pack, FRAME, _npz(alone))
         _add(pack, "frame.csv", "".join(_beams(scan, found.labels)))
-        _add(pack, "segments.jsonl", "".join(segment_lines("jsonl", [(frame, scan, found)])))
+        _add(pack, "segments.jsonl", "".join(segment_lines("jsonl", [(number, scan, found)])))
         _add(pack, "trace.jsonl", "".join(_decisions(traced)))
         _add(pack, "picture.svg", figure_svg(scan, found, title))
         _add(pack, "note.txt", note + "\n")

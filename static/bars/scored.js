@@ -59,8 +59,8 @@ export class ScoredFrames {
     return survey.stride !== 1 || !samePlace(survey, state) || !sameParams(survey.params, state.params);
   }
 
-  /** The number of a frame; a live recording drops its oldest frames. @param {number} frame */
-  number = (frame) => (this.survey?.first ?? 0) + frame + 1;
+  /** The number of a frame in its file or source, from 0. @param {number} frame */
+  number = (frame) => (this.survey?.first ?? 0) + (this.survey?.every ?? 1) * frame;
 
   /** @param {number} frame "coverage 0.83" */
   words = (frame) => {

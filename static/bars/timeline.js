@@ -12,6 +12,8 @@ import { tooltip } from "../widgets/tooltip.js";
 /** @typedef {import("../wire.js").State} State */
 
 const USUAL_SPEED = 10;
+// From 2000 to 2100 [s since 1970].
+const CENTURY = [946_684_800, 4_102_444_800];
 
 /** @typedef {typeof import("../text/page.js").pageText.timeline} Text */
 /**
@@ -28,8 +30,11 @@ const USUAL_SPEED = 10;
 export class Timeline {
   #frame = 0;
   #frames = 0;
-  /** Number of the first frame; a live recording drops its oldest scans. */
+  /** Number of the first frame in the file or source, and the step to the next. */
   #first = 0;
+  #every = 1;
+  /** When the scan was taken, if its stamp says so. */
+  #clock = "";
   /** Whether the live recording is followed; null if the recording is not live. @type {boolean | null} */
   #live = null;
   #bar;
@@ -72,7 +77,7 @@ export class Timeline {
     // A click on the thumb itself moves nothing, but the pixel may show another frame.
     slider.element.addEventListener("click", () => this.#go(this.#strip.snap(this.#frame)));
     const stamp = h("span", { class: "stamp" });
-    tooltip(stamp, text.stamp);
+    tooltip(stamp, () => text.stamp(this.#clock));
     return {
       play: iconButton("play", text.play, () => this.toggle()),
       speed,
@@ -90,10 +95,15 @@ export class Timeline {
   /** @param {string} typed @returns {string | null} why it is refused */
   #accept(typed) {
     const wanted = Number(typed);
-    const [least, most] = [this.#first + 1, this.#first + this.#frames];
+    const [least, most] = [this.#first, this.#number(this.#frames - 1)];
     if (!Number.isInteger(wanted) || wanted < least || wanted > most) return this.#text.range(least, most);
-    this.#go(wanted - least);
+    this.#go(Math.round((wanted - least) / this.#every));
     return null;
+  }
+
+  /** @param {number} frame */
+  #number(frame) {
+    return this.#first + this.#every * frame;
   }
 
   /** @param {number} wanted */
@@ -144,9 +154,12 @@ export class Timeline {
 
   #show() {
     const frame = this.#frame;
-    const words = String(this.#first + frame + 1);
+    const words = String(this.#number(frame));
     this.#controls.number.set(words);
-    const said = [`${words} ${this.#text.of(this.#first + this.#frames)}`, this.#strip.frames.words(frame)];
+    const said = [
+      `${words} ${this.#text.of(this.#first, this.#number(this.#frames - 1))}`,
+      this.#strip.frames.words(frame),
+    ];
     this.#controls.slider.set(this.#frames > 1 ? frame / (this.#frames - 1) : 0, said.filter(Boolean).join(", "));
   }
 
@@ -170,8 +183,8 @@ export class Timeline {
 
   /** @param {State} state */
   setState(state) {
-    const { frames, first, live } = state;
-    [this.#frames, this.#first, this.#live] = [frames, first, live];
+    const { frames, first, every, live } = state;
+    [this.#frames, this.#first, this.#every, this.#live] = [frames, first, every, live];
     if (live) this.#player.stop();
     this.#showPlay();
     this.#bar.classList.toggle("single", frames < 2);
@@ -179,9 +192,17 @@ export class Timeline {
     const { play, speed, number, slider, total, stamp } = this.#controls;
     for (const control of [play, speed, number.element, slider.element]) control.disabled = frames < 2;
     play.disabled = frames < 2 && live === null;
-    setText(total, this.#text.of(first + frames));
-    number.element.style.width = `${String(first + frames).length + 2}ch`;
-    setText(stamp, state.stamp === null ? "" : `${state.stamp.toFixed(3)} s`);
+    const last = this.#number(frames - 1);
+    setText(total, this.#text.of(first, last));
+    number.element.style.width = `${String(last).length + 2}ch`;
+    setText(stamp, state.since === null ? "" : `${state.since.toFixed(3)} s`);
+    this.#clock = clockOf(state);
     this.#show();
   }
+}
+
+/** The date and time of a stamp of this century, "" for others. @param {State} state */
+function clockOf({ stamp, account }) {
+  if (stamp === null || account?.believable === false || stamp < CENTURY[0] || stamp >= CENTURY[1]) return "";
+  return new Date(1000 * stamp).toISOString().replace("T", " ").replace("Z", " UTC");
 }

@@ -42,7 +42,7 @@ export function createPackCard(page, text) {
       element.hidden = !pack;
       if (!pack) return;
       const { recording, frame, method, params } = pack;
-      setText(from, text.from(recording, frame + 1));
+      setText(from, text.from(recording, frame));
       from.title = from.textContent ?? "";
       setText(note, pack.note || text.noNote);
       note.classList.toggle("muted", !pack.note);

@@ -19,9 +19,8 @@ export function createNoticed(text, { entries, onMend, onChange }) {
   const element = h(
     "section",
     { class: "notice noticed", "aria-label": text.takenFor, hidden: true },
-    h("div", { class: "notice-row" }, line, close),
+    h("div", { class: "notice-row" }, line, change, close),
     list,
-    change,
   );
   let place = "";
   /** What was told of each recording. @type {Set<string>} */

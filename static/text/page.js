@@ -173,9 +173,10 @@ export const pageText = {
     speed: "Frames per second",
     perSecond: (/** @type {number} */ n) => `${n} fps`,
     frame: "Frame",
-    of: (/** @type {number} */ n) => `of ${n.toLocaleString("en")}`,
+    of: (/** @type {number} */ first, /** @type {number} */ last) =>
+      `of ${first.toLocaleString("en")}–${last.toLocaleString("en")}`,
     scrubber: "Frame",
-    stamp: "Time stamp of the scan",
+    stamp: (/** @type {string} */ clock) => `Time since the first scan${clock ? `. Taken at ${clock}` : ""}`,
     range: (/** @type {number} */ least, /** @type {number} */ most) =>
       `Enter ${least.toLocaleString("en")} to ${most.toLocaleString("en")}.`,
     strip: {

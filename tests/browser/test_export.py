@@ -36,9 +36,9 @@ def test_the_frame_is_taken_along_as_a_picture_and_all_segments_as_files(new_tab
     tab.page.keyboard.press("Escape")
     found = extract(open_recording(HALLWAY)[17], Params(epsilon=0.02)).segments
     svg = saved(tab, "Picture (SVG)", tmp_path)
-    assert svg.name == "Hallway_simulated__18.svg"
+    assert svg.name == "Hallway_simulated__17.svg"
     assert svg.read_text().count('class="segment"') == len(found)
-    assert "frame 18 of 300" in svg.read_text()
+    assert "frame 17 of 300" in svg.read_text()
     png = saved(tab, "Picture (PNG)", tmp_path).read_bytes()
     width, height = np.frombuffer(png[16:24], ">u4")
     assert (png[:8], width, height) == (b"\x89PNG\r\n\x1a\n", 1920, 1440)
@@ -86,7 +86,7 @@ def test_a_failure_pack_opens_again_by_drag_and_drop_with_its_parameters_and_its
     other.page.locator(".frames").get_by_text("one frame: nothing to compare").wait_for()
     card = other.page.get_by_role("region", name="Failure pack")
     assert "the door is bridged\n– why?" in card.inner_text()
-    assert "frame 18 of hallway.npz" in card.inner_text()
+    assert "frame 17 of hallway.npz" in card.inner_text()
     other.page.keyboard.press("Control+z")
     other.until("s.params.epsilon === 0.05")
     card.get_by_role("button", name="Use its parameters").click()

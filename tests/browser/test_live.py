@@ -72,7 +72,7 @@ def test_a_robot_is_watched_paused_and_given_its_parameters(robot: Driving, watc
     back = tab.until("s.frame === 19")
     assert (back["first"], back["frames"], back["live"]) == (paused["first"], 30, False)
     assert back["stamp"] == pytest.approx(paused["stamp"] - 10)
-    assert tab.page.get_by_role("textbox", name="Frame").input_value() == str(back["first"] + 20)
+    assert tab.page.get_by_role("textbox", name="Frame").input_value() == str(back["first"] + 19)
     tab.type_value("epsilon", "0.02")
     assert tab.until("s.params.epsilon === 0.02")["stamp"] == back["stamp"]
 

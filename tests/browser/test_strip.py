@@ -96,7 +96,7 @@ def test_a_click_on_the_strip_goes_to_the_worst_frame_under_the_pixel(
     x = box["x"] + (int(worst / (FRAMES - 1) * box["width"]) + 0.5)
     tab.page.mouse.move(x, box["y"] + 5)
     hint = tab.page.locator(".strip-hint")
-    assert hint.inner_text() == f"Frame {worst + 1:,}: coverage {values[worst]:.2f}"
+    assert hint.inner_text() == f"Frame {worst:,}: coverage {values[worst]:.2f}"
     tab.page.mouse.click(x, box["y"] + 5)
     tab.until(f"s.frame === {worst}")
     painted = colours(tab)
