@@ -113,7 +113,7 @@ def test_a_click_goes_to_the_frame_that_the_hint_named(new_tab: Callable[..., An
         tab.page.mouse.move(x, box["y"] + 5)
         named = tab.page.locator(".strip-hint").inner_text().split(":")[0].removeprefix("Frame ").replace(",", "")
         tab.page.mouse.click(x, box["y"] + 5)
-        tab.until(f"s.frame === {int(named) - 1}")
+        tab.until(f"s.frame === {int(named)}")
 
 
 def test_keys_go_through_the_worst_frames(tab):
