@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import errno
+import os
+import shutil
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import chain
@@ -24,6 +27,7 @@ from .layout import POINTS_OF, announce
 from .rows import Moments, send_rows, times
 
 BLOCK = 128
+LEAST_FREE = 1 << 16
 # The decisions that create or remove lines. A frame has hundreds of others, which only `steps` records.
 NOTABLE = ("line", "drop", "merge", "cut")
 Progress = Callable[[int, int], None]
@@ -58,6 +62,9 @@ def save(run: Run, path: Path, progress: Progress = lambda done, total: None) ->
         send(run, stream, progress)
         stream.flush()
         stream.disconnect()
+        # rerun's SDK says nothing when it cannot write.
+        if shutil.disk_usage(path.parent).free < LEAST_FREE:
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), str(path))
         part.replace(path)
     finally:
         stream.disconnect()

@@ -85,9 +85,12 @@ def add_api(app: FastAPI, library: Library, sessions: Sessions) -> None:
     @app.get("/api/recording")
     def recording(session: str = "") -> Response:
         shown = sessions.shown(session)
-        with tempfile.TemporaryDirectory() as folder:
-            save_npz(shown.recording, Path(folder) / "recording.npz")
-            content = (Path(folder) / "recording.npz").read_bytes()
+        try:
+            with tempfile.TemporaryDirectory() as folder:
+                save_npz(shown.recording, Path(folder) / "recording.npz")
+                content = (Path(folder) / "recording.npz").read_bytes()
+        except OSError as error:
+            raise HTTPException(507, f"the recording cannot be written: {error.strerror}") from None
         headers = attachment(library.label(shown.view.recording), "npz")
         return Response(content, media_type="application/octet-stream", headers=headers)
 

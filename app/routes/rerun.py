@@ -16,6 +16,7 @@ from fastapi.responses import FileResponse, StreamingResponse
 from starlette.concurrency import run_in_threadpool
 from starlette.exceptions import HTTPException
 
+from lineseg.failing import sentence_of
 from lineseg.readers import Cancelled
 
 from ..places import data_folder
@@ -84,7 +85,7 @@ class RerunFiles:
                 yield _line(told)
                 await asyncio.wait([work], timeout=TELL_SECONDS)
             if (error := work.exception()) is not None:
-                yield _line({"message": f"recording failed: {error}"})
+                yield _line({"message": f"recording failed: {sentence_of(error, '')}"})
                 return
             self._keep(id)
             yield _line({"recording": id, "bytes": (self._scratch.folder / f"{id}.rrd").stat().st_size})

@@ -135,7 +135,7 @@ def _serve(handler: Callable[[Any], Awaitable[None]], host: str, *arguments: Any
     return websockets.asyncio.server.serve(handler, host, *arguments, **options)
 
 
-infra.websockets = SimpleNamespace(  # pyright: ignore[reportAttributeAccessIssue]
+infra.websockets = SimpleNamespace(  # pyright: ignore[reportAttributeAccessIssue, reportPrivateImportUsage]
     asyncio=SimpleNamespace(server=SimpleNamespace(serve=_serve)),
     datastructures=websockets.datastructures,
     exceptions=websockets.exceptions,

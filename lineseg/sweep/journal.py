@@ -34,14 +34,15 @@ class Journal:
                 "WITHOUT ROWID"
             )
             found = [columns for (columns,) in self._rows.execute("SELECT columns FROM meaning")]
+        except sqlite3.OperationalError as error:
+            raise _unwritten(path, error) from None
         except sqlite3.DatabaseError as error:
             raise ValueError(
                 f"{path}: this is not the journal of a sweep ({error}); remove it to start again"
             ) from None
         if found and found != [MEANING]:
             raise ValueError(f"{path}: this journal is from another version of lineseg; remove it to start again")
-        self._rows.execute("INSERT OR IGNORE INTO meaning VALUES (?)", (MEANING,))
-        self._rows.commit()
+        self._write("INSERT OR IGNORE INTO meaning VALUES (?)", [(MEANING,)])
 
     def known(self, task: Task) -> dict[Params, NDArray[np.float64]]:
         """The sums of a task's settings that exist already."""
@@ -54,9 +55,16 @@ class Journal:
 
     def add(self, task: Task, sums: NDArray[np.float64]) -> None:
         chunk = _chunk_key(task.chunk, task.scored)
-        rows = ((chunk, _key(params), row.tobytes()) for params, row in zip(task.settings, sums, strict=True))
-        with self._rows:
-            self._rows.executemany("INSERT OR REPLACE INTO done VALUES (?, ?, ?)", rows)
+        rows = [(chunk, _key(params), row.tobytes()) for params, row in zip(task.settings, sums, strict=True)]
+        self._write("INSERT OR REPLACE INTO done VALUES (?, ?, ?)", rows)
+
+    def _write(self, statement: str, rows: list[tuple]) -> None:
+        """Raises OSError, such as for a full disk; what was written before stays."""
+        try:
+            with self._rows:
+                self._rows.executemany(statement, rows)
+        except sqlite3.OperationalError as error:
+            raise _unwritten(self._path, error) from None
 
     def close(self, remove: bool = False) -> None:
         """remove: whether to delete the file, because the sweep is complete. An empty journal is always deleted."""
@@ -64,6 +72,14 @@ class Journal:
         self._rows.close()
         if remove or empty:
             self._path.unlink(missing_ok=True)
+
+
+def _unwritten(path: Path, error: Exception) -> OSError:
+    """SQLite says which: a full disk, a missing folder, another process."""
+    return OSError(
+        f"{path}: the journal of the sweep cannot be written: {error}. What it holds is kept; once there is space, the "
+        "same command resumes"
+    )
 
 
 def _chunk_key(chunk: Chunk, scored: bool) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import glob
 import hashlib
 import json
@@ -21,6 +22,8 @@ from .labels import FrameLabels, Labels, TrueLine, check_labels
 FORMAT, VERSION = "lineseg labels", 1
 SUFFIX = ".lineseg.json"
 MOST_BYTES = 256 << 20
+# File systems allow 255 bytes; an unfinished file has a longer name.
+LONGEST_NAME = 235
 
 # For the threads of this process; other processes are kept out by locking the folder.
 _writing = threading.Lock()
@@ -41,7 +44,7 @@ def label_file(recording: str | Path, user_folder: Path | None = None) -> Path:
     """
     path = Path(recording).absolute()
     beside = path.with_name(path.name + SUFFIX)
-    if beside.exists() or os.access(path.parent, os.W_OK):
+    if len(beside.name.encode()) <= LONGEST_NAME and (beside.exists() or os.access(path.parent, os.W_OK)):
         return beside
     return users_label_file(path.name, str(path), user_folder)
 
@@ -53,7 +56,8 @@ def users_label_file(name: str, identity: str, user_folder: Path | None = None) 
 
         user_folder = Path(platformdirs.user_data_dir("lineseg", appauthor=False))
     digest = hashlib.sha256(identity.encode()).hexdigest()[:12]
-    return user_folder / "labels" / f"{name}.{digest}{SUFFIX}"
+    short = name.encode()[: LONGEST_NAME // 2].decode(errors="ignore")
+    return user_folder / "labels" / f"{short}.{digest}{SUFFIX}"
 
 
 def read_labels(path: str | Path, recording: Recording) -> Labels:
@@ -96,7 +100,11 @@ def save_labels(path: str | Path, recording: Recording, frame: int, labels: Fram
     ValueError if the file is not valid (see `read_labels`) or the labels do not fit this frame; then nothing is
     written. The file is replaced atomically, after the new one is on disk.
     """
-    path = Path(path)
+    # A link stays a link: its target is replaced.
+    path = Path(path).resolve()
+    if path.exists() and not path.stat().st_mode & 0o222:
+        raise PermissionError(errno.EACCES, "the file is write-protected", str(path))
+    labels = _clean(labels)
     check_labels(labels, recording, frame)
     path.parent.mkdir(parents=True, exist_ok=True)
     with _alone_in(path.parent):
@@ -179,9 +187,16 @@ def _labels_in(tree: Any, recording: Recording) -> Labels:
         beams = len(recording[frame]) if 0 <= frame < len(recording) else entry["beams"]
         if entry["beams"] != beams:
             raise ValueError(f"the labels of frame {frame} are for {entry['beams']} beams; the scan has {beams}")
+        labels = _clean(labels)
         check_labels(labels, recording, frame)
         found[frame] = labels
     return found
+
+
+def _clean(labels: FrameLabels) -> FrameLabels:
+    """The labels without halves of characters, which JSON can express and no file can hold."""
+    tags = tuple(tag.encode("utf-8", "replace").decode() for tag in labels.tags)
+    return replace(labels, tags=tags, note=labels.note.encode("utf-8", "replace").decode())
 
 
 def _line(entry: dict[str, Any]) -> TrueLine:

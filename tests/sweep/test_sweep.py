@@ -241,3 +241,15 @@ def test_an_error_of_a_worker_is_reported(tmp_path: Path, cluster, capsys):
     arguments = [str(tmp_path / "gone.npz"), "-o", str(tmp_path / "out.csv"), "--scheduler", address]
     assert main(["sweep", *arguments]) == 2
     assert "gone.npz" in capsys.readouterr().err
+
+
+def test_a_full_disk_is_not_taken_for_a_foreign_journal(tmp_path):
+    journal = Journal(tmp_path / "sweep.partial")
+    (pages,) = journal._rows.execute("PRAGMA page_count").fetchone()
+    journal._rows.execute(f"PRAGMA max_page_count = {pages}")
+    with pytest.raises(OSError, match=r"sweep\.partial: .* disk is full.* What it holds is kept"):
+        for _ in range(100):
+            journal._write("INSERT INTO meaning VALUES (?)", [(str(np.random.default_rng().bytes(4000)),)])
+    journal.close()
+    with pytest.raises(OSError, match="cannot be written: unable to open"):
+        Journal(tmp_path / "nowhere" / "sweep.partial")

@@ -249,3 +249,36 @@ def test_labels_lie_beside_the_recording_or_in_the_users_folder(tmp_path):
 def test_nothing_but_the_labels_is_left_in_the_folder(walls, file):
     save_labels(file, walls, 0, FrameLabels(()))
     assert [path.name for path in file.parent.iterdir()] == [file.name]
+
+
+def test_a_link_to_a_label_file_stays_a_link(walls, file, tmp_path):
+    (tmp_path / "shared").mkdir()
+    file.symlink_to(tmp_path / "shared" / "labels.json")
+    save_labels(file, walls, 0, FrameLabels(note="a"))
+    save_labels(file, walls, 1, FrameLabels(note="b"))
+    assert file.is_symlink()
+    assert set(read_labels(tmp_path / "shared" / "labels.json", walls)) == {0, 1}
+
+
+def test_a_write_protected_label_file_is_not_replaced(walls, file):
+    save_labels(file, walls, 0, FrameLabels(note="a"))
+    file.chmod(0o444)
+    before = file.read_bytes()
+    with pytest.raises(PermissionError, match="write-protected"):
+        save_labels(file, walls, 1, FrameLabels(note="b"))
+    assert file.read_bytes() == before
+
+
+def test_half_a_character_in_a_note_does_not_spoil_the_file(walls, file):
+    assert save_labels(file, walls, 0, FrameLabels(note="a\ud800", tags=("\udfff",))).note == "a?"
+    file.write_text(file.read_text().replace('"a?"', '"a\\ud800"'))
+    save_labels(file, walls, 1, FrameLabels(note="b"))
+    assert read_labels(file, walls)[0].note == "a?"
+
+
+def test_a_long_name_has_its_labels_in_the_data_folder(walls, tmp_path):
+    path = label_file(tmp_path / f"{250 * 'a'}.npz", tmp_path / "data")
+    assert path.is_relative_to(tmp_path / "data")
+    assert path != label_file(tmp_path / f"{251 * 'a'}.npz", tmp_path / "data")
+    save_labels(path, walls, 0, FrameLabels(note="a"))
+    assert read_labels(path, walls)[0].note == "a"
