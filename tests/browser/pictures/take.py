@@ -18,7 +18,7 @@ from live import serving  # noqa: E402
 
 PICTURES = {
     "tune": "#recording=sample:hallway&frame=150",
-    "learn": "#mode=learn&recording=lesson:2_grazing_wall&step=30",
+    "learn": "#mode=learn&recording=lesson:2_grazing_wall&step=33",
     "inspect": "#mode=inspect&score=suspicion&recording=sample:laboratory&frame=223&beam=275",
 }
 
@@ -33,6 +33,6 @@ if __name__ == "__main__":
             page = browser.new_page(viewport={"width": 1280, "height": 800})
             tab = Tab(page, f"{server.http}/").open(link)
             assert tab.scene
-            page.wait_for_timeout(5000)
+            page.wait_for_timeout(15000)
             page.screenshot(path=HERE / f"{name}.png")
             page.close()
