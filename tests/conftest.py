@@ -37,8 +37,8 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         imported = {getattr(value, "__module__", None) for value in vars(getattr(item, "module", item)).values()}
         if imported & helpers or "browser" in getattr(item, "fixturenames", ()):
             item.add_marker(pytest.mark.server)
-    # The slowest come first, so that no worker is left with a slow file at the end.
-    items.sort(key=lambda item: "browser" not in item.fixturenames if isinstance(item, pytest.Function) else True)
+    # Last, because the loop of a browser runs in the main thread until the end, where tests before it run loops too.
+    items.sort(key=lambda item: "browser" in getattr(item, "fixturenames", ()))
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:

@@ -129,7 +129,7 @@ def test_nothing_overlaps_overflows_or_jumps(tab, size, scheme):
         return [id, [x, y, width, height]];
     }))"""
     places = """() => [...document.querySelectorAll(".threshold, .threshold *, .figure, #timeline > *")]
-        .filter((element) => !element.closest("svg") && !element.closest("[hidden]"))
+        .filter((element) => !element.closest("svg, .fit-mark") && !element.closest("[hidden]"))
         .map((element) => { const box = element.getBoundingClientRect(); return [box.x, box.y]; })"""
     before = tab.page.evaluate(parts), tab.page.evaluate(places)
     boxes = list(before[0].values())

@@ -49,7 +49,10 @@ def test_frames_and_seconds_mean_the_same_in_every_command_and_keep_the_numbers_
     assert [each["frame"] for each in report["frames"]] == [3, 4, 5]
     assert "scans         3\n" in run("info", file, "--frames", "3:6")[1]
     code, _, err = run("extract", file, "--frames", "20:30")
-    assert (code, err) == (2, "lineseg: frames is '20:30', which is empty; the recording has the frames 0 to 9.\n")
+    assert (code, err) == (
+        2,
+        "lineseg: a.npz: frames is '20:30', which is empty; the recording has the frames 0 to 9.\n",
+    )
 
 
 def test_many_files_and_globs_are_one_batch_in_which_one_bad_file_hides_no_other(run, folder):
