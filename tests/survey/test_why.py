@@ -67,7 +67,7 @@ def test_every_probable_miss_is_told_with_its_reason(case):
     recording, where, scores = case
     frame = where["quantised"]
     texts = [remark.text for remark in why(recording, frame, FAILING, scores)]
-    assert {miss.text for miss in misses(recording[frame])} <= set(texts)
+    assert {miss.text for miss in misses(recording[frame], FAILING)} <= set(texts)
 
 
 def test_a_wall_cut_in_two_names_both_segments():
