@@ -38,7 +38,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         if imported & helpers or "browser" in getattr(item, "fixturenames", ()):
             item.add_marker(pytest.mark.server)
     # Last, because the loop of a browser runs in the main thread until the end, where tests before it run loops too.
-    items.sort(key=lambda item: "browser" in getattr(item, "fixturenames", ()))
+    items.sort(key=lambda item: "browser" in item.path.parts)
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
