@@ -18,7 +18,8 @@ from lineseg.survey import survey
 from lineseg.survey.stability import with_stability
 
 FRAMES = 10_000
-SECONDS = 30
+# The stability of so many frames is computed behind everything else.
+PATIENCE = 150
 
 
 @pytest.fixture(scope="module")
@@ -33,7 +34,7 @@ def long(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[Recording, 
 def strip_of(tab, condition: str = "true") -> dict[str, Any]:
     """The strip `t` once it is complete, belongs to the thresholds of the picture, and `condition` holds."""
     script = f"""async () => {{
-        const late = Date.now() + {1000 * SECONDS};
+        const late = Date.now() + {1000 * PATIENCE};
         for (;;) {{
             const s = window.lineseg.state, t = window.lineseg.strip;
             const same = t?.complete && Object.entries(t.params).every(([name, value]) => s.params[name] === value);
