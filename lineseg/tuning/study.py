@@ -190,7 +190,7 @@ class Tuning:
         return Trial(trial.number, params, score)
 
     def run(self, trials: int) -> Iterator[Trial]:
-        """Try `count` more settings."""
+        """Try this many more settings."""
         for _ in range(trials):
             yield self.step()
 
