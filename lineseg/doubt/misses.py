@@ -11,13 +11,12 @@ from ..arguments import need_scan, need_thresholds
 from ..extractors import trace_growth
 from ..kernel import entry_kernel
 from ..params import Params
-from ..region_growing import Memory, grow_lines
+from ..region_growing import Memory, extract_lines
 from ..region_growing.checks import GROWTH_STOPPED, LINE_DROPPED, SEED_REJECTED
 from ..region_growing.endpoints import place_endpoints
 from ..region_growing.limits import limits_of, unpacked
 from ..region_growing.lines import DROPPED, LINE, Dropping
-from ..region_growing.overlap import resolve_overlaps
-from ..region_growing.points import points_of
+from ..region_growing.points import stored_points
 from ..region_growing.trace import GrowthTrace, Trace, longest, nearest
 from ..scan import Scan
 from ..tracing.log import Row
@@ -60,13 +59,13 @@ def misses(scan: Scan, params: Params | None = None) -> tuple[Miss, ...]:
 @entry_kernel
 def missed_lines(ranges, rays, range_min, range_max, around, limits, xy, numbers, lines, dropped):
     """Write the segments and then the `probable_misses` to `lines`, and return the number of each."""
-    limits = unpacked(limits)
-    lines, dropped = lines.view(LINE), Dropping(dropped.view(DROPPED), numbers[3])
-    dropped.used[0] = 0
-    points = points_of(ranges, rays, range_min, range_max, around, limits, xy, numbers)
-    count = resolve_overlaps(points, lines, grow_lines(points, limits, lines, dropped, None), dropped, limits, None)
-    found = probable_misses(lines, count, points, limits, dropped)
-    place_endpoints(points, lines[count:], found, None)
+    count, _, n, returns = extract_lines(
+        ranges, rays, range_min, range_max, around, limits, xy, numbers, lines, dropped, None
+    )
+    rows, drops = lines.view(LINE), Dropping(dropped.view(DROPPED), numbers[3])
+    points = stored_points(xy, numbers, n, around, returns)
+    found = probable_misses(rows, count, points, unpacked(limits), drops)
+    place_endpoints(points, rows[count:], found, None)
     return count, found
 
 

@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 
 from ..scan import Recording, Scan
 from .account import Account, Notes
-from .guessing import guess_limit, guess_unit, metres, no_return_codes
+from .guessing import guess_limit, guess_unit, no_return_codes
 from .lasers import one_laser
 from .plausible import believable, noticed
-from .reading import Reading, Span, frames_of, span_of, values_of
+from .reading import METRES, Reading, Span, frames_of, span_of, values_of
 from .saying import line_of
 
 SAME = 5e-4
@@ -58,7 +58,7 @@ def _in_metres_and_radians(recording: Recording, reading: Reading, notes: Notes)
     direction = reading.direction or "counter-clockwise"
     used = Reading(**{**notes.found, **reading.given(), "unit": unit, "angle_unit": angle_unit, "direction": direction})
     changes: dict[str, Any] = {}
-    if (scale := metres(unit)) != 1:
+    if (scale := METRES[unit]) != 1:
         changes |= {name: getattr(recording, name) * scale for name in ("ranges", "range_min", "range_max")}
     if angle_unit == "deg" and not notes.radians:
         changes |= _angles(recording, np.deg2rad)

@@ -7,7 +7,7 @@ import numpy as np
 from ..scan import Floats, Recording
 from .account import Notes
 from .range_limits import longest_return
-from .reading import METRES, AngleUnit, Reading, Unit
+from .reading import AngleUnit, Reading, Unit
 
 UNIT_NAMES = {"m": "metres", "cm": "centimetres", "mm": "millimetres"}
 # Rooms and yards: a laser's median range is hardly ever outside of these [m].
@@ -78,7 +78,3 @@ def guess_limit(recording: Recording, reading: Reading, notes: Notes) -> float:
         why = "readings at and above it recur like codes"
         notes.guess("range_max", f"no return from {limit:g} m on", why, range_max=round(2 * limit, 3))
     return limit
-
-
-def metres(unit: Unit) -> float:
-    return METRES[unit]

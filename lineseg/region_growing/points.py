@@ -60,19 +60,24 @@ def points_of(ranges, rays, range_min, range_max, around, limits, xy, numbers):
         n = take_all(ranges, rays, x, y, rho, beam)
     else:
         n = take_valid(ranges, rays, range_min, range_max, x, y, rho, beam)
-    returns, start, m = n, 0, 0
+    returns = n
     looking = limits.max_occluder > 0.0 and n > 2
     if looking and circle:
         n = look_past_all_round(x, y, rho, beam, n, around, xy, numbers[0], numbers[4], numbers[5], limits)
     elif looking:
         n = look_past(x, y, rho, beam, breaks, numbers[5], n, limits)
     if circle:
-        start, m = n, 4 * n
         lay_round(x, y, beam, numbers[4], n, around, xy, numbers[0], breaks, looking, limits)
     else:
-        m = n
-        find_breaks(xy[0], xy[1], numbers[0], breaks, m, looking, limits)
-    return Points(xy[0, :m], xy[1, :m], numbers[0, :m], breaks[:m], start, n, around, returns)
+        find_breaks(xy[0], xy[1], numbers[0], breaks, n, looking, limits)
+    return stored_points(xy, numbers, n, around, returns)
+
+
+@kernel
+def stored_points(xy, numbers, n, around, returns):
+    """The n points that `points_of` has stored in this memory."""
+    start, m = (n, 4 * n) if around > 0 else (0, n)
+    return Points(xy[0, :m], xy[1, :m], numbers[0, :m], numbers[1, :m], start, n, around, returns)
 
 
 @kernel

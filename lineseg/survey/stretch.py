@@ -13,7 +13,7 @@ from ..params import Params
 from ..region_growing import Memory, extract_lines
 from ..region_growing.limits import limits_of, unpacked
 from ..region_growing.lines import DROPPED, LINE, Dropping
-from ..region_growing.points import Points
+from ..region_growing.points import stored_points
 from ..scan import Recording
 from .geometry import geometry_of
 from .result import SEGMENT, joined
@@ -118,8 +118,7 @@ def survey_frames(
         )  # fmt: skip
         if used + count > len(segments):
             return frame, used
-        start_at, m = (n, 4 * n) if around > 0 else (0, n)
-        points = Points(xy[0, :m], xy[1, :m], numbers[0, :m], numbers[1, :m], start_at, n, around, returns)
+        points = stored_points(xy, numbers, n, around, returns)
         if frame >= start:
             counts[frame] = count
             write_segments(rows, count, points, max(around, beams), segments, used)
