@@ -56,19 +56,22 @@ class RegionGrowing:
     def is_thing(self, points, k, j):
         """Whether the points between k and j are a thin thing in front of these two."""
         ahead, widest = max(self.params.delta, 2 * self.params.epsilon), self.params.max_occluder
-        far = [max(ahead, 2 * self.epsilon(point)) for point in points[k + 1 : j]]
-        ranges = np.linalg.norm(points[k : j + 1], axis=1)
-        if ranges[0] - ranges[1] <= ahead or ranges[-1] - ranges[-2] <= ahead:
+        for end, beside in ((k, k + 1), (j, j - 1)):
+            if np.linalg.norm(points[end]) - np.linalg.norm(points[beside]) <= ahead:
+                return False
+        chord = points[j] - points[k]
+        if np.linalg.norm(chord) > widest:
             return False
         inner = points[k + 2 : j - 1]
         if any(np.linalg.norm(point - inner[0]) > widest for point in inner):
             return False
-        chord = points[j] - points[k]
-        if np.linalg.norm(chord) > widest:
-            return False
         normal = np.array([-chord[1], chord[0]])
-        predicted = [r * (normal @ points[k]) / (normal @ p) for r, p in zip(ranges, points[k : j + 1], strict=True)]
-        return all(p - r > least for p, r, least in zip(predicted[1:-1], ranges[1:-1], far, strict=True))
+        for point in points[k + 1 : j]:
+            r = np.linalg.norm(point)
+            predicted = r * (normal @ points[k]) / (normal @ point)
+            if not predicted - r > max(ahead, 2 * self.epsilon(point)):
+                return False
+        return True
 
     def epsilon(self, point):
         """ε at the range of a point."""
