@@ -106,10 +106,10 @@ class Notes:
     def notice(self, kind: str, text: str, **change: Any) -> None:
         self.notices.append(Notice(kind, text, change))
 
-    def skip(self, place: str, why: str) -> None:
-        """Counts a scan that cannot be read. place: its file and line, or message."""
-        self.skips += 1
-        if len(self.skipped) < MOST_SKIPPED:
+    def skip(self, place: str, why: str, scans: int = 1) -> None:
+        """Counts scans that cannot be read. place: file and line, or message."""
+        self.skips += scans
+        if scans and len(self.skipped) < MOST_SKIPPED:
             self.skipped.append(Skipped(place, why.rstrip(".")))
 
     def nothing_left(self) -> None:

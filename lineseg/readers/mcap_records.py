@@ -1,12 +1,13 @@
 """The records of an MCAP file, read one after the other: no index is needed, and a file may break off.
 
-Format: https://mcap.dev/spec. With an index, chunks without the wanted channels are passed over.
+Format: https://mcap.dev/spec. Checksums are checked where the file has them.
 """
 
 from __future__ import annotations
 
 import struct
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Generator, Iterator
+from dataclasses import dataclass
 from pathlib import Path
 from typing import BinaryIO, NamedTuple
 from zlib import crc32
@@ -25,6 +26,20 @@ class BrokenError(ValueError):
     """The file breaks off, or is damaged from here on."""
 
 
+@dataclass
+class LostChunk:
+    """A chunk that cannot be read. at: its byte in the file; messages: those wanted, None if the file does not say."""
+
+    at: int
+    why: str
+    messages: int | None = None
+
+    def count(self, index: bytes, wanted: Collection[int] | None) -> None:
+        """Add the messages of one channel, by their index, which follows the chunk."""
+        channel, size = struct.unpack_from("<HI", index)
+        self.messages = (self.messages or 0) + (size // 16 if wanted is None or channel in wanted else 0)
+
+
 class McapChannel(NamedTuple):
     """A channel with its schema."""
 
@@ -39,7 +54,8 @@ class McapChannel(NamedTuple):
 class McapFile:
     """The channels of a file, the number of messages of each, and its messages.
 
-    broken: where and why the file breaks off, "" if it is whole; known when all was read.
+    Known when all was read: broken: where and why the file breaks off, "" if it is whole; lost: chunks that were left
+    out; doubt: which other checksum differs, "" if none does.
     """
 
     def __init__(self, path: Path) -> None:
@@ -48,7 +64,10 @@ class McapFile:
         self._size = path.stat().st_size
         self.channels: dict[int, McapChannel] = {}
         self.counts: dict[int, int] = {}
-        self.broken = ""
+        self.broken = self.doubt = ""
+        self.lost: list[LostChunk] = []
+        # Whether the data may have a checksum.
+        self._summed = True
         self._schemas: dict[int, tuple[str, str, bytes]] = {}
         if self._file.read(len(MAGIC)) != MAGIC:
             raise BrokenError("it does not begin like MCAP")
@@ -69,9 +88,16 @@ class McapFile:
         try:
             self._file.seek(-(HEAD.size + 20 + len(MAGIC)), 2)
             opcode, _ = HEAD.unpack(self._exactly(HEAD.size))
-            (start,) = struct.unpack("<Q", self._exactly(20)[:8])
+            start, _, checksum = struct.unpack("<QQI", self._exactly(20))
             if opcode != FOOTER or self._file.read() != MAGIC or not 0 < start < self._size:
                 return False
+            self._at = self._file.seek(start)
+            if checksum and crc32(self._file.read(self._size - start - 4 - len(MAGIC))) != checksum:
+                self.doubt = "the checksum of its index differs, so the file was read without it"
+                return False
+            self._at = self._file.seek(start - HEAD.size - 4)
+            opcode, _ = HEAD.unpack(self._exactly(HEAD.size))
+            self._summed = opcode != DATA_END or any(self._exactly(4))
             self._at = self._file.seek(start)
             counted = False
             while (record := self._record()) is not None and record[0] != FOOTER:
@@ -88,17 +114,25 @@ class McapFile:
     def _scan(self, wanted: set[int] | None) -> Iterator[tuple[int, int, bytes]]:
         """The messages in file order; wanted: None to learn about channels and to count, without messages."""
         self._at = self._file.seek(len(MAGIC))
+        self.lost, before, checksum, lost = [], self._at, crc32(MAGIC), None
         try:
             while (record := self._record()) is not None:
                 opcode, body = record
                 if opcode == DATA_END:
+                    self._end(body, checksum)
                     return
+                if self._summed:
+                    checksum = crc32(body, crc32(HEAD.pack(opcode, len(body)), checksum))
                 if opcode == CHUNK:
-                    yield from self._chunk(body, wanted)
+                    lost = yield from self._chunk(body, before, wanted)
+                elif opcode == MESSAGE_INDEX:
+                    if lost is not None:
+                        lost.count(body, wanted)
                 elif opcode == MESSAGE:
                     yield from self._message(memoryview(body), wanted)
                 else:
                     self._learn(opcode, body)
+                before = self._at
             self.broken = "its end is missing"
         except (BrokenError, struct.error, UnicodeDecodeError) as error:
             self.broken = str(error).rstrip(".")
@@ -147,21 +181,47 @@ class McapFile:
         elif channel in wanted:
             yield channel, time, bytes(body[22:])
 
-    def _chunk(self, body: bytes, wanted: set[int] | None) -> Iterator[tuple[int, int, bytes]]:
-        data, damage = _expanded(body)
-        records, at = memoryview(data), 0
-        while at + HEAD.size <= len(records):
-            opcode, length = HEAD.unpack_from(records, at)
-            at += HEAD.size
-            if at + length > len(records):
-                raise BrokenError(damage or "a chunk is damaged")
+    def _chunk(
+        self, body: bytes, at: int, wanted: set[int] | None
+    ) -> Generator[tuple[int, int, bytes], None, LostChunk | None]:
+        """The messages of the chunk at byte `at`; returns it if it is lost.
+
+        Raises BrokenError if the file breaks off in it.
+        """
+        try:
+            data, cut = _expanded(body)
+            records = list(_records(data, cut))
+        except BrokenError as error:
+            self.lost.append(LostChunk(at, str(error)))
+            return self.lost[-1]
+        for opcode, record in records:
             if opcode == MESSAGE:
-                yield from self._message(records[at : at + length], wanted)
+                yield from self._message(record, wanted)
             elif not self._indexed:
-                self._learn(opcode, bytes(records[at : at + length]))
-            at += length
-        if damage:
-            raise BrokenError(damage)
+                self._learn(opcode, bytes(record))
+        if cut:
+            raise BrokenError(cut)
+        return None
+
+    def _end(self, body: bytes, checksum: int) -> None:
+        """Compare the checksum of all that was read with the one at its end; lost chunks are told already."""
+        (expected,) = struct.unpack_from("<I", body)
+        if expected not in (0, checksum) and not self.lost:
+            self.doubt = "the checksum of its data differs, so some scans may be wrong"
+
+
+def _records(data: bytes, cut: str) -> Iterator[tuple[int, memoryview]]:
+    """(opcode, content) of the records in a chunk. cut: why it breaks off, "" if it is whole. Raises BrokenError."""
+    records, at = memoryview(data), 0
+    while at + HEAD.size <= len(records):
+        opcode, length = HEAD.unpack_from(records, at)
+        at += HEAD.size
+        if at + length > len(records):
+            if cut:
+                return
+            raise BrokenError("its last record is longer than it")
+        yield opcode, records[at : at + length]
+        at += length
 
 
 def _text(body: bytes, at: int) -> tuple[str, int]:
@@ -182,11 +242,13 @@ def _expanded(body: bytes) -> tuple[bytes, str]:
     try:
         data = _expand(compression, packed, size)
     except Exception as error:  # each library has errors of its own
-        raise BrokenError(f"a chunk cannot be unpacked, {error or type(error).__name__}") from None
+        raise BrokenError(f"it cannot be unpacked, {error or type(error).__name__}") from None
     if len(packed) < packed_size or len(data) < size:
         return data, "its last chunk breaks off"
-    if len(data) != size or (checksum and crc32(data) != checksum):
-        raise BrokenError("a chunk is damaged; its checksum or size differs")
+    if len(data) != size:
+        raise BrokenError("it is larger than it says")
+    if checksum and crc32(data) != checksum:
+        raise BrokenError("its checksum differs")
     return data, ""
 
 

@@ -13,6 +13,7 @@ from typing import IO, Protocol, cast
 from urllib.parse import quote
 
 from ..scan import Recording
+from .account import Notes
 from .bags import Stream, choose_streams, collect, cut_off, guarded, tell_cut
 from .bounded import MOST_MESSAGE, expand, limit_of
 from .decoders import Decoder
@@ -35,6 +36,10 @@ class Storage(Protocol):
     @property
     def broken(self) -> str:
         """Why the file breaks off, "" if it is whole, as far as it was read."""
+        ...
+
+    def tell(self, notes: Notes, name: str) -> None:
+        """What else was wrong in the file, as far as it was read."""
         ...
 
     def messages(self, streams: list[Stream]) -> Iterator[tuple[Stream, int, bytes]]: ...
@@ -92,6 +97,7 @@ def _read(source: Source, files: list[Path], format: str) -> Recording:
                 with cut_off(source, format, hint):
                     for stream, nanoseconds, data in storage.messages(wanted) if wanted else ():
                         yield decoders[id(stream)], nanoseconds, data
+                storage.tell(source.notes, source.name)
                 if storage.broken:
                     tell_cut(source, format, storage.broken, hint)
 
@@ -121,6 +127,9 @@ class _Database:
     """The `sqlite3` storage."""
 
     broken = ""
+
+    def tell(self, notes: Notes, name: str) -> None:
+        """SQLite has no checksums."""
 
     def __init__(self, database: sqlite3.Connection) -> None:
         self.database = database
@@ -157,7 +166,18 @@ class _McapStorage:
 
     @property
     def broken(self) -> str:
-        return self._file.broken
+        lost = self._file.lost
+        return self._file.broken or (
+            f"the chunk at byte {lost[0].at}: {lost[0].why}" if lost and not self.streams else ""
+        )
+
+    def tell(self, notes: Notes, name: str) -> None:
+        for chunk in self._file.lost:
+            unknown = "" if chunk.messages is not None else "; how many scans it has is unknown"
+            scans = 1 if chunk.messages is None else chunk.messages
+            notes.skip(f"{name}: the chunk at byte {chunk.at}", f"{chunk.why}{unknown}", scans)
+        if self._file.doubt:
+            notes.notice("checksum", f"The file is damaged: {self._file.doubt}.")
 
     def messages(self, streams: list[Stream]) -> Iterator[tuple[Stream, int, bytes]]:
         by_id = {stream.handle: stream for stream in streams}

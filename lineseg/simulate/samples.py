@@ -15,6 +15,7 @@ from .hallway import hallway_recording
 from .laboratory import laboratory_recording
 from .laser import LMS_200, RPLIDAR_A2, UTM_30LX
 from .lessons import LESSONS
+from .mcap_checksums import add_checksums
 from .worlds import WORLDS
 
 # Simulated time starts in the year of the paper: stamps of 0 would look like a clock that was never set.
@@ -98,7 +99,7 @@ def write_csv(path: Path, recording: Recording) -> None:
 
 
 def write_mcap(path: Path, recording: Recording) -> None:
-    """A ROS 2 bag as a bare .mcap with sensor_msgs/LaserScan."""
+    """A ROS 2 bag as a bare .mcap with sensor_msgs/LaserScan and checksums."""
     from rosbags.rosbag2 import StoragePlugin, Writer
     from rosbags.typesys import Stores, get_typestore
 
@@ -111,7 +112,9 @@ def write_mcap(path: Path, recording: Recording) -> None:
                 nanoseconds = EPOCH * 10**9 + round(scan.stamp * 1e9)
                 message = _laser_scan(scan, nanoseconds, store.types)
                 writer.write(connection, nanoseconds, store.serialize_cdr(message, "sensor_msgs/msg/LaserScan"))
-        next(bag.glob("*.mcap")).replace(path)
+        (file,) = bag.glob("*.mcap")
+        add_checksums(file)
+        file.replace(path)
 
 
 def _laser_scan(scan: Scan, nanoseconds: int, types: dict):
