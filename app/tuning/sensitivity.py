@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
-from functools import lru_cache
+from functools import lru_cache, partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,11 +14,16 @@ from lineseg.sweep import MEASURES, Batch, Totals, slider_values
 from lineseg.sweep.workers import Pool
 
 from ..told.answers import SampledCurves, SampledMap
+from .kept import Kept
 
 CURVES = ("coverage", "segments", "true_rate", "false_rate", "completeness", "f_score")
 # (frames, values per threshold) and (frames, values per side) of each stage; the first is fast enough to follow a drag.
 CURVE_STAGES = ((40, 17), (200, 17), (1000, 17))
 MAP_STAGES = ((40, 7), (40, 13), (200, 25))
+
+
+Curves = Mapping[str, Mapping[str, Sequence[float | None]]]
+_kept_curves = Kept[Curves]()
 
 
 @dataclass(eq=False)
@@ -33,17 +38,21 @@ class Subject:
 def curves(subject: Subject, workers: Pool, names: Sequence[str]) -> Iterator[SampledCurves]:
     """Stage by stage, CURVES over the slider of each threshold, from evenly spread frames of the recording."""
     for batch, frames, count in _stages(subject.recording, CURVE_STAGES):
-        values = {name: slider_values(name, count, getattr(subject.params, name)) for name in names}
-        tasks = [
-            (batch, [subject.params.but(**{name: value}) for value in values[name]], subject.stop) for name in names
-        ]
-        found = {names[number]: totals for number, totals in workers.results(_measure, tasks)}
+        work = partial(_curves, subject, workers, names, batch, count)
         yield {
             "frames": frames,
             "of": len(subject.recording),
             "params": asdict(subject.params),
-            "curves": {name: {"values": values[name], **_measures(found[name], CURVES)} for name in names},
+            "curves": _kept_curves.get(subject.recording, (subject.params, tuple(names), frames, count), work),
         }
+
+
+def _curves(subject: Subject, workers: Pool, names: Sequence[str], batch: Batch, count: int) -> Curves:
+    """For each threshold its values, and each of CURVES over them."""
+    values = {name: slider_values(name, count, getattr(subject.params, name)) for name in names}
+    tasks = [(batch, [subject.params.but(**{name: value}) for value in values[name]], subject.stop) for name in names]
+    found = {names[number]: totals for number, totals in workers.results(_measure, tasks)}
+    return {name: {"values": values[name], **_measures(found[name], CURVES)} for name in names}
 
 
 def relief(subject: Subject, workers: Pool, x: str, y: str, measure: str) -> Iterator[SampledMap]:
