@@ -52,7 +52,7 @@ export type Columns = TraceColumns;
 export type Marks = Record<string, number[]>;
 /** The messages on the socket of a tab. */
 export type Incoming = Hello | Change | OpenLink | Cancel | Close | Follow;
-export type Message = Welcome | Recordings | LiveStatus | Loading | Failure | Traced | Drawn | Survey;
+export type Message = Welcome | Recordings | LiveStatus | Loading | Failure | Traced | Times | Drawn | Survey;
 /** The scores of every stride-th frame, as the page reads them: score after score in the order of Welcome.scores. */
 export type Survey = Surveyed & { values: Float32Array };
 /** The values of a threshold, and the value of each measure there. */

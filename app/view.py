@@ -191,6 +191,7 @@ class View:
     step: Annotated[Count | None, ViewField(link="step", mirrored=True, reset_by=(*PLACE, "method"))] = None
     selected: Annotated[Count | None, ViewField(link="beam", mirrored=True, reset_by=PLACE)] = None
     camera: Annotated[Literal["plan", "free"], ViewField(link="camera", mirrored=False)] = "plan"
+    speed: Annotated[Literal["0.5", "1", "2", "4", "8"], ViewField(link="speed", mirrored=False)] = "1"
     score: Annotated[Name, ViewField(link="score", mirrored=True, choices=STRIP_SCORES)] = "coverage"
     against: Annotated[
         Against | None,

@@ -143,7 +143,8 @@ class Recording:
     walls: (walls, 4) of x1, y1, x2, y2 [m] in the world's frame, for simulated recordings.
     topic, topics: the stream these scans come from, and all that the file offers.
     pack: origin of a failure pack; None for other recordings.
-    numbers: (frames,) the frame of the file that each scan is, if some were left out; None if none was.
+    numbers: (frames,) the frame of the file that each scan is, rising, if some were left out; None if none was.
+    whole, began: how many frames the file has, and the stamp of its first [s], if some were left out.
     account: what the file was taken for; None for recordings that were not read from a file.
     """
 
@@ -165,6 +166,8 @@ class Recording:
     format: str = ""
     pack: PackAbout | None = None
     numbers: NDArray[np.int64] | None = None
+    whole: int | None = None
+    began: float | None = None
     account: Account | None = None
 
     @classmethod
@@ -242,6 +245,16 @@ class Recording:
     def number(self, frame: int) -> int:
         """The frame of the file that scan `frame` is, counted from 0."""
         return frame if self.numbers is None else int(self.numbers[frame])
+
+    def position(self, number: int) -> int:
+        """The scan that is frame `number` of the file, or the one nearest to it."""
+        if self.numbers is None:
+            return min(max(number, 0), len(self) - 1)
+        return int(np.abs(self.numbers - number).argmin())
+
+    def has(self, number: int) -> bool:
+        """Whether frame `number` of the file is one of the scans."""
+        return self.number(self.position(number)) == number
 
     def _fan(self, frame: int) -> Fan:
         beams = int(self.offsets[frame + 1] - self.offsets[frame])

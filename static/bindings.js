@@ -9,7 +9,7 @@ import { closePopovers } from "./widgets/menu.js";
 /**
  * @param {import("./page.js").Page} page
  * @param {{replay: Steps, learn: {stepper: import("./learn/stepper.js").Stepper, zoom: () => void, answer: (yes: boolean) => void},
- *          timeline: {toggle: () => void, move: (by: number) => void, doubtful: (by: 1 | -1) => void},
+ *          timeline: {toggle: () => void, pace: (by: 1 | -1) => void, move: (by: number) => void, doubtful: (by: 1 | -1) => void},
  *          inspect: ReturnType<typeof import("./inspect/inspect.js").createInspect>, labels: ReturnType<typeof import("./label/labels.js").createLabels>,
  *          draw: Editor, panel: {open: (name: string) => void}, camera: {fit: () => void, toggle: () => void},
  *          layers: {button: HTMLElement}, opening: {choose: () => void}}} parts
@@ -54,6 +54,8 @@ export function bindingsOf(page, parts, words, help) {
       does: does.play,
       run: () => (page.replaying ? steps().togglePlay() : timeline.toggle()),
     },
+    { keys: [","], shown: ", .", does: does.pace, run: () => timeline.pace(-1) },
+    { keys: ["."], shown: "", does: "", run: () => timeline.pace(1) },
     { keys: ["ArrowLeft"], shown: "← →", does: does.step, run: () => place().move(-1) },
     { keys: ["ArrowRight"], shown: "", does: "", run: () => place().move(1) },
     { keys: ["Shift+ArrowLeft"], shown: "", does: "", run: () => place().move(-10) },

@@ -54,10 +54,7 @@ const scene = mountScene(page, place("stage"), text, {
   onLook: address.writeSoon,
 });
 const { stage, notices, camera } = scene;
-const labels = createLabels(place("stage"), stage, words.label, {
-  onFrame: goToFrame,
-  number: (frame) => timeline.scored.number(frame),
-});
+const labels = createLabels(place("stage"), stage, words.label, { onFrame: goToFrame });
 const inspect = createInspect(page, words.inspect, {
   timeline: () => timeline,
   onTags: (tags) => labels.suggest(tags),
@@ -97,6 +94,7 @@ modes.element.append(rerun.button);
 const live = createLive(words.live, { onFollow: follow });
 const timeline = new Timeline(place("timeline"), text.timeline, {
   onFrame: goToFrame,
+  onSpeed: (speed) => change({ speed }),
   onScore: (score) => change({ score }),
   onScores: inspect.showScored,
   onFollow: follow,

@@ -20,6 +20,7 @@
  * @property {(scores: import("./wire.js").Score[]) => void} [setScores] the available scores
  * @property {(welcome: import("./wire.js").Welcome) => void} [setWelcome] the server is connected, perhaps again
  * @property {(recordings: import("./wire.js").RecordingEntry[]) => void} [setRecordings]
+ * @property {(times: import("./wire.js").Times) => void} [setTimes] when the frames of the next drawn state were taken
  * @property {(survey: import("./wire.js").Survey) => void} [setSurvey]
  * @property {(trace: import("./learn/trace.js").Columns) => void} [setTrace]
  * @property {(loading: import("./wire.js").Loading) => void} [setLoading] a recording is being opened

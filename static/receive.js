@@ -75,6 +75,8 @@ export function createReceiver(page, { address, notices, work, following, panel,
         return complain(message);
       case "trace":
         return page.tell("setTrace", message.trace);
+      case "times":
+        return page.tell("setTimes", message);
       case "survey":
         return page.tell("setSurvey", message);
       case "drawn": {

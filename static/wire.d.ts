@@ -40,7 +40,7 @@ export type Columns = TraceColumns;
 export type Marks = Record<string, number[]>;
 /** The messages on the socket of a tab. */
 export type Incoming = Hello | Change | OpenLink | Cancel | Close | Follow;
-export type Message = Welcome | Recordings | LiveStatus | Loading | Failure | Traced | Drawn | Survey;
+export type Message = Welcome | Recordings | LiveStatus | Loading | Failure | Traced | Times | Drawn | Survey;
 /** The scores of every stride-th frame, as the page reads them: score after score in the order of Welcome.scores. */
 export type Survey = Surveyed & { values: Float32Array };
 /** The values of a threshold, and the value of each measure there. */
@@ -68,6 +68,7 @@ export interface ViewPatch {
   step?: number | null;
   selected?: number | null;
   camera?: "plan" | "free";
+  speed?: "0.5" | "1" | "2" | "4" | "8";
   score?: string;
   against?: Pinned | null;
   weights?: Record<string, number>;
@@ -330,6 +331,18 @@ export interface Traced {
   trace: TraceColumns;
 }
 
+/**
+ * When each frame of a recording was taken, sent before its first picture.
+ *
+ * since: time since the first scan of the file [s]; null if the stamps cannot be believed, and why, in a few words.
+ */
+export interface Times {
+  type: "times";
+  place: string;
+  since: number[] | null;
+  why: string;
+}
+
 /** origin: the source of the input: "page", or "scene" for viser's sliders and clicks in the scene. */
 export interface Drawn {
   type: "drawn";
@@ -523,13 +536,14 @@ export interface Account {
  * view: the whole View, as a patch that restores it. label: of the recording; pack: description in a failure pack.
  * topic: on the screen. place: equal for states of the same scans. readAs: the Reading that was asked for, with the
  * topic. account: what the file was taken for, null if there is no file. live: whether the newest frame is
- * followed, null if the recording is not live; first, every: the number of the first frame in the file or source,
- * counted from 0, and the step to the next. stamp: of the scan [s]; since: time since the first scan [s]. covered:
- * number of `valid` beams in segments. steps: number of decisions. difference: fates of the lines of A. truth:
- * whether the recording has its true walls. agreement: in the mode Inspect if the truth is known; labels: in the
- * mode Inspect if the recording can have labels. references: available references; judgedBy: the one in use, ""
- * without truth. extent: box around the points of the frame, bounds: of the recording [m]. extractionUs: time of
- * the extraction [µs].
+ * followed, null if the recording is not live. frame: its number in the file or source, counted from 0; frames: how
+ * many there are, of which the first has the number `first`, the next `first + every`. stamp: of the scan [s];
+ * since: time since the first scan of the file [s], null if the stamps cannot be believed. covered: number of
+ * `valid` beams in segments. steps: number of decisions. difference: fates of the lines of A. truth: whether the
+ * recording has its true walls. agreement: in the mode Inspect if the truth is known; labels: in the mode Inspect
+ * if the recording can have labels. references: available references; judgedBy: the one in use, "" without truth.
+ * extent: box around the points of the frame, bounds: of the recording [m]. extractionUs: time of the extraction
+ * [µs].
  */
 export interface Scene {
   view: View;

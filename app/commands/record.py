@@ -38,6 +38,6 @@ def record(
     from ..rerun.record import Run, save
 
     recording = open_with_progress(file, reading_of(how))
-    run = Run(recording, file.name, choice.method, chosen, range(len(recording)), steps, as_in_file=True)
+    run = Run(recording, file.name, choice.method, chosen, range(len(recording)), steps)
     with progress_bar("record", "scan") as advance:
         save(run, out, advance)

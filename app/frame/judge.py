@@ -77,13 +77,14 @@ def judged_recording(
 
     said: labels to use instead of the walls, for the frames that have true lines.
     """
-    frames = np.arange(len(recording)) if said is None else np.array([f for f in said if said[f].lines is not None])
+    known = None if said is None else {recording.position(frame): each for frame, each in said.items() if each.lines is not None}
+    frames = np.arange(len(recording)) if known is None else np.array(list(known))
     stride = -(-len(frames) // MOST_FRAMES)
     chosen = frames[::stride]
     part = recording.only(chosen)
-    if said is None:
+    if known is None:
         return Agreement.of_all(each for each in agreements(part, params, method) if each is not None), stride
-    labels = [said[int(frame)] for frame in chosen]
+    labels = [known[int(frame)] for frame in chosen]
     found = agreements(part, params, method, lambda k: labels[k].truth(part[k]), lambda k: labels[k].ends)
     return Agreement.of_all(each for each in found if each is not None), stride
 

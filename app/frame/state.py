@@ -27,6 +27,7 @@ def state_of(
     found: Findings,
     bounds: Bounds,
     reference: Reference,
+    since: float | None,
     pinned: Findings | None = None,
     judged: Judged | None = None,
 ) -> told.Scene:
@@ -57,7 +58,7 @@ def state_of(
         "first": first,
         "every": every,
         "stamp": finite_or_none(scan.stamp),
-        "since": finite_or_none(scan.stamp - recording.stamps[0]),
+        "since": since,
         "frameId": scan.frame_id,
         "beams": len(scan),
         "valid": int(scan.valid.sum()),

@@ -28,15 +28,17 @@ class LiveRecording(Recording):
         """Number of scans that had arrived."""
         return self.first + len(self)
 
+    def number(self, frame: int) -> int:
+        return self.first + frame
+
+    def position(self, number: int) -> int:
+        return super().position(number - self.first)
+
 
 def numbering(recording: Recording) -> tuple[int, int]:
-    """The number of its first frame in the file or source, counted from 0, and the step to the next."""
-    if isinstance(recording, LiveRecording):
-        return recording.first, 1
-    numbers = recording.numbers
-    if numbers is None:
-        return 0, 1
-    return int(numbers[0]), int(numbers[1] - numbers[0]) if len(numbers) > 1 else 1
+    """The number of the first frame in the file or source, counted from 0, and the step to the next."""
+    first = recording.number(0)
+    return first, recording.number(1) - first if len(recording) > 1 else 1
 
 
 class Ring:
@@ -51,6 +53,7 @@ class Ring:
         self.most_beams = max(BEAMS_EACH * most, LEAST_ROOM) if most_beams is None else most_beams
         self.topic = ""
         self.dropped = 0
+        self._first_stamp: float | None = None
         self._lock = threading.Lock()
         self._begin(np.empty(0, np.float32), np.zeros(1, np.int64), np.empty((0, 5)), [])
         self._snapshot: LiveRecording | None = None
@@ -73,6 +76,7 @@ class Ring:
             geometry = (scan.angle_min, scan.angle_increment, scan.range_min, scan.range_max, scan.stamp)
             self._geometry[self._stop] = geometry
             self._frame_ids.append(scan.frame_id)
+            self._first_stamp = scan.stamp if self._first_stamp is None else self._first_stamp
             self._stop += 1
             self._offsets[self._stop] = end + beams
             self._make_room()
@@ -128,4 +132,5 @@ class Ring:
             topics=(Topic(self.topic, stop - start),),
             format="live",
             first=self.dropped,
+            began=self._first_stamp,
         )

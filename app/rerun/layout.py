@@ -69,7 +69,7 @@ def properties(
         "recording": label or recording.name,
         "topic": recording.topic,
         "method": method,
-        "frames": f"{frames[0]}:{frames[-1] + 1}" if frames else "",
+        "frames": f"{recording.number(frames[0])}:{recording.number(frames[-1]) + 1}" if frames else "",
     }
     return about | params.numbers()
 

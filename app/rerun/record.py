@@ -37,7 +37,7 @@ Progress = Callable[[int, int], None]
 class Run:
     """What to record. frames: of the recording; steps: whether to add every decision, on a timeline `step`.
 
-    as_in_file: whether frames have their numbers in the file, of which the recording may be a part.
+    Rows have the numbers of frames in the file, of which the recording may be a part.
     """
 
     recording: Recording
@@ -46,7 +46,6 @@ class Run:
     params: Thresholds
     frames: range
     steps: bool = False
-    as_in_file: bool = False
 
 
 def save(run: Run, path: Path, progress: Progress = lambda done, total: None) -> None:
@@ -106,7 +105,7 @@ def moments_of(run: Run, frames: range) -> Moments:
     recorded = stamps[run.frames.start : run.frames.stop]
     # A file without stamps has the same stamp for every frame.
     stamped = np.isfinite(recorded).all() and np.ptp(recorded) > 0
-    numbers = [run.recording.number(frame) for frame in frames] if run.as_in_file else frames
+    numbers = [run.recording.number(frame) for frame in frames]
     return Moments(np.array(numbers), stamps[frames.start : frames.stop] if stamped else None)
 
 

@@ -13,7 +13,6 @@ from starlette.exceptions import HTTPException
 from lineseg import EXTRACTORS, Extraction, Scan, write_pack
 from lineseg.writers import SEGMENT_WRITERS, figure_svg, figure_title, segment_lines
 
-from ..live.ring import numbering
 from ..made import about_of
 from ..session.session import Shown
 from ..session.sessions import Sessions
@@ -30,14 +29,12 @@ def add_export(app: FastAPI, library: Library, sessions: Sessions) -> None:
 
     def named(shown: Shown, suffix: str) -> dict[str, str]:
         """Headers for a file of one frame, with its number."""
-        first, every = numbering(shown.recording)
-        number = first + every * shown.view.frame
-        return attachment(f"{library.label(shown.view.recording)}_{number}", suffix)
+        return attachment(f"{library.label(shown.view.recording)}_{shown.view.frame}", suffix)
 
     @app.get("/api/figure")
     def figure(session: str = "") -> Response:
         shown = sessions.shown(session)
-        title = figure_title(shown.recording, shown.view.frame, EXTRACTORS[shown.view.method].label)
+        title = figure_title(shown.recording, shown.position, EXTRACTORS[shown.view.method].label)
         drawing = figure_svg(shown.found.scan, shown.found.extraction, title)
         return Response(drawing, media_type="image/svg+xml", headers=named(shown, "svg"))
 
@@ -50,7 +47,7 @@ def add_export(app: FastAPI, library: Library, sessions: Sessions) -> None:
         except UnicodeDecodeError:
             raise HTTPException(400, "this note is not UTF-8 text; send it as UTF-8") from None
         made = io.BytesIO()
-        await run_in_threadpool(write_pack, made, shown.recording, shown.view.frame, shown.view.params, note)
+        await run_in_threadpool(write_pack, made, shown.recording, shown.position, shown.view.params, note)
         return Response(made.getvalue(), media_type="application/zip", headers=named(shown, "zip"))
 
     @app.get("/api/segments")

@@ -37,12 +37,12 @@ def add_inspection(app: FastAPI, sessions: Sessions, files: LabelFiles) -> None:
         shown = sessions.shown(session)
         view, recording = shown.view, shown.recording
         try:
-            wanted = [int(frame) for frame in frames.split(",")[:MOST_ROWS] if 0 <= int(frame) < len(recording)]
+            wanted = [int(frame) for frame in frames.split(",")[:MOST_ROWS] if recording.has(int(frame))]
         except ValueError:
             raise HTTPException(400, f"frames is {frames[:60]!r}; give numbers separated by commas") from None
         if len(recording) < 2:
             wanted = []
-        remarks = {frame: why(recording, frame, view.params) for frame in wanted}
+        remarks = {frame: why(recording, recording.position(frame), view.params) for frame in wanted}
         return {
             "recording": view.recording,
             "method": view.method,

@@ -120,6 +120,8 @@ def _open(library: Library, id: str, reading: Mapping[str, Any]) -> Recording:
 
 
 def _scan(recording: Recording, frame: int) -> Scan:
-    if not 0 <= frame < len(recording):
-        raise HTTPException(400, f"frame {frame}: {recording.name} has the frames 0 to {len(recording) - 1}")
-    return recording[frame]
+    if not recording.has(frame):
+        frames = recording.whole or len(recording)
+        left_out = ", and not all of them are read" if recording.whole else ""
+        raise HTTPException(400, f"frame {frame}: {recording.name} has the frames 0 to {frames - 1}{left_out}")
+    return recording[recording.position(frame)]

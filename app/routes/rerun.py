@@ -110,7 +110,7 @@ def add_rerun(app: FastAPI, library: Library, sessions: Sessions) -> RerunFiles:
         except ModuleNotFoundError as error:
             raise HTTPException(MISSING, str(error)) from None
         view, recording = shown.view, shown.recording
-        frames = range(view.frame, view.frame + 1) if steps else range(len(recording))
+        frames = range(shown.position, shown.position + 1) if steps else range(len(recording))
         run = Run(recording, library.label(view.recording), view.method, view.params, frames, steps)
         return StreamingResponse(files.record(run), media_type="application/x-ndjson")
 

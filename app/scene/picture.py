@@ -85,7 +85,7 @@ def _lines(
     if layers.laser:
         lines["laser"] = laser(bounds, theme)
     if layers.truth:
-        lines["truth"] = truth(recording, view.frame, theme)
+        lines["truth"] = truth(recording, recording.position(view.frame), theme)
     if layers.invalid:
         lines["invalid"] = invalid_beams(found.scan, bounds, theme)
     if layers.segments:

@@ -7,6 +7,7 @@ from functools import lru_cache
 
 from lineseg import Recording
 
+from ..frame.clock import Clock
 from ..frame.findings import Findings, findings
 from ..frame.geometry import Bounds, bounds_of, united
 from ..frame.judge import Reference, judged
@@ -16,6 +17,7 @@ from ..scene.picture import Picture, picture
 from ..shelf.label_files import LabelFiles
 from ..shelf.library import Library
 from ..told.drawn import Scene
+from ..told.messages import Times
 from ..view import View
 
 FRAMES_KEPT = 32
@@ -29,6 +31,12 @@ class Content:
     found: Findings
     picture: Picture
     state: Scene
+    clock: Clock
+
+    def times(self) -> Times:
+        """When each frame was taken, to the millisecond."""
+        since = None if self.clock.since is None else self.clock.since.round(3).tolist()
+        return Times(place=self.view.place, since=since, why=self.clock.trouble)
 
 
 class Composer:
@@ -38,15 +46,17 @@ class Composer:
         self._library, self._files = library, files
         self._findings = lru_cache(maxsize=FRAMES_KEPT)(findings)
         self._judged = lru_cache(maxsize=FRAMES_KEPT)(judged)
+        self._clock = lru_cache(maxsize=4)(Clock.of)
         self._bounds = lru_cache(maxsize=4)(bounds_of)
         self._live_bounds: tuple[str, int, Bounds] = ("", 0, (0.0, 0.0, 0.0, 0.0))
 
     def compose(self, view: View, recording: Recording) -> Content:
         view = _inside(view, recording)
-        found = self._findings(recording, view.frame, view.method, view.params)
+        frame = recording.position(view.frame)
+        found = self._findings(recording, frame, view.method, view.params)
         view = _inside_trace(view, found)
         bounds = self._bounds_of(view, recording)
-        pinned = view.against and self._findings(recording, view.frame, view.against.method, view.against.params)
+        pinned = view.against and self._findings(recording, frame, view.against.method, view.against.params)
         inspected = view.mode == "inspect" or view.layers.verdicts
         known = self._files.known(view.recording, recording) if inspected else None
         reference = Reference.of(view.reference, recording, known)
@@ -54,8 +64,9 @@ class Composer:
         judgement = self._judged(found, said) if inspected else None
         drawing = picture(view, recording, found, bounds, pinned, judgement)
         label = self._library.label(view.recording)
-        state = state_of(view, recording, label, found, bounds, reference, pinned, judgement)
-        return Content(view, found, drawing, state)
+        clock = self._clock(recording)
+        state = state_of(view, recording, label, found, bounds, reference, clock.at(frame), pinned, judgement)
+        return Content(view, found, drawing, state, clock)
 
     def _bounds_of(self, view: View, recording: Recording) -> Bounds:
         """The bounds; those of a live recording only grow, and rarely, so that the grid stays still."""
@@ -71,11 +82,11 @@ class Composer:
 
 
 def _inside(view: View, recording: Recording) -> View:
-    """The View with its frame and beam limited to the recording."""
-    frame = min(max(view.frame, 0), len(recording) - 1)
+    """The View with its frame and beam limited to the recording; of frames that were left out, the nearest one."""
+    frame = recording.position(view.frame)
     beams = int(recording.offsets[frame + 1] - recording.offsets[frame])
     selected = view.selected if view.selected is not None and 0 <= view.selected < beams else None
-    return replace(view, frame=frame, selected=selected)
+    return replace(view, frame=recording.number(frame), selected=selected)
 
 
 def _inside_trace(view: View, found: Findings) -> View:

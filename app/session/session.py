@@ -60,6 +60,11 @@ class Shown:
     recording: Recording
     found: Findings
 
+    @property
+    def position(self) -> int:
+        """Of the frame in the recording, from which some frames of the file may be left out."""
+        return self.recording.position(self.view.frame)
+
     def paused(self, view: View) -> bool:
         """Whether it shows a live recording that `view` does not follow."""
         return isinstance(self.recording, LiveRecording) and self.view.recording == view.recording and not view.live
@@ -92,6 +97,7 @@ class Session:
         self._hang_up: Callable[[], None] | None = None
         self._told: Findings | None = None
         self._traced: Findings | None = None
+        self._timed: Recording | None = None
         self._shown: Shown | None = None
         self._broken: set[str] = set()
         self._wanted = Request(0, view, 0, "page")
@@ -127,7 +133,8 @@ class Session:
         with self._lock:
             self.detached_at = None
             self.last_input = time.monotonic()
-            self._send, self._hang_up, self._told, self._traced = send, hang_up, None, None
+            self._send, self._hang_up = send, hang_up
+            self._told = self._traced = self._timed = None
             self._strip.keep(None)
             self._ask(self._wanted.view, self._wanted.rev if rev is None else rev, "page")
         self.presenter.tell("here")
@@ -259,8 +266,9 @@ class Session:
 
     def _draw(self, request: Request) -> None:
         recording = self._load(request)
-        if isinstance(recording, LiveRecording) and request.view.live:
-            request = replace(request, view=replace(request.view, frame=len(recording) - 1))
+        growing = isinstance(recording, LiveRecording) and request.view.live
+        if growing:
+            request = replace(request, view=replace(request.view, frame=recording.number(len(recording) - 1)))
         if not self._warm_up.done.is_set():
             view, note = request.view, self._warm_up.label
             label = self._library.label(view.recording)
@@ -282,8 +290,14 @@ class Session:
             trace_wanted = send is not None and view.mode == "learn" and self._traced is not found
             if trace_wanted:
                 self._traced = found
+            # The times of a recording that grows are sent once it is paused.
+            times_wanted = send is not None and self._timed is not recording and not growing
+            if times_wanted:
+                self._timed = recording
         self._library.live.follow(self.id, view.recording, view.method, view.params)
         if send is not None:
+            if times_wanted:
+                send(content.times())
             if trace_wanted:
                 send(Traced(trace=columns_of(found)))
             state: DrawnState = {**content.state, **timings, "following": self._presence}

@@ -19,6 +19,8 @@ from ..live.ring import LiveRecording
 from .library import Library
 
 LONGEST_HOW = 60
+# Which frames are read does not change a frame, so that its labels stay.
+NOT_NAMED = frozenset({"topic", "frames", "seconds", "every_scan"})
 LIVE = "a live recording cannot be labelled, because its frames are replaced; save it as a file first"
 
 
@@ -122,7 +124,7 @@ def _stream(recording: Recording) -> str:
     if recording.topics and recording.topic != recording.topics[0].name:
         parts.append(re.sub(r"\W+", "_", recording.topic).strip("_"))
     given = recording.account.given.given() if recording.account is not None else {}
-    how = ",".join(f"{name}={value}" for name, value in given.items() if name != "topic")
+    how = ",".join(f"{name}={value}" for name, value in given.items() if name not in NOT_NAMED)
     if how:
         clean = re.sub(r"[^\w=,.+-]+", "_", how)
         exact = clean == how and len(how) <= LONGEST_HOW

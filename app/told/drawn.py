@@ -189,12 +189,13 @@ class Scene(TypedDict):
     view: the whole View, as a patch that restores it. label: of the recording; pack: description in a failure pack.
     topic: on the screen. place: equal for states of the same scans. readAs: the Reading that was asked for, with the
     topic. account: what the file was taken for, null if there is no file. live: whether the newest frame is followed,
-    null if the recording is not live; first, every: the number of the first frame in the file or source, counted from
-    0, and the step to the next. stamp: of the scan [s]; since: time since the first scan [s]. covered: number of
-    `valid` beams in segments. steps: number of decisions. difference: fates of the lines of A. truth: whether the
-    recording has its true walls. agreement: in the mode Inspect if the truth is known; labels: in the mode Inspect if
-    the recording can have labels. references: available references; judgedBy: the one in use, "" without truth. extent:
-    box around the points of the frame, bounds: of the recording [m]. extractionUs: time of the extraction [µs].
+    null if the recording is not live. frame: its number in the file or source, counted from 0; frames: how many there
+    are, of which the first has the number `first`, the next `first + every`. stamp: of the scan [s]; since: time since
+    the first scan of the file [s], null if the stamps cannot be believed. covered: number of `valid` beams in segments.
+    steps: number of decisions. difference: fates of the lines of A. truth: whether the recording has its true walls.
+    agreement: in the mode Inspect if the truth is known; labels: in the mode Inspect if the recording can have labels.
+    references: available references; judgedBy: the one in use, "" without truth. extent: box around the points of the
+    frame, bounds: of the recording [m]. extractionUs: time of the extraction [µs].
     """
 
     view: Annotated[dict[str, Any], As("View")]

@@ -223,6 +223,18 @@ class Traced(BaseModel):
     trace: Annotated[TraceColumns, UNCHECKED]
 
 
+class Times(BaseModel):
+    """When each frame of a recording was taken, sent before its first picture.
+
+    since: time since the first scan of the file [s]; null if the stamps cannot be believed, and why, in a few words.
+    """
+
+    type: Literal["times"] = "times"
+    place: str
+    since: list[float] | None
+    why: str
+
+
 class Drawn(BaseModel):
     """origin: the source of the input: "page", or "scene" for viser's sliders and clicks in the scene."""
 

@@ -46,5 +46,5 @@ def _lines(kind: Any, rows: Sequence[Row], recording: Recording, frames: Sequenc
         plot.set_title(row.label, fontsize=8)
         plot.set_aspect("equal")
         plot.axis("off")
-    figure.suptitle(f"{recording.name}, frame {frame}", fontsize=10)
+    figure.suptitle(f"{recording.name}, frame {recording.number(frame)}", fontsize=10)
     return figure

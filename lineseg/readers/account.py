@@ -58,7 +58,7 @@ class Account:
 
     given: the Reading that was asked for; used: the same with all that was found in the file or guessed.
     line: one line that says it. skipped: some of the scans that could not be read; skips: how many there are.
-    believable: whether the stamps can be believed.
+    stamp_trouble: why the stamps cannot be believed, in a few words, "" if they can.
     """
 
     given: Reading = dataclass_field(default_factory=Reading)
@@ -68,7 +68,12 @@ class Account:
     notices: tuple[Notice, ...] = ()
     skipped: tuple[Skipped, ...] = ()
     skips: int = 0
-    believable: bool = True
+    stamp_trouble: str = ""
+
+    @property
+    def believable(self) -> bool:
+        """Whether the stamps can be believed."""
+        return not self.stamp_trouble
 
     @property
     def skipped_text(self) -> str:

@@ -12,7 +12,7 @@ from ..scan import Recording, Scan
 from .account import Account, Notes
 from .guessing import guess_limit, guess_unit, no_return_codes
 from .lasers import one_laser
-from .plausible import believable, noticed
+from .plausible import noticed, trouble_of
 from .reading import METRES, Reading, Span, frames_of, span_of, values_of
 from .saying import line_of
 
@@ -36,7 +36,7 @@ def applied(recording: Recording, reading: Reading, notes: Notes) -> Recording:
         notices=notices,
         skipped=tuple(notes.skipped),
         skips=notes.skips,
-        believable=believable(whole.stamps),
+        stamp_trouble=trouble_of(whole.stamps),
     )
     account = replace(account, line=line_of(recording, account, notes))
     return replace(recording, account=account)
@@ -124,12 +124,14 @@ def _chosen_frames(recording: Recording, reading: Reading) -> Recording:
     if not keep.any():
         raise ValueError(f"{recording.name}: no scan is left of {len(recording)}; choose other frames or seconds.")
     numbers = np.flatnonzero(keep)
-    return replace(recording.only(numbers), numbers=numbers)
+    began = float(recording.stamps[0])
+    return replace(recording.only(numbers), numbers=numbers, whole=len(recording), began=began)
 
 
 def _within(recording: Recording, span: Span, text: str) -> NDArray[np.bool_]:
-    if not recording.stamps.any():
-        raise ValueError(f"{recording.name}: seconds cannot be used, because it has no stamps; use frames.")
+    if trouble := trouble_of(recording.stamps):
+        has = f"it has {trouble}" if trouble == "no stamps" else f"its {trouble}"
+        raise ValueError(f"{recording.name}: seconds cannot be used, because {has}; use frames.")
     since = recording.stamps - recording.stamps[0]
     keep = (since >= span.low) & (since < span.high)
     if not keep.any():

@@ -10,6 +10,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from ..scan import PackAbout, Recording
 from .npz import Npz
 from .source import Reader, Source
@@ -36,7 +38,10 @@ class FailurePack(Reader):
     def read(source: Source) -> Recording:
         about = read_pack(source.path)
         content = io.BytesIO(_entry(source.path, FRAME))
-        return replace(Npz.read_from(content, source), format=FailurePack.format, pack=about)
+        recording = Npz.read_from(content, source)
+        # Its frame keeps the number that it has in the recording it was taken from.
+        numbers = about.frame + np.arange(len(recording))
+        return replace(recording, format=FailurePack.format, pack=about, numbers=numbers)
 
 
 def read_pack(path: str | Path) -> PackAbout:

@@ -48,8 +48,8 @@ def _about_angles(recording: Recording, reading: Reading) -> Iterator[Notice]:
     if view > 360.0 + 1.5 * float(np.rad2deg(np.median(steps))) + 0.5:
         in_degrees = float(np.deg2rad(view))
         change = {"angle_unit": "deg"} if reading.angle_unit != "deg" and in_degrees <= 361 else {}
-        question = "are the angles degrees?" if change else "check angle_increment."
-        yield Notice("field of view", f"A field of view of {view:.0f}° is more than a turn: {question}", change)
+        question = "Are the angles in degrees?" if change else "Check angle_increment."
+        yield Notice("field of view", f"A field of view of {view:.0f}° is more than a turn. {question}", change)
 
 
 def _about_size(recording: Recording, reading: Reading) -> Iterator[Notice]:
@@ -62,14 +62,14 @@ def _about_size(recording: Recording, reading: Reading) -> Iterator[Notice]:
     far = float(np.mean(finite > MOST_RANGE))
     if far > RECURS:
         unit = "mm" if reading.unit == "m" else None
-        question = " Are they millimetres?" if unit else " Check the unit."
+        question = " Are they in millimetres?" if unit else " Check the unit."
         yield Notice(
-            "far", f"{far:.2g} of all ranges are above {MOST_RANGE:g} m (the median is {middle:.4g} m).{question}",
+            "far", f"{far:.0%} of all ranges are above {MOST_RANGE:g} m (the median is {middle:.4g} m).{question}",
             {"unit": unit} if unit else {},
         )  # fmt: skip
     elif middle < LEAST_MEDIAN:
         unit = {"mm": "m", "cm": "m"}.get(reading.unit or "m")
-        question = f" Are they {'metres' if unit else 'of another unit'}?"
+        question = f" Are they in {'metres' if unit else 'another unit'}?"
         yield Notice(
             "near", f"The median of the ranges is {100 * middle:.2g} cm.{question}", {"unit": unit} if unit else {}
         )
@@ -85,9 +85,14 @@ def _about_limits(recording: Recording, reading: Reading, ranges: Floats, inside
     above = len(beyond) / count if len(np.unique(np.round(beyond[:5000], 3))) > 20 else 0.0
     if below + above <= 0.5:
         return
-    side = f"below range_min = {low:g} m" if below >= above else f"at or beyond range_max = {high:g} m"
+    limit = f"nearer than range_min = {low:g} m" if below >= above else f"not nearer than range_max = {high:g} m"
     change = {"range_min": 0.0} if below >= above else {"range_max": float(np.ceil(beyond.max() + 1))}
-    yield Notice("limits", f"{max(below, above):.2g} of all beams read {side} and count as no return. Lift it?", change)
+    name, value = next(iter(change.items()))
+    yield Notice(
+        "limits",
+        f"{max(below, above):.0%} of all beams are {limit} and count as no return. Use {name} = {value:g} m instead?",
+        change,
+    )
 
 
 def _about_recurring(recording: Recording, valid: Floats) -> Iterator[Notice]:
@@ -102,7 +107,7 @@ def _about_recurring(recording: Recording, valid: Floats) -> Iterator[Notice]:
         value = float(values[most])
         yield Notice(
             "recurs",
-            f"{share:.2g} of all beams read {value:g} m. Take that for no return?",
+            f"{share:.0%} of all beams read exactly {value:g} m. Does this value mean no return?",
             {"no_return": f"{value:g}"},
         )
         return
@@ -114,39 +119,45 @@ def _about_recurring(recording: Recording, valid: Floats) -> Iterator[Notice]:
         low = float(np.floor(1000 * valid[ring].min()) / 1000)
         yield Notice(
             "recurs",
-            f"{ring.mean():.2g} of all beams read between {low:g} and {top:g} m. Take that for no return?",
+            f"{ring.mean():.0%} of all beams read between {low:g} and {top:g} m. Do these values mean no return?",
             {"no_return": f"{low:g}:{top:g}"},
         )
 
 
-def believable(stamps: Floats) -> bool:
-    """Whether the stamps can be times: they rise, and neither jump by years nor wrap."""
-    return bool(stamps.any()) and (len(stamps) < 2 or not any(_about_stamps(stamps)))
+def trouble_of(stamps: Floats) -> str:
+    """Why stamps cannot be times, in a few words; "" if they rise, and neither jump by years nor wrap."""
+    if not stamps.any():
+        return "no stamps"
+    odd = _oddness(stamps)
+    return odd[0] if odd else ""
 
 
 def _about_stamps(stamps: Floats, recorded: bool = False) -> Iterator[Notice]:
+    if odd := _oddness(stamps):
+        way = "Use the times of the recorder?" if recorded else "Read the file without stamps?"
+        yield Notice("stamps", f"{odd[1]} {way}", {"stamps": "recorded" if recorded else "none"})
+
+
+def _oddness(stamps: Floats) -> tuple[str, str] | None:
+    """What is wrong with stamps, in a few words and as a sentence."""
     if len(stamps) < 2 or not stamps.any():
-        return
-    change = {"stamps": "recorded" if recorded else "none"}
-    way = "Use the recorder's times?" if recorded else "Leave the stamps out?"
+        return None
     if not np.isfinite(stamps).all():
-        yield Notice("stamps", f"Some stamps are not numbers. {way}", change)
-        return
+        return "stamps are not numbers", "Some stamps are not numbers."
     steps = np.diff(stamps)
     if not steps.any():
-        yield Notice("stamps", f"All stamps are equal ({stamps[0]:g}). {way}", change)
-        return
-    at = int(np.argmin(steps))
-    wraps = [wrap for wrap in WRAPS if steps[at] < 0 and abs(-steps[at] - wrap) < 0.01 * wrap]
-    if wraps:
-        yield Notice("stamps", f"The stamps wrap at 2³² before frame {at + 1}. {way}", change)
-    elif (leap := int(np.argmax(np.abs(steps)))) >= 0 and abs(steps[leap]) > YEAR:
+        return "stamps are equal", f"All stamps are equal ({stamps[0]:g})."
+    at, leap = int(np.argmin(steps)), int(np.argmax(np.abs(steps)))
+    if any(steps[at] < 0 and abs(-steps[at] - wrap) < 0.01 * wrap for wrap in WRAPS):
+        return "stamps wrap", f"The stamps wrap at 2³² before frame {at + 1}."
+    if abs(steps[leap]) > YEAR:
         years = abs(steps[leap]) / YEAR
-        yield Notice("stamps", f"The stamps jump by {years:.0f} years before frame {leap + 1}. {way}", change)
-    elif steps[at] < 0:
+        return "stamps jump by years", f"The stamps jump by {years:.0f} years before frame {leap + 1}."
+    if steps[at] < 0:
         backwards = np.count_nonzero(steps < 0)
         times = "once" if backwards == 1 else f"{backwards} times"
-        yield Notice(
-            "stamps", f"The stamps run backwards {times}, by {-steps[at]:.3g} s before frame {at + 1}. {way}",
-            change,
-        )  # fmt: skip
+        return (
+            "stamps run backwards",
+            f"The stamps run backwards {times}, by {-steps[at]:.3g} s before frame {at + 1}.",
+        )
+    return None

@@ -24,6 +24,8 @@ SUFFIX = ".lineseg.json"
 MOST_BYTES = 256 << 20
 # File systems allow 255 bytes; an unfinished file has a longer name.
 LONGEST_NAME = 235
+# Labels and the number of beams, by frame of the file.
+Entries = dict[int, tuple[FrameLabels, int]]
 
 # For the threads of this process; other processes are kept out by locking the folder.
 _writing = threading.Lock()
@@ -61,16 +63,21 @@ def users_label_file(name: str, identity: str, user_folder: Path | None = None) 
 
 
 def read_labels(path: str | Path, recording: Recording) -> Labels:
-    """The labels of each labelled frame; empty if there is no file.
+    """The labels of each labelled frame of the recording, by its number in the file; empty if there is no label file.
 
     Raises ValueError for a damaged file, a newer version, or a recording with other frames or beams.
     """
     path = Path(path)
+    return {frame: labels for frame, (labels, _) in _all_labels(path, recording).items() if recording.has(frame)}
+
+
+def _all_labels(path: Path, recording: Recording) -> Entries:
+    """The labels of frames that were left out too."""
     with named(path.name, passed=(OSError,)):
         return _read(path, recording)
 
 
-def _read(path: Path, recording: Recording) -> Labels:
+def _read(path: Path, recording: Recording) -> Entries:
     try:
         if path.stat().st_size > MOST_BYTES:
             raise ValueError(f"{path.name} has {path.stat().st_size} bytes; label files have at most {MOST_BYTES}.")
@@ -108,8 +115,8 @@ def save_labels(path: str | Path, recording: Recording, frame: int, labels: Fram
     check_labels(labels, recording, frame)
     path.parent.mkdir(parents=True, exist_ok=True)
     with _alone_in(path.parent):
-        known = read_labels(path, recording)
-        theirs = known.get(frame, FrameLabels())
+        known = _all_labels(path, recording)
+        theirs, _ = known.get(frame, (FrameLabels(), 0))
         if theirs.revision != labels.revision:
             raise ConflictError(
                 f"frame {frame} was changed elsewhere: it is at revision {theirs.revision}, you have "
@@ -117,7 +124,8 @@ def save_labels(path: str | Path, recording: Recording, frame: int, labels: Fram
                 theirs,
             )
         saved = replace(labels, revision=labels.revision + 1)
-        _replace(path, _text_of(known | {frame: saved}, recording))
+        beams = len(recording[recording.position(frame)])
+        _replace(path, _text_of(known | {frame: (saved, beams)}, recording))
     return saved
 
 
@@ -164,17 +172,18 @@ def _replace(path: Path, text: str) -> None:
             os.close(folder)
 
 
-def _labels_in(tree: Any, recording: Recording) -> Labels:
+def _labels_in(tree: Any, recording: Recording) -> Entries:
     if not isinstance(tree, dict) or tree.get("format") != FORMAT:
         raise ValueError(f'this is not a label file; label files begin with "format": "{FORMAT}"')
     if tree["version"] != VERSION:
         raise ValueError(f"the labels have version {tree['version']}, but this lineseg reads {VERSION}; update lineseg")
     about = tree["recording"]
-    if about["frames"] != len(recording):
+    frames = recording.whole or len(recording)
+    if about["frames"] != frames:
         raise ValueError(
-            f"the labels belong to {about['name']} with {about['frames']} frames; {recording.name} has {len(recording)}"
+            f"the labels belong to {about['name']} with {about['frames']} frames; {recording.name} has {frames}"
         )
-    found = {}
+    found: Entries = {}
     for key, entry in tree["frames"].items():
         frame = int(key)
         lines = entry.get("lines")
@@ -184,13 +193,18 @@ def _labels_in(tree: Any, recording: Recording) -> Labels:
             str(entry.get("note", "")),
             int(entry["revision"]),
         )
-        beams = len(recording[frame]) if 0 <= frame < len(recording) else entry["beams"]
-        if entry["beams"] != beams:
-            raise ValueError(f"the labels of frame {frame} are for {entry['beams']} beams; the scan has {beams}")
-        labels = _clean(labels)
-        check_labels(labels, recording, frame)
-        found[frame] = labels
+        labels, beams = _clean(labels), int(entry["beams"])
+        if recording.has(frame) or not 0 <= frame < frames:
+            _check(labels, beams, recording, frame)
+        found[frame] = labels, beams
     return found
+
+
+def _check(labels: FrameLabels, beams: int, recording: Recording, frame: int) -> None:
+    there = len(recording[recording.position(frame)])
+    if recording.has(frame) and beams != there:
+        raise ValueError(f"the labels of frame {frame} are for {beams} beams; the scan has {there}")
+    check_labels(labels, recording, frame)
 
 
 def _clean(labels: FrameLabels) -> FrameLabels:
@@ -204,16 +218,15 @@ def _line(entry: dict[str, Any]) -> TrueLine:
     return TrueLine(int(entry["first"]), int(entry["last"]), (float(x1), float(y1)), (float(x2), float(y2)))
 
 
-def _text_of(labels: Labels, recording: Recording) -> str:
+def _text_of(entries: Entries, recording: Recording) -> str:
     """Readable JSON: one entry per frame, one line of text per true line."""
-    about = {"name": recording.name, "frames": len(recording)}
+    about = {"name": recording.name, "frames": recording.whole or len(recording)}
     lines = ["{", f'  "format": "{FORMAT}",', f'  "version": {VERSION},', f'  "recording": {_json(about)},']
-    entries = [_entry(frame, each, recording) for frame, each in sorted(labels.items())]
-    return "\n".join([*lines, '  "frames": {', ",\n".join(entries), "  }", "}", ""])
+    frames = [_entry(frame, labels, beams) for frame, (labels, beams) in sorted(entries.items())]
+    return "\n".join([*lines, '  "frames": {', ",\n".join(frames), "  }", "}", ""])
 
 
-def _entry(frame: int, labels: FrameLabels, recording: Recording) -> str:
-    beams = int(recording.offsets[frame + 1] - recording.offsets[frame])
+def _entry(frame: int, labels: FrameLabels, beams: int) -> str:
     head = {"revision": labels.revision, "beams": beams, "tags": labels.tags, "note": labels.note}
     if labels.lines is None:
         return f'    "{frame}": {_json(head)}'

@@ -88,9 +88,11 @@ def beams_between(first: int, last: int, beams: int) -> NDArray[np.intp]:
 
 def check_labels(labels: FrameLabels, recording: Recording, frame: int) -> None:
     """Raises ValueError if the labels do not fit this frame, for a missing beam or one on two lines."""
-    if not 0 <= frame < len(recording):
-        raise ValueError(f"frame {frame}: {recording.name} has the frames 0 to {len(recording) - 1}")
-    scan = recording[frame]
+    if not recording.has(frame):
+        frames = recording.whole or len(recording)
+        left_out = ", and not all of them were read" if recording.whole else ""
+        raise ValueError(f"frame {frame}: {recording.name} has the frames 0 to {frames - 1}{left_out}")
+    scan = recording[recording.position(frame)]
     taken = np.full(len(scan), -1)
     for number, line in enumerate(labels.lines or ()):
         where = f"frame {frame}, true line {number}: beams {line.first} to {line.last}"

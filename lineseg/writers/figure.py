@@ -43,7 +43,8 @@ def figure_title(recording: Recording, frame: int, method: str) -> str:
     """ "corridor.bag, frame 17 of 300, Region growing", with frames counted from 0."""
     if recording.pack is not None:
         return f"{recording.pack.recording}, frame {recording.pack.frame}, {method}"
-    return f"{recording.name}, frame {recording.number(frame)} of {len(recording)}, {method}"
+    frames = recording.whole or len(recording)
+    return f"{recording.name}, frame {recording.number(frame)} of {frames}, {method}"
 
 
 class _Place:

@@ -59,12 +59,16 @@ export class ScoredFrames {
     return survey.stride !== 1 || !samePlace(survey, state) || !sameParams(survey.params, state.params);
   }
 
-  /** The number of a frame in its file or source, from 0. @param {number} frame */
-  number = (frame) => (this.survey?.first ?? 0) + (this.survey?.every ?? 1) * frame;
+  /** The number in its file or source of the frame at a place in the survey, from 0. @param {number} place */
+  number = (place) => (this.survey?.first ?? 0) + (this.survey?.every ?? 1) * place;
+
+  /** @param {number} frame its number */
+  #place = (frame) => (frame - (this.survey?.first ?? 0)) / (this.survey?.every ?? 1);
 
   /** @param {number} frame "coverage 0.83" */
   words = (frame) => {
-    const value = this.survey && frame % this.survey.stride === 0 ? this.values[frame / this.survey.stride] : undefined;
+    const place = this.#place(frame);
+    const value = this.survey && place % this.survey.stride === 0 ? this.values[place / this.survey.stride] : undefined;
     return value === undefined || !this.chosen ? "" : `${this.chosen.label} ${format(value, this.chosen.unit)}`;
   };
 
@@ -72,7 +76,7 @@ export class ScoredFrames {
   summary = (frame) => {
     const survey = this.survey;
     if (!survey || !this.complete) return "";
-    const said = this.scores.map((what, k) => ({ what, value: columnOf(survey, k)[frame] }));
+    const said = this.scores.map((what, k) => ({ what, value: columnOf(survey, k)[this.#place(frame)] }));
     return said
       .filter(({ what, value }) => value !== undefined && what.name !== this.#score)
       .map(({ what, value }) => `${what.label} ${format(value, what.unit)}`)
@@ -103,8 +107,8 @@ export class ScoredFrames {
     this.#ranking ??= Uint32Array.from(known.keys()).sort(
       (one, other) => sign * (known[one] - known[other]) || one - other,
     );
-    this.#rank = this.#ranking[this.#rank] === frame ? clamp(this.#rank + by, 0, known.length - 1) : 0;
-    return this.#ranking[this.#rank];
+    this.#rank = this.#ranking[this.#rank] === this.#place(frame) ? clamp(this.#rank + by, 0, known.length - 1) : 0;
+    return this.number(this.#ranking[this.#rank]);
   }
 
   /** The next frame where A and B differ, starting again from the first after the last; null if there is none. @param {number} frame */
@@ -112,8 +116,8 @@ export class ScoredFrames {
     const at = this.scores.findIndex(({ name }) => name === "difference");
     const known = this.survey && this.complete ? columnOf(this.survey, at) : [];
     for (let k = 1; k <= known.length; k++) {
-      const next = (frame + k) % known.length;
-      if (known[next] > 0) return next;
+      const next = (this.#place(frame) + k) % known.length;
+      if (known[next] > 0) return this.number(next);
     }
     return null;
   }

@@ -34,7 +34,7 @@ export function mountStatus(bar, text, live) {
   return {
     /** @param {State} state */
     setState(state) {
-      const { segments, covered, valid, beams, extractionUs, latencyMs, frame, first, every } = state;
+      const { segments, covered, valid, beams, extractionUs, latencyMs, frame } = state;
       figures.segments.set(String(segments.length), text.segments(segments.length));
       figures.coverage.set(valid ? `${((100 * covered) / valid).toFixed(1)} %` : "–", text.coverage);
       figures.extraction.set(
@@ -45,7 +45,7 @@ export function mountStatus(bar, text, live) {
       coverageHelp = text.coverageHelp(covered, valid, beams);
       setText(format, [state.format, state.frameId, text.beams(beams)].filter(Boolean).join(" · "));
       clearTimeout(timer);
-      timer = setTimeout(() => setText(spoken, text.announce(segments.length, first + every * frame)), ANNOUNCE_MS);
+      timer = setTimeout(() => setText(spoken, text.announce(segments.length, frame)), ANNOUNCE_MS);
     },
     /** @param {"connecting" | "open" | "lost"} now */
     setConnection(now) {

@@ -10,7 +10,11 @@ import { DARK, fill, LIGHT, pixelOf, SHADES, shadesBetween, share, widened, wors
 /** @typedef {import("../wire.js").Score} Score */
 /** @typedef {import("../wire.js").Survey} Survey */
 /** @typedef {import("./shades.js").Scale} Scale */
+/** @typedef {import("./times.js").Gap} Gap */
 /** @typedef {typeof import("../text/page.js").pageText.timeline.strip} Text */
+
+// How near the pointer must be to the mark of a gap.
+const NEAR_PX = 4;
 
 export class Strip {
   frames = new ScoredFrames();
@@ -25,6 +29,10 @@ export class Strip {
   #hovered = -1;
   #painting = 0;
   #canvas = h("canvas", { class: "strip", height: 1, "aria-hidden": "true" });
+  /** Where the stamps have gaps. @type {Gap[]} */
+  #gaps = [];
+  #count = 0;
+  #marks = h("canvas", { class: "strip-gaps", height: 1, "aria-hidden": "true" });
   #note = h("div", { class: "strip-note muted", role: "status", hidden: true });
   #hint = h("div", { class: "strip-hint", hidden: true, "aria-hidden": "true" });
   #ramp = h("canvas", { class: "legend-ramp", width: SHADES, height: 1 });
@@ -52,10 +60,11 @@ export class Strip {
     tooltip(select, () => [this.frames.chosen?.help, worse()].filter(Boolean).join("\n"));
     tooltip(legend, () => [worse(), text.scale, text.refit].filter(Boolean).join("\n"));
     new ResizeObserver(() => this.#paintSoon()).observe(this.#canvas);
+    new ResizeObserver(() => this.#paintGaps()).observe(this.#marks);
     this.#select = select;
     this.#legend = legend;
     /** The element for the track, behind the scrubber. */
-    this.backdrop = [this.#canvas, this.#note, this.#hint];
+    this.backdrop = [this.#canvas, this.#marks, this.#note, this.#hint];
     /** The element beside the track. */
     this.chooser = h("span", { class: "strip-chooser" }, select, legend);
   }
@@ -85,6 +94,7 @@ export class Strip {
     const wanted = shadesBetween(dark ? DARK : LIGHT);
     if (score === this.frames.score && wanted === this.#shades) return;
     this.#shades = wanted;
+    requestAnimationFrame(() => this.#paintGaps());
     this.frames.score = this.#select.value = score;
     this.#paintSoon();
   }
@@ -159,20 +169,48 @@ export class Strip {
     this.#canvas.classList.toggle("stale", this.frames.stale);
   }
 
+  /** How long no scan came, if a gap is marked here; the longest of several. @param {number} x @param {number} width [px] */
+  #gapAt(x, width) {
+    const near = this.#gaps.filter((gap) => Math.abs(this.#shareOf(gap) * width - x) <= NEAR_PX);
+    const longest = near.sort((one, other) => other.seconds - one.seconds)[0];
+    return longest ? this.#text.gap(longest.seconds, this.frames.number(longest.place)) : "";
+  }
+
+  /** A gap lies between two frames. @param {Gap} gap */
+  #shareOf({ place }) {
+    return (place - 0.5) / (this.#count - 1);
+  }
+
+  /** @param {Gap[]} gaps @param {number} frames */
+  setGaps(gaps, frames) {
+    [this.#gaps, this.#count] = [gaps, frames];
+    this.#paintGaps();
+  }
+
+  #paintGaps() {
+    const marks = this.#marks;
+    const [width, context] = [Math.max(1, marks.clientWidth), marks.getContext("2d")];
+    marks.width = width;
+    if (!context) return;
+    context.fillStyle = getComputedStyle(marks).color;
+    for (const gap of this.#gaps) context.fillRect(Math.round(this.#shareOf(gap) * width) - 1, 0, 2, marks.height);
+  }
+
   /** @param {PointerEvent} event */
   #hover({ clientX }) {
-    const { left, width } = this.#canvas.getBoundingClientRect();
+    const { left, width } = this.#marks.getBoundingClientRect();
     const x = clientX - left;
     const shown = this.#shown;
     const usable = shown.length && this.frames.survey?.message === null;
     this.#hovered = usable ? pixelOf(x / width, shown.length) : -1;
-    const frame = this.#hovered < 0 ? -1 : shown[this.#hovered];
-    const said = frame < 0 ? "" : this.frames.words(frame);
+    const frame = this.#hovered < 0 ? -1 : this.frames.number(shown[this.#hovered]);
+    const words = frame < 0 ? "" : this.frames.words(frame);
+    const said = [words && this.#text.hint(frame, words), this.#gapAt(x, width)].filter(Boolean).join(" · ");
     this.#hint.hidden = said === "";
     if (!said) return;
-    setText(this.#hint, this.#text.hint(this.frames.number(frame), said));
+    setText(this.#hint, said);
     const half = this.#hint.offsetWidth / 2;
-    const { offsetLeft, clientWidth } = this.#canvas;
+    const { offsetLeft, clientWidth } = this.#marks;
     this.#hint.style.left = `${Math.round(clamp(x + offsetLeft, half, offsetLeft + clientWidth - half))}px`;
   }
 }

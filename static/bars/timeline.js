@@ -1,24 +1,27 @@
 // @ts-check
-import { Player } from "../widgets/player.js";
-import { Strip } from "./strip.js";
 import { h, setText } from "../widgets/dom.js";
 import { iconButton } from "../widgets/icon.js";
 import { createNumberField } from "../widgets/number.js";
 import { clamp } from "../widgets/scale.js";
 import { createSlider } from "../widgets/slider.js";
-import { createSpeed } from "../widgets/speed.js";
+import { toast } from "../widgets/toast.js";
 import { tooltip } from "../widgets/tooltip.js";
+import { fieldOf } from "../view/fields.js";
+import { Playback } from "./playback.js";
+import { Strip } from "./strip.js";
+import { STEADY, Times } from "./times.js";
+import { createWhen } from "./when.js";
 
 /** @typedef {import("../wire.js").State} State */
+/** @typedef {import("../wire.js").View["speed"]} Speed */
 
-const USUAL_SPEED = 10;
-// From 2000 to 2100 [s since 1970].
-const CENTURY = [946_684_800, 4_102_444_800];
+const SPEEDS = /** @type {Speed[]} */ (fieldOf("speed").choices);
 
 /** @typedef {typeof import("../text/page.js").pageText.timeline} Text */
 /**
  * @typedef {object} Handlers
  * @property {(frame: number) => void} onFrame
+ * @property {(speed: Speed) => void} onSpeed
  * @property {(score: string) => void} onScore
  * @property {() => void} onScores the values of the strip changed
  * @property {(live: boolean) => void} onFollow a live recording is followed, or no longer
@@ -26,21 +29,24 @@ const CENTURY = [946_684_800, 4_102_444_800];
  * @property {HTMLElement} pill shows whether it is followed
  */
 
-/** Frames of the recording: play, speed, number, scrubber over the strip of scores, stamp. */
+/** Frames of the recording: play, speed, number, scrubber over the strip of scores, time. A place counts from 0 without steps. */
 export class Timeline {
   #frame = 0;
   #frames = 0;
   /** Number of the first frame in the file or source, and the step to the next. */
   #first = 0;
   #every = 1;
-  /** When the scan was taken, if its stamp says so. */
-  #clock = "";
-  /** Whether the live recording is followed; null if the recording is not live. @type {boolean | null} */
-  #live = null;
+  #times = new Times(0, null);
+  /** The last message about times. @type {import("../wire.js").Times | null} */
+  #told = null;
+  /** The one that is in use. @type {import("../wire.js").Times | null} */
+  #used = null;
+  /** @type {State | null} */
+  #state = null;
   #bar;
   #text;
   #handlers;
-  #player;
+  #playback;
   #strip;
   #controls;
 
@@ -49,38 +55,36 @@ export class Timeline {
     this.#bar = bar;
     this.#text = text;
     this.#handlers = handlers;
-    this.#player = new Player(USUAL_SPEED, {
+    this.#playback = new Playback({
       ready: handlers.settled,
-      atEnd: () => this.#frame >= this.#frames - 1,
-      rewind: () => this.#go(0),
-      next: () => this.#go(this.#frame + 1),
+      place: () => this.#place,
+      last: () => this.#frames - 1,
+      after: (from, seconds) => this.#times.after(from, seconds),
+      show: (place) => this.#playTo(place),
       onState: () => this.#showPlay(),
     });
     this.#strip = new Strip(text.strip, { onScore: handlers.onScore, onChange: handlers.onScores });
     this.#controls = this.#createControls();
-    const { play, speed, number, total, slider, stamp } = this.#controls;
+    const { play, speed, number, total, slider, when } = this.#controls;
     const track = h("div", { class: "track" }, ...this.#strip.backdrop, slider.element);
     this.#strip.watch(track);
     const counter = h("span", { class: "counter" }, number.element, total, number.error);
-    bar.append(play, handlers.pill, speed, counter, track, this.#strip.chooser, stamp);
+    bar.append(play, handlers.pill, speed, counter, track, this.#strip.chooser, when.element);
     bar.setAttribute("aria-label", text.label);
   }
 
   #createControls() {
     const text = this.#text;
-    const speed = createSpeed(text, USUAL_SPEED, (perSecond) => this.#player.setSpeed(perSecond));
     const slider = createSlider({
       label: text.scrubber,
       onPlace: (place) => this.#go(this.#strip.snap(Math.round(place * Math.max(0, this.#frames - 1)))),
       onSteps: (steps) => this.move(steps),
     });
     // A click on the thumb itself moves nothing, but the pixel may show another frame.
-    slider.element.addEventListener("click", () => this.#go(this.#strip.snap(this.#frame)));
-    const stamp = h("span", { class: "stamp" });
-    tooltip(stamp, () => text.stamp(this.#clock));
+    slider.element.addEventListener("click", () => this.#go(this.#strip.snap(this.#place)));
     return {
       play: iconButton("play", text.play, () => this.toggle()),
-      speed,
+      speed: this.#createSpeed(),
       number: createNumberField({
         label: text.frame,
         className: "frame-number",
@@ -88,8 +92,23 @@ export class Timeline {
       }),
       total: h("span", { class: "of" }),
       slider,
-      stamp,
+      when: createWhen(text.when),
     };
+  }
+
+  #createSpeed() {
+    const text = this.#text;
+    const select = h(
+      "select",
+      {
+        class: "select",
+        "aria-label": text.speed,
+        onchange: () => this.#handlers.onSpeed(/** @type {Speed} */ (select.value)),
+      },
+      ...SPEEDS.map((speed) => h("option", { value: speed }, text.times(Number(speed)))),
+    );
+    tooltip(select, () => (this.#times.real ? text.realTime : text.steady(STEADY)));
+    return select;
   }
 
   /** @param {string} typed @returns {string | null} why it is refused */
@@ -101,40 +120,65 @@ export class Timeline {
     return null;
   }
 
-  /** @param {number} frame */
-  #number(frame) {
-    return this.#first + this.#every * frame;
+  /** The number of the frame at a place. @param {number} place */
+  #number(place) {
+    return this.#first + this.#every * place;
   }
 
-  /** @param {number} wanted */
-  #go(wanted) {
-    const next = clamp(wanted, 0, Math.max(0, this.#frames - 1));
-    if (next === this.#frame) return;
-    this.#frame = next;
-    this.#show();
-    this.#handlers.onFrame(next);
+  get #place() {
+    return clamp(Math.round((this.#frame - this.#first) / this.#every), 0, Math.max(0, this.#frames - 1));
+  }
+
+  /** Moves by hand. @param {number} place */
+  #go(place) {
+    this.#show(place);
+    this.#playback.restart();
+  }
+
+  /** @param {number} place */
+  #playTo(place) {
+    const gap = this.#times.skipped(this.#place, place);
+    if (gap) toast(this.#text.skipped(gap));
+    this.#show(place);
+  }
+
+  /** @param {number} place */
+  #show(place) {
+    const frame = this.#number(clamp(place, 0, Math.max(0, this.#frames - 1)));
+    if (frame === this.#frame) return;
+    this.#frame = frame;
+    this.#paint();
+    this.#handlers.onFrame(frame);
   }
 
   /** @param {number} steps ±Infinity: to the ends */
   move(steps) {
-    this.#player.stop();
-    if (this.#live === false && steps === Infinity) this.#handlers.onFollow(true);
-    else this.#go(this.#frame + steps);
+    this.#playback.stop();
+    if (this.#state?.live === false && steps === Infinity) this.#handlers.onFollow(true);
+    else this.#go(this.#place + steps);
   }
 
   /** Plays or pauses. At the end of a paused live recording, follows it again. */
   toggle() {
-    const atEnd = !this.#player.playing && this.#frame >= this.#frames - 1;
-    if (this.#live) this.#handlers.onFollow(false);
-    else if (this.#live === false && atEnd) this.#handlers.onFollow(true);
-    else if (this.#frames > 1) this.#player.toggle();
+    const live = this.#state?.live ?? null;
+    const atEnd = !this.#playback.playing && this.#place >= this.#frames - 1;
+    if (live) this.#handlers.onFollow(false);
+    else if (live === false && atEnd) this.#handlers.onFollow(true);
+    else if (this.#frames > 1) this.#playback.toggle();
+  }
+
+  /** Chooses the next slower or faster speed. @param {1 | -1} by */
+  pace(by) {
+    const { speed } = this.#controls;
+    const next = SPEEDS[SPEEDS.indexOf(/** @type {Speed} */ (speed.value)) + by];
+    if (next && !speed.disabled) this.#handlers.onSpeed(next);
   }
 
   /** Goes to the next or previous frame in the order of the score, worst first. @param {1 | -1} by */
   doubtful(by) {
-    this.#player.stop();
+    this.#playback.stop();
     const next = this.#strip.frames.doubtful(this.#frame, by);
-    if (next !== null) this.#go(next);
+    if (next !== null) this.#handlers.onFrame(next);
   }
 
   /** The next frame where A and B differ; null if there is none. */
@@ -148,19 +192,21 @@ export class Timeline {
   }
 
   #showPlay() {
-    const on = this.#player.playing || this.#live === true;
+    const on = this.#playback.playing || this.#state?.live === true;
     this.#controls.play.show(on ? "pause" : "play", on ? this.#text.pause : this.#text.play);
   }
 
-  #show() {
+  #paint() {
     const frame = this.#frame;
-    const words = String(this.#number(frame));
-    this.#controls.number.set(words);
+    this.#controls.number.set(String(frame));
+    const gap = this.#times.gaps.find(({ place }) => place === this.#place);
     const said = [
-      `${words} ${this.#text.of(this.#first, this.#number(this.#frames - 1))}`,
+      `${frame} ${this.#text.of(this.#first, this.#number(this.#frames - 1))}`,
       this.#strip.frames.words(frame),
+      gap ? this.#text.strip.gap(gap.seconds, frame) : "",
     ];
-    this.#controls.slider.set(this.#frames > 1 ? frame / (this.#frames - 1) : 0, said.filter(Boolean).join(", "));
+    const share = this.#frames > 1 ? this.#place / (this.#frames - 1) : 0;
+    this.#controls.slider.set(share, said.filter(Boolean).join(", "));
   }
 
   /** @param {import("../wire.js").Score[]} scores */
@@ -171,38 +217,51 @@ export class Timeline {
   /** @param {import("../wire.js").Survey} survey */
   setSurvey(survey) {
     this.#strip.setSurvey(survey);
-    this.#show();
+    this.#paint();
   }
 
   /** @param {Readonly<import("../wire.js").View>} view */
-  setView({ frame, score, dark }) {
+  setView({ frame, score, dark, speed }) {
+    const moved = frame !== this.#frame;
     this.#frame = frame;
-    this.#show();
+    if (moved) this.#playback.restart();
+    this.#playback.speed = Number(speed);
+    this.#controls.speed.value = speed;
+    this.#paint();
     this.#strip.show(score, dark);
+  }
+
+  /** @param {import("../wire.js").Times} told */
+  setTimes(told) {
+    this.#told = told;
+  }
+
+  /** Uses the times that belong to the recording on the screen. @param {string} place @param {number} frames */
+  #retime(place, frames) {
+    const told = this.#told?.place === place && (this.#told.since?.length ?? frames) === frames ? this.#told : null;
+    if (told === this.#used && frames === this.#times.frames) return;
+    this.#used = told;
+    this.#times = new Times(frames, told?.since ?? null, told?.why);
+    this.#strip.setGaps(this.#times.gaps, frames);
+    this.#playback.restart();
   }
 
   /** @param {State} state */
   setState(state) {
-    const { frames, first, every, live } = state;
-    [this.#frames, this.#first, this.#every, this.#live] = [frames, first, every, live];
-    if (live) this.#player.stop();
+    const { frames, first, every, live, place } = state;
+    [this.#frames, this.#first, this.#every, this.#state] = [frames, first, every, state];
+    this.#retime(place, frames);
+    if (live) this.#playback.stop();
     this.#showPlay();
     this.#bar.classList.toggle("single", frames < 2);
     this.#strip.setState(state);
-    const { play, speed, number, slider, total, stamp } = this.#controls;
+    const { play, speed, number, slider, total, when } = this.#controls;
     for (const control of [play, speed, number.element, slider.element]) control.disabled = frames < 2;
     play.disabled = frames < 2 && live === null;
     const last = this.#number(frames - 1);
     setText(total, this.#text.of(first, last));
     number.element.style.width = `${String(last).length + 2}ch`;
-    setText(stamp, state.since === null ? "" : `${state.since.toFixed(3)} s`);
-    this.#clock = clockOf(state);
-    this.#show();
+    when.show(state, this.#times);
+    this.#paint();
   }
-}
-
-/** The date and time of a stamp of this century, "" for others. @param {State} state */
-function clockOf({ stamp, account }) {
-  if (stamp === null || account?.believable === false || stamp < CENTURY[0] || stamp >= CENTURY[1]) return "";
-  return new Date(1000 * stamp).toISOString().replace("T", " ").replace("Z", " UTC");
 }

@@ -29,7 +29,7 @@ class Filter {
   #handlers;
   /** Labels by frame. @type {Record<string, Brief>} */ #said = {};
   #key = "";
-  #frames = 0;
+  #frames = { frames: 0, first: 0, every: 1 };
   #timer = 0;
   #field;
   #select;
@@ -88,7 +88,8 @@ class Filter {
   /** Frames whose words are unknown and may be needed. */
   unknown() {
     if (!this.searching) return [];
-    return [...Array(this.#frames).keys()].filter(
+    const { frames, first, every } = this.#frames;
+    return Array.from({ length: frames }, (_, k) => first + every * k).filter(
       (frame) => this.#handlers.words(frame) === undefined && this.#chosen(this.#said[frame]),
     );
   }
@@ -104,7 +105,7 @@ class Filter {
   tell() {
     const missing = this.unknown().length;
     this.#searching.hidden = missing === 0;
-    setText(this.#searching, this.#text.searching(this.#frames - missing, this.#frames));
+    setText(this.#searching, this.#text.searching(this.#frames.frames - missing, this.#frames.frames));
   }
 
   /** Tags and kinds of frames, with their number. */
@@ -141,8 +142,8 @@ class Filter {
   }
 
   /** @param {State} state */
-  setState({ mode, frames, recording, readAs, place, labels }) {
-    this.#frames = frames;
+  setState({ mode, frames, first, every, recording, readAs, place, labels }) {
+    this.#frames = { frames, first, every };
     const key = `${place} ${labels?.stamp}`;
     if (mode !== "inspect" || key === this.#key) return;
     this.#key = key;

@@ -5,7 +5,6 @@ import { clamp } from "../widgets/scale.js";
 
 /**
  * @typedef {object} Handlers
- * @property {(frame: number) => number} number the number of a frame
  * @property {(frame: number) => string} value its score, in words
  * @property {(frame: number) => string} words what looks wrong in it
  * @property {() => void} onRows other frames became visible
@@ -84,14 +83,14 @@ export class FrameList {
 
   /** @param {HTMLElement} row @param {number} place */
   #fill(row, place) {
-    const { number, value, words } = this.#handlers;
+    const { value, words } = this.#handlers;
     const frame = this.order[place];
-    const parts = [String(number(frame)), value(frame), words(frame)];
+    const parts = [String(frame), value(frame), words(frame)];
     row.id = `frame-${frame}`;
     row.dataset.frame = String(frame);
     row.style.top = `${place * ROW_PX}px`;
     row.setAttribute("aria-selected", String(frame === this.#frame));
-    row.setAttribute("aria-label", this.#text.row(number(frame), parts[1], parts[2]));
+    row.setAttribute("aria-label", this.#text.row(frame, parts[1], parts[2]));
     row.title = parts[2];
     for (const [k, part] of parts.entries()) setText(row.children[k], part);
   }

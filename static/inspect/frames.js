@@ -12,7 +12,7 @@ import { FrameList } from "./frame_list.js";
  * @typedef {object} Handlers
  * @property {(frame: number) => void} onFrame
  * @property {(score: string) => void} onScore
- * @property {(frame: number) => number} number the number of a frame
+ * @property {(place: number) => number} number the number of the frame at a place
  * @property {(frame: number) => string} value its score, in words
  * @property {(frame: number) => string} words what looks wrong in it
  * @property {(frame: number) => boolean} passes whether it is listed
@@ -29,6 +29,7 @@ export function createFrames(text, handlers) {
 class Frames {
   #text;
   #passes;
+  #number;
   #onFrame;
   /** @type {Scored | null} */ #scored = null;
   /** @type {Score[]} */ #scores = [];
@@ -47,6 +48,7 @@ class Frames {
   constructor(text, { onFrame, onScore, number, value, words, passes, onRows, extra, filter }) {
     this.#text = text;
     this.#passes = passes;
+    this.#number = number;
     this.#onFrame = onFrame;
     this.#extra = extra;
     const select = h("select", { class: "select", "aria-label": text.score, onchange: () => onScore(select.value) });
@@ -57,7 +59,7 @@ class Frames {
     const to = this.#limit(text.to, (typed) => {
       this.#high = typed ?? Infinity;
     });
-    this.#list = new FrameList(text, { number, value, words, onRows, onTake: (frame) => this.#go(frame) });
+    this.#list = new FrameList(text, { value, words, onRows, onTake: (frame) => this.#go(frame) });
     const [fromLabel, toLabel] = [h("label", {}, text.from), h("label", {}, text.to)];
     this.element = h(
       "div",
@@ -98,8 +100,9 @@ class Frames {
     const known = this.#scored?.complete ? this.#scored.values : new Float32Array(0);
     const sign = what?.worse === "lower" ? 1 : -1;
     const order = [...known.keys()]
-      .filter((k) => !(known[k] < this.#low || known[k] > this.#high) && this.#passes(k))
-      .sort((one, other) => sign * (known[one] - known[other]) || one - other);
+      .filter((k) => !(known[k] < this.#low || known[k] > this.#high) && this.#passes(this.#number(k)))
+      .sort((one, other) => sign * (known[one] - known[other]) || one - other)
+      .map(this.#number);
     setText(this.#help, what?.help ?? "");
     setText(this.#count, known.length ? this.#text.count(order.length, known.length) : "");
     setText(this.#note, known.length ? this.#text.none : (this.#scored?.message ?? this.#text.pending));

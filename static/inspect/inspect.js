@@ -26,7 +26,7 @@ export function createInspect(page, text, { timeline, onTags }) {
   const frames = createFrames(text.frames, {
     onFrame: page.goToFrame,
     onScore: (score) => page.change({ score }),
-    number: (frame) => timeline().scored.number(frame),
+    number: (place) => timeline().scored.number(place),
     value: (frame) => timeline().scored.words(frame),
     words: said,
     passes: (frame) => filter.passes(frame),

@@ -14,7 +14,7 @@ import { Tools } from "./tools.js";
 /** @typedef {import("./lines.js").Line} Line */
 /** @typedef {import("./book.js").Said} Said */
 /** @typedef {typeof import("../text/label.js").labelText} Text */
-/** number: what a frame is called. @typedef {{onFrame: (frame: number) => void, number: (frame: number) => number}} Handlers */
+/** @typedef {{onFrame: (frame: number) => void}} Handlers */
 
 /**
  * @param {HTMLElement} stage
@@ -49,7 +49,7 @@ class Labels {
    * @param {Text} text
    * @param {Handlers} handlers
    */
-  constructor(stage, view, text, { onFrame, number }) {
+  constructor(stage, view, text, { onFrame }) {
     this.#text = text;
     this.#onFrame = onFrame;
     this.#overlay = new Overlay(stage, view, text.handle, {
@@ -65,7 +65,6 @@ class Labels {
     this.#status = createStatus(text.status, {
       onRetry: () => this.#keep.retry(),
       onMine: () => this.#keep.insist(),
-      number,
     });
     this.#tools = new Tools(text, {
       undo: () => this.undo(),

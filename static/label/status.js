@@ -6,9 +6,9 @@ import { h, setText } from "../widgets/dom.js";
 
 /**
  * @param {typeof import("../text/label.js").labelText.status} text
- * @param {{onRetry: () => void, onMine: () => void, number: (frame: number) => number}} handlers
+ * @param {{onRetry: () => void, onMine: () => void}} handlers
  */
-export function createStatus(text, { onRetry, onMine, number }) {
+export function createStatus(text, { onRetry, onMine }) {
   const words = h("span");
   const retry = h("button", { type: "button", class: "button", onclick: onRetry, hidden: true }, text.retry);
   const element = h("div", { class: "labels-status", role: "status" }, words, retry);
@@ -39,7 +39,7 @@ export function createStatus(text, { onRetry, onMine, number }) {
           : labels.trouble
             ? text.trouble(labels.trouble)
             : conflict !== null
-              ? text.conflict(number(conflict))
+              ? text.conflict(conflict)
               : "";
       trouble.hidden = !wrong;
       setText(why, wrong);

@@ -1,6 +1,14 @@
 // @ts-check
 // Words that all modes share: bars, stage, thresholds, replay, help.
 
+/** "2.5 s", "45 s", "12 min", "3.2 h", "15 days" @param {number} seconds */
+function secondsOf(seconds) {
+  if (seconds < 120) return `${seconds.toFixed(seconds < 10 ? 1 : 0)} s`;
+  if (seconds < 7200) return `${Math.round(seconds / 60)} min`;
+  if (seconds < 172_800) return `${(seconds / 3600).toFixed(1)} h`;
+  return `${Math.round(seconds / 86_400).toLocaleString("en")} days`;
+}
+
 export const pageText = {
   appName: "lineseg",
   noAnswer: "The server did not answer. Try again.",
@@ -170,13 +178,23 @@ export const pageText = {
     label: "Timeline",
     play: "Play (Space)",
     pause: "Pause (Space)",
-    speed: "Frames per second",
-    perSecond: (/** @type {number} */ n) => `${n} fps`,
+    speed: "Speed",
+    times: (/** @type {number} */ n) => `×${n === 0.5 ? "½" : n}`,
+    realTime:
+      "×1 is real time, as the stamps say. Frames that cannot be drawn in time are left out. Slower, faster: , .",
+    steady: (/** @type {number} */ n) =>
+      `×1 is ${n} frames per second, because the real times are not known. Slower, faster: , .`,
+    skipped: (/** @type {number} */ seconds) => `Skipped ${secondsOf(seconds)} without scans`,
     frame: "Frame",
     of: (/** @type {number} */ first, /** @type {number} */ last) =>
       `of ${first.toLocaleString("en")}–${last.toLocaleString("en")}`,
     scrubber: "Frame",
-    stamp: (/** @type {string} */ clock) => `Time since the first scan${clock ? `. Taken at ${clock}` : ""}`,
+    when: {
+      since: "Time since the first scan of the file.",
+      date: "Below: date and time of this scan, by its stamp.",
+      steady: "10 frames/s",
+      unknown: (/** @type {string} */ why) => `No times are shown: ${why}. ×1 plays 10 frames per second.`,
+    },
     range: (/** @type {number} */ least, /** @type {number} */ most) =>
       `Enter ${least.toLocaleString("en")} to ${most.toLocaleString("en")}.`,
     strip: {
@@ -193,6 +211,8 @@ export const pageText = {
       refit: "Click to fit it to the current values.",
       hint: (/** @type {number} */ frame, /** @type {string} */ words) =>
         `Frame ${frame.toLocaleString("en")}: ${words}`,
+      gap: (/** @type {number} */ seconds, /** @type {number} */ frame) =>
+        `${secondsOf(seconds)} without scans before frame ${frame.toLocaleString("en")}`,
     },
   },
   status: {
@@ -220,6 +240,7 @@ export const pageText = {
     ],
     keys: {
       play: "play or pause",
+      pace: "play slower, faster",
       step: "one frame back, forward; in a replay: one decision",
       ends: "first, last frame or decision",
       replay: "start or leave the replay of this frame",
