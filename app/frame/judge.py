@@ -77,7 +77,11 @@ def judged_recording(
 
     said: labels to use instead of the walls, for the frames that have true lines.
     """
-    known = None if said is None else {recording.position(frame): each for frame, each in said.items() if each.lines is not None}
+    known = (
+        None
+        if said is None
+        else {recording.position(frame): each for frame, each in said.items() if each.lines is not None}
+    )
     frames = np.arange(len(recording)) if known is None else np.array(list(known))
     stride = -(-len(frames) // MOST_FRAMES)
     chosen = frames[::stride]

@@ -196,6 +196,10 @@ export class Timeline {
     this.#controls.play.show(on ? "pause" : "play", on ? this.#text.pause : this.#text.play);
   }
 
+  #showWhen() {
+    if (this.#state) this.#controls.when.show(this.#state, this.#times.why, STEADY * this.#playback.speed);
+  }
+
   #paint() {
     const frame = this.#frame;
     this.#controls.number.set(String(frame));
@@ -227,6 +231,7 @@ export class Timeline {
     if (moved) this.#playback.restart();
     this.#playback.speed = Number(speed);
     this.#controls.speed.value = speed;
+    this.#showWhen();
     this.#paint();
     this.#strip.show(score, dark);
   }
@@ -255,13 +260,13 @@ export class Timeline {
     this.#showPlay();
     this.#bar.classList.toggle("single", frames < 2);
     this.#strip.setState(state);
-    const { play, speed, number, slider, total, when } = this.#controls;
+    const { play, speed, number, slider, total } = this.#controls;
     for (const control of [play, speed, number.element, slider.element]) control.disabled = frames < 2;
     play.disabled = frames < 2 && live === null;
     const last = this.#number(frames - 1);
     setText(total, this.#text.of(first, last));
     number.element.style.width = `${String(last).length + 2}ch`;
-    when.show(state, this.#times);
+    this.#showWhen();
     this.#paint();
   }
 }

@@ -18,14 +18,14 @@ export function createWhen(text) {
 
   return {
     element,
-    /** @param {import("../wire.js").State} state @param {import("./times.js").Times} times */
-    show({ since: time, stamp, frames }, times) {
+    /** @param {import("../wire.js").State} state @param {string} why times are not known, in a few words @param {number} perSecond frames, if they are not */
+    show({ since: time, stamp, frames }, why, perSecond) {
       const date = time === null ? "" : dateOf(stamp);
-      const why = frames > 1 ? times.why : "";
-      setText(since, time === null ? why : `${time.toFixed(3)} s`);
-      setText(clock, time === null ? why && text.steady : date);
+      const said = frames > 1 ? why : "";
+      setText(since, time === null ? said : `${time.toFixed(3)} s`);
+      setText(clock, time === null ? said && text.steady(perSecond) : date);
       element.classList.toggle("unknown", time === null);
-      help = time === null ? why && text.unknown(why) : [text.since, date && text.date].filter(Boolean).join(" ");
+      help = time === null ? said && text.unknown(said) : [text.since, date && text.date].filter(Boolean).join(" ");
     },
   };
 }

@@ -192,8 +192,8 @@ export const pageText = {
     when: {
       since: "Time since the first scan of the file.",
       date: "Below: date and time of this scan, by its stamp.",
-      steady: "10 frames/s",
-      unknown: (/** @type {string} */ why) => `No times are shown: ${why}. ×1 plays 10 frames per second.`,
+      steady: (/** @type {number} */ n) => `${n} frames/s`,
+      unknown: (/** @type {string} */ why) => `No times are shown: ${why}.`,
     },
     range: (/** @type {number} */ least, /** @type {number} */ most) =>
       `Enter ${least.toLocaleString("en")} to ${most.toLocaleString("en")}.`,

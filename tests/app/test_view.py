@@ -17,11 +17,12 @@ from lineseg.readers import Reading
 OF_EACH_OTHER = View(
     mode="inspect", recording="c", topic="/rear", reading=Reading(unit="mm"), frame=2, method="region-growing",
     params=Params(epsilon=0.05), step=1, selected=4, camera="free", score="gap", against=Against("region-growing",
-    Params()), weights=(("gap", 4.0),), reference="wall", layers=Layers(grid=False), live=False, dark=True,
+    Params()), weights=(("gap", 4.0),), reference="wall", layers=Layers(grid=False), speed="2", live=False,
+    dark=True,
 )  # fmt: skip
 LINK_KEYS = {
     "mode", "recording", "topic", "reading", "frame", "method", "step", "beam", "camera", "score", "against", "weights",
-    "reference", "layers", EACH,
+    "reference", "layers", "speed", EACH,
 }  # fmt: skip
 
 
@@ -114,7 +115,7 @@ def test_every_field_is_the_presenters_or_the_followers_own():
         own, shown = getattr(View(), name), getattr(OF_EACH_OTHER, name)
         assert getattr(follower, name) == (shown if view_fields(View)[name].mirrored else own)
     kept = {name for name, entry in view_fields(View).items() if not entry.mirrored}
-    assert kept == {"dark", "camera", "layers"}
+    assert kept == {"dark", "camera", "layers", "speed"}
 
 
 def test_every_field_has_a_key_in_the_link_or_says_that_it_has_none():

@@ -52,7 +52,7 @@ def test_a_selected_frame_stays_until_following_starts_again(peer: RosBridgePeer
         assert (still["frame"], still["frames"], still["first"], nearest(still)) == (0, 3, 0, pytest.approx(4.0))
         assert nearest(page.change(frame=1)) == pytest.approx(3.5)
         newest = page.change(live=True)
-        assert (newest["live"], newest["frame"], newest["first"]) == (True, 2, 3)
+        assert (newest["live"], newest["frame"], newest["first"]) == (True, 5, 3)
         assert nearest(newest) == pytest.approx(1.5)
         assert page.heard("survey", lambda m: m["first"] == 3)["frames"] == 3
 

@@ -230,3 +230,10 @@ def test_recording_leaves_no_thread(hallway: Recording, tmp_path: Path):
             time.sleep(0.05)
         counts.append(count)
     assert counts[-1] <= counts[0]
+
+
+def test_rows_have_the_numbers_of_the_file_if_frames_are_left_out(tmp_path: Path):
+    file = Path(__file__).parents[3] / "sample_scans" / "hallway.npz"
+    part, out = open_recording(file, frames="5:20", every_scan=5), tmp_path / "part.rrd"
+    save(Run(part, "hallway", "region-growing", Params(), range(3)), out)
+    assert [row["frame"] for row in rows_of(out, "/scores/segments")] == [5, 10, 15]

@@ -42,7 +42,7 @@ def test_posted_scans_become_a_live_recording(server: Address):
             answer = server.post("/api/scans/simulator", json=scan_message(wall(distance)))
         assert answer.json() == {"recording": "live:simulator", "kept": 3, "dropped": 1}
         last = page.heard("drawn", lambda m: m["state"]["first"] == 1)["state"]
-        assert (last["live"], last["frame"], nearest(last)) == (True, 2, pytest.approx(1.5, abs=1e-3))
+        assert (last["live"], last["frame"], nearest(last)) == (True, 3, pytest.approx(1.5, abs=1e-3))
 
 
 def test_a_socket_takes_scan_after_scan_and_names_what_is_not_one(server: Address):
