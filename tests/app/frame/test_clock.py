@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from lineseg_app.frame.clock import Clock
 
 from lineseg import Recording, Scan
-from lineseg_app.frame.clock import Clock
 
 
 def stamped(*stamps: float) -> Recording:
