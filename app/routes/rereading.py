@@ -12,13 +12,13 @@ from fastapi import FastAPI
 from pydantic import ValidationError
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
-from lineseg.readers import Cancelled, Reading
+from lineseg.readers import Cancelled, Reading, format_of
 
 from ..bounds import Count, Message, ReadingValues, RecordingId, sentence
 from ..frame.state import account_told
 from ..newest import Newest
 from ..shelf.library import Library
-from ..shelf.preview import format_of, named_in, preview
+from ..shelf.preview import named_in, preview
 from ..told.answers import Previewed
 from ..view import reread
 

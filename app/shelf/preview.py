@@ -12,13 +12,12 @@ from typing import Any
 import numpy as np
 
 from lineseg import Recording
-from lineseg.readers import READERS, Reading, open_recording
+from lineseg.readers import Reading, format_of, open_recording
 from lineseg.readers.reading import TEXT_FORMATS
 
 from .library import Library
 
 MOST_SCANS, MOST_POINTS = 4, 800
-HEAD_BYTES = 1 << 16
 # Of a longer text only this much is read, so that a field can be tried out while typing.
 MOST_TEXT = 1 << 20
 NAMED = re.compile(r"--([a-z][a-z-]+)|\b([a-z]+(?:_[a-z]+)+)\b")
@@ -47,15 +46,6 @@ def preview(library: Library, id: str, reading: Reading, wanted: Callable[[], bo
         with path.open("rb") as file:
             begin.write_bytes(file.read(MOST_TEXT).rpartition(b"\n")[0] + b"\n")
         return Preview(open_recording(begin, reading), False)
-
-
-def format_of(path: Path) -> str:
-    """The format of a file by its first bytes, also of one that cannot be read; "" if it is not known."""
-    if not path.is_file():
-        return ""
-    with path.open("rb") as file:
-        head = file.read(HEAD_BYTES)
-    return next((reader.format for reader in READERS if reader.recognises(head)), "")
 
 
 def named_in(sentence: str) -> list[str]:

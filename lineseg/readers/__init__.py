@@ -32,8 +32,8 @@ from .text import Text
 from .wrapping import unwrapped
 
 __all__ = [
-    "READERS", "Account", "Cancelled", "Guess", "Notice", "Progress", "Reading", "Skipped", "open_recording",
-    "save_npz",
+    "READERS", "Account", "Cancelled", "Guess", "Notice", "Progress", "Reading", "Skipped", "format_of",
+    "open_recording", "save_npz",
 ]  # fmt: skip
 
 HEAD_BYTES = 1 << 16
@@ -114,13 +114,22 @@ def _reader(source: Source, head: bytes) -> type[Reader]:
     expected = f"; a {by_suffix.format} has {by_suffix.expects}" if by_suffix else ""
     if not head.strip():
         raise ValueError(f"{source.name} is empty{expected}.")
-    for reader in READERS:
-        if reader.recognises(head):
-            return CarmenLog if reader is Text and by_suffix is CarmenLog and not _has_numbers(head) else reader
+    if (reader := _recognised(head)) is not None:
+        return CarmenLog if reader is Text and by_suffix is CarmenLog and not _has_numbers(head) else reader
     formats = ", ".join(reader.format for reader in READERS)
     raise ValueError(
         f"{source.name} begins with {head[:8]!r}, which is not a known format{expected}. Known formats: {formats}."
     )
+
+
+def format_of(path: Path) -> str:
+    """The format of a file by its first bytes, also of one that cannot be read; "" if it is not known."""
+    reader = _recognised(_head(path)) if path.is_file() else None
+    return "" if reader is None else reader.format
+
+
+def _recognised(head: bytes) -> type[Reader] | None:
+    return next((reader for reader in READERS if reader.recognises(head)), None)
 
 
 def _has_numbers(head: bytes) -> bool:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import IO
+from typing import IO, cast
 
 PIECE = 1 << 20
 # Scans compress to a tenth, rarely to a hundredth; what grows more was made to do harm.
@@ -45,11 +45,23 @@ def expand(
             tell(done)
 
 
-def unzstd(data: bytes, most: int = MOST_MESSAGE) -> bytes:
-    """A message expanded from zstd. Raises TooLargeError if it would have more than `most` bytes."""
+def zstd_file(raw: IO[bytes]) -> IO[bytes]:
+    """A file opened in binary mode, unpacked from zstd while it is read."""
     from rosbags.rosbag2.reader import zstd
 
-    unpacked = zstd.ZstdDecompressor().decompress(data, max_length=most + 1)
+    return cast(IO[bytes], zstd.open(raw, "rb"))
+
+
+def unzstd(data: bytes, most: int) -> bytes:
+    """The first `most` bytes of data packed with zstd; fewer if they break off."""
+    from rosbags.rosbag2.reader import zstd
+
+    return zstd.ZstdDecompressor().decompress(data, max_length=most)
+
+
+def unzstd_message(data: bytes, most: int = MOST_MESSAGE) -> bytes:
+    """A message expanded from zstd. Raises TooLargeError if it would have more than `most` bytes."""
+    unpacked = unzstd(data, most + 1)
     if len(unpacked) > most:
         raise TooLargeError(too_large("a message", most))
     return unpacked

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from .bounded import unzstd
+from .bounded import unzstd_message
 from .laser_scan import TYPES, LaserScan, decode_cdr, decode_json, decode_ros1
 
 ZSTD_MAGIC = b"\x28\xb5\x2f\xfd"
@@ -49,7 +49,7 @@ def decoder_of(type: str, encoding: str, schema: bytes, echo: int) -> Decoder:
 
 def unpacked(data: bytes) -> bytes:
     """A message, decompressed if necessary; CDR never begins like zstd."""
-    return unzstd(data) if data.startswith(ZSTD_MAGIC) else data
+    return unzstd_message(data) if data.startswith(ZSTD_MAGIC) else data
 
 
 def _object(data: bytes) -> Any:

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import BinaryIO, NamedTuple
 from zlib import crc32
 
-from .bounded import MOST_MESSAGE, TooLargeError, limit_of, too_large
+from .bounded import MOST_MESSAGE, TooLargeError, limit_of, too_large, unzstd
 
 MAGIC = b"\x89MCAP0\r\n"
 SCHEMA, CHANNEL, MESSAGE, CHUNK, MESSAGE_INDEX, DATA_END, FOOTER = 3, 4, 5, 6, 7, 15, 2
@@ -257,9 +257,7 @@ def _expand(compression: str, packed: bytes, size: int) -> bytes:
     if compression == "":
         return packed
     if compression == "zstd":
-        from rosbags.rosbag2.reader import zstd
-
-        return zstd.ZstdDecompressor().decompress(packed, max_length=size + 1)
+        return unzstd(packed, size + 1)
     if compression == "lz4":
         from lz4.frame import LZ4FrameDecompressor
 

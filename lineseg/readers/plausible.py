@@ -19,7 +19,10 @@ WRAPS = tuple(2.0**32 * scale for scale in (1.0, 1e-3, 1e-6, 1e-9))
 
 
 def noticed(recording: Recording, reading: Reading, recorded: bool) -> Iterator[Notice]:
-    """All notices of a recording in metres and radians; recorded: whether its recorder's times are known."""
+    """All notices of a recording in metres and radians; recorded: whether its recorder's times are known.
+
+    Stamps without a notice of the kind "stamps" can be times: they rise, and neither jump by years nor wrap.
+    """
     yield from _about_angles(recording, reading)
     yield from _about_size(recording, reading)
     ranges, inside = _sample(recording)

@@ -9,17 +9,18 @@ import tempfile
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
-from typing import IO, Protocol, cast
+from typing import Protocol
 from urllib.parse import quote
 
 from ..scan import Recording
 from .account import Notes
 from .bags import Stream, choose_streams, collect, cut_off, guarded, tell_cut
-from .bounded import MOST_MESSAGE, expand, limit_of
+from .bounded import MOST_MESSAGE, expand, limit_of, zstd_file
 from .decoders import Decoder
 from .folder import storage_files
 from .mcap_records import McapFile
 from .source import Reader, Source
+from .wrapping import tell_break
 
 SQLITE_MAGIC = b"SQLite format 3\0"
 MCAP_MAGIC = b"\x89MCAP"
@@ -83,7 +84,7 @@ def _read(source: Source, files: list[Path], format: str) -> Recording:
         storages: list[Storage] = []
         for file in files:
             with guarded(source, format, hint):
-                storages.append(stack.enter_context(_storage(file, stack)))
+                storages.append(stack.enter_context(_storage(file, stack, source.notes)))
         streams = [stream for storage in storages for stream in storage.streams]
         broken = next((storage.broken for storage in storages if storage.broken), "")
         if broken and not streams:
@@ -106,11 +107,11 @@ def _read(source: Source, files: list[Path], format: str) -> Recording:
 
 
 @contextmanager
-def _storage(file: Path, stack: ExitStack) -> Iterator[Storage]:
+def _storage(file: Path, stack: ExitStack, notes: Notes) -> Iterator[Storage]:
     with file.open("rb") as opened:
         magic = opened.read(16)
     if magic.startswith(ZSTD_MAGIC):
-        file = _unpack_file(file, stack)
+        file = _unpack_file(file, stack, notes)
         with file.open("rb") as opened:
             magic = opened.read(16)
     if magic.startswith(MCAP_MAGIC):
@@ -220,12 +221,11 @@ def _restrict(database: sqlite3.Connection, file: Path) -> None:
             raise ValueError(f"{file.name}: {name} is a {row[0]} of another kind; a bag has a plain table there.")
 
 
-def _unpack_file(file: Path, stack: ExitStack) -> Path:
+def _unpack_file(file: Path, stack: ExitStack, notes: Notes) -> Path:
     """An unpacked copy of a storage file that was compressed as a whole."""
-    from rosbags.rosbag2.reader import zstd
-
     folder = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="lineseg-")))
     unpacked = folder / file.name.removesuffix(".zstd")
-    with zstd.open(file, "rb") as packed:
-        expand(cast(IO[bytes], packed), unpacked, file.name, limit_of(file.stat().st_size))
+    with file.open("rb") as raw, zstd_file(raw) as packed:
+        why = expand(packed, unpacked, file.name, limit_of(file.stat().st_size))
+    tell_break(why, unpacked, file.name, "zstd", notes)
     return unpacked

@@ -13,7 +13,7 @@ from pathlib import Path, PurePosixPath
 from typing import IO, cast
 
 from .account import Notes
-from .bounded import expand, limit_of
+from .bounded import expand, limit_of, zstd_file
 
 GZIP_MAGIC, ZSTD_MAGIC, ZIP_MAGIC = b"\x1f\x8b", b"\x28\xb5\x2f\xfd", b"PK\x03\x04"
 UTF16_MARKS = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
@@ -68,19 +68,14 @@ def _stream(path: Path, head: bytes, name: str, stack: ExitStack, notes: Notes, 
     target = _target(path, stack, bare or "unpacked")
     kind = "gzip" if head.startswith(GZIP_MAGIC) else "zstd"
     with path.open("rb") as raw:
-        packed = cast(IO[bytes], gzip.GzipFile(fileobj=raw)) if kind == "gzip" else _zstd_file(raw)
+        packed = cast(IO[bytes], gzip.GzipFile(fileobj=raw)) if kind == "gzip" else zstd_file(raw)
         why = expand(packed, target, name, limit_of(size), lambda done: progress(raw.tell(), size))
-    _tell_break(why, target, name, kind, notes)
+    tell_break(why, target, name, kind, notes)
     return target
 
 
-def _zstd_file(raw: IO[bytes]) -> IO[bytes]:
-    from rosbags.rosbag2.reader import zstd
-
-    return cast(IO[bytes], zstd.open(raw, "rb"))
-
-
-def _tell_break(why: str, target: Path, name: str, kind: str, notes: Notes) -> None:
+def tell_break(why: str, target: Path, name: str, kind: str, notes: Notes) -> None:
+    """Notes why unpacking `target` broke off, if it did. Raises ValueError if nothing could be unpacked."""
     if why and not target.stat().st_size:
         raise ValueError(f"{name}: the {kind} data are incomplete or damaged ({why}); fetch the file again.")
     if why:
@@ -119,7 +114,7 @@ def _unzipped(path: Path, name: str, stack: ExitStack, notes: Notes, progress: P
                 why = expand(packed, target, f"{entry.filename} in {name}", limit_of(path.stat().st_size))
         except (zipfile.BadZipFile, NotImplementedError, RuntimeError, OSError) as error:
             raise ValueError(f"{name}: {entry.filename} cannot be unpacked ({str(error).rstrip('.')}).") from None
-        _tell_break(why, target, f"{entry.filename} in {name}", "zip", notes)
+        tell_break(why, target, f"{entry.filename} in {name}", "zip", notes)
     return folder if len(parts) > 1 else next(folder.iterdir())
 
 
