@@ -66,7 +66,7 @@ def detail(error: Exception) -> str:
 
 def choose_streams(source: Source, streams: list[Stream]) -> tuple[str, tuple[Topic, ...], list[Stream]]:
     """The topic to read, all laser topics, and the streams of the chosen one."""
-    laser = [stream for stream in streams if is_laser(stream.type, stream.encoding)]
+    laser = [stream for stream in streams if is_laser(stream.type, stream.encoding, stream.schema)]
     if not laser:
         others = ", ".join(sorted({f"{stream.topic} ({_short(stream.type)})" for stream in streams}))
         clouds = any(stream.type in POINT_CLOUDS for stream in streams)
@@ -110,7 +110,9 @@ def collect(
     source.progress(total, total)
     if not sweeps:
         source.notes.nothing_left()
-        raise ValueError(f"{source.name}: the topic {topic} has no messages; choose another topic.")
+        others = ", ".join(each.name for each in topics if each.scans)
+        way = f"choose one of {others}" if others else "no other topic of scans has any, so record it again"
+        raise ValueError(f"{source.name}: the topic {topic} has no messages; {way}.")
     recording = sweeps.recording(source, topic=topic, topics=topics, format=format)
     times = np.array(recorded)
     if (np.diff(times) < 0).any():

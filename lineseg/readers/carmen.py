@@ -109,8 +109,10 @@ def _with_view(source: Source, lines: list[Line], settings: dict[bytes, bytes], 
         (low, step), where = (-90.0, 180.0 / (beams - 1)), "the beams are spread over half a turn"
     text = f"{low:g}…{low + step * (beams - 1):g}°".replace("-", "−")
     why = f"{topic} lines do not say the field of view; {where}"
-    change = {"angle_min": round(-np.pi / 2, 6), "angle_increment": round(np.pi / (beams - 1), 8)}
-    source.notes.guess("angle_min", text, why, **change)
+    # The other of half a turn and three quarters, which most lasers have.
+    other = 270.0 if view is None and usual is None else 180.0
+    change = {"angle_min": -other / 2, "angle_increment": other / (beams - 1)}
+    source.notes.guess("angle_min", text, why, **{name: round(np.deg2rad(each), 8) for name, each in change.items()})
     low, step = np.deg2rad(low), np.deg2rad(step)
     return [line._replace(angle_min=low, angle_increment=step) for line in lines]
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import struct
 from collections.abc import Callable, Mapping
 from functools import partial
@@ -22,11 +23,17 @@ ENCODINGS = ("cdr", "ros1", "json", "protobuf")
 Decoder = Callable[[bytes], LaserScan]
 
 
-def is_laser(type: str, encoding: str = "cdr") -> bool:
-    """Whether messages of a type are scans. JSON has no fixed type names, so only the last part counts."""
-    known = type in (*TYPES, *MULTI_ECHO, *FOXGLOVE)
-    last = type.replace(".", "/").split("/")[-1]
-    return known or (encoding in ("json", "protobuf") and last == "LaserScan")
+def plain_type(type: str) -> str:
+    """A type as ROS writes it: sensor_msgs::msg::dds_::LaserScan_ of DDS is sensor_msgs/msg/LaserScan."""
+    return type.replace("::dds_::", "::").rstrip("_").replace("::", "/")
+
+
+def is_laser(type: str, encoding: str = "cdr", schema: bytes = b"") -> bool:
+    """Whether messages of a type are scans. JSON and protobuf have no fixed types: a name or a field tells."""
+    if encoding in ("json", "protobuf"):
+        last = re.split(r"[./:]", type)[-1].lower()
+        return last in ("laserscan", "lidarscan", "scan") or re.search(rb"\branges\b", schema) is not None
+    return type in (*TYPES, *MULTI_ECHO, *FOXGLOVE)
 
 
 def decoder_of(type: str, encoding: str, schema: bytes, echo: int) -> Decoder:

@@ -6,6 +6,7 @@ import csv
 import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from datetime import UTC, datetime
 from typing import NamedTuple
 
 import numpy as np
@@ -19,9 +20,25 @@ EITHER = re.compile(rb"[-+]?\d+(?:,\d+)?")
 PAIR = re.compile(
     rb"([A-Za-z_][\w ]*?)\s*[:=]\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(mm|cm|m|deg|rad)?(?![\w:])"
 )
-INNERMOST = re.compile(rb"([^\[\]()]*)[\[(]([^\[\]()]*)[\])]")
-MISSING = (b"", b"-", b"--", b"null", b"none", b"na", b"n/a", b"#n/a", b"nan")
+INNERMOST = re.compile(rb"([^\[\](){}]*)[\[({]([^\[\](){}]*)[\])}]")
+LIST = re.compile(
+    rb"[\w\s.:=,+-]*[\[({][\[({\s]*(?:[-+]?\.?(?:\d|nan|inf|None|True|False|float)[^:\"]*)?", re.IGNORECASE
+)
+WORDS = {
+    rb"float\(['\"]([-+\w]+)['\"]\)": rb"\1",
+    rb"\b(?:np|numpy|math)\.": b"",
+    rb"\bTrue\b": b"1",
+    rb"\bFalse\b": b"0",
+}
+MISSING = (b"", b"-", b"--", b"null", b"none", b"na", b"n/a", b"#n/a", b".nan", b".inf", b"-.inf")
+TIME = re.compile(
+    rb"(?:(\d{4})[-/.](\d\d?)[-/.](\d\d?)[T /_-])?(\d\d?):(\d\d):(\d\d(?:[.,]\d+)?)\s*(?:Z|UTC|([-+]\d\d):?(\d\d))?"
+)
 LONGEST_ROW = 1 << 24
+LEFT_OUT = (
+    "'...' stands where numbers were left out; save all of them, with `ros2 topic echo --full-length`, or after "
+    "numpy.set_printoptions(threshold=sys.maxsize)"
+)
 
 
 class Row(NamedTuple):
@@ -66,7 +83,7 @@ class Dialect:
         try:
             return float(cell.replace(b",", b".") if self.comma else cell)
         except ValueError:
-            return float("nan") if cell.strip().lower() in MISSING else None
+            return float("nan") if cell.strip().lower() in MISSING else _seconds(cell.strip())
 
     def _plain(self, text: bytes) -> bytes:
         """The line with decimal points, and blanks between the numbers."""
@@ -81,6 +98,30 @@ class Dialect:
         return mark * 2 in bare or bare.startswith(mark) or mark + b" " + mark in bare
 
 
+def _seconds(cell: bytes) -> float | None:
+    """A date and time, or a time of day, in seconds; None for other text. Without a zone, it is taken for UTC."""
+    found = TIME.fullmatch(cell)
+    if found is None:
+        return None
+    hours, minutes, seconds = int(found[4]), int(found[5]), float(found[6].replace(b",", b"."))
+    if found[1] is None:
+        return 3600.0 * hours + 60 * minutes + seconds
+    try:
+        day = datetime(int(found[1]), int(found[2]), int(found[3]), hours, minutes, tzinfo=UTC)
+    except ValueError:
+        return None
+    ahead = 0 if found[7] is None else 3600 * int(found[7]) + int(found[7][:1] + found[8]) * 60
+    return day.timestamp() + seconds - ahead
+
+
+def text_of(cell: bytes) -> str:
+    """A cell as text: UTF-8, or else what Windows writes in Europe."""
+    try:
+        return cell.decode("utf-8")
+    except UnicodeDecodeError:
+        return cell.decode("cp1252", "replace")
+
+
 def dialect_of(lines: list[bytes]) -> Dialect:
     """The dialect of some lines, of which the first may be a header."""
     named = not is_number(re.split(rb"[\s,;|]", lines[0].strip(b'" \t'))[0].strip(b'"'))
@@ -93,7 +134,9 @@ def dialect_of(lines: list[bytes]) -> Dialect:
     words = b" ".join(data).split()
     if len(words) >= 2 * len(data) and all(EITHER.fullmatch(word) for word in words):
         return Dialect(b" ", comma=True)
-    return Dialect(b",")
+    # In quotes, a comma may be a decimal sign also where commas part the cells.
+    quoted = [cell for line in data if line.count(b'"') > 2 for cell in Dialect(b",").cells(line)]
+    return Dialect(b",", _decimal_commas(quoted))
 
 
 def _decimal_commas(cells: Iterable[bytes]) -> bool:
@@ -101,6 +144,11 @@ def _decimal_commas(cells: Iterable[bytes]) -> bool:
     cells = [cell.strip().strip(b'"') for cell in cells]
     pointed = any(re.fullmatch(rb"[-+]?\d*\.\d+", cell) for cell in cells)
     return not pointed and any(DECIMAL_COMMA.fullmatch(cell) for cell in cells)
+
+
+def is_list(line: bytes) -> bool:
+    """Whether a line begins a list in brackets, perhaps after numbers or a name, and not a header with brackets."""
+    return LIST.fullmatch(line.strip()) is not None and not re.match(rb"[^\[({]*[\[({]\d+[\])}]\s*(?:[,;\t]|$)", line)
 
 
 def bracketed(rows: Iterable[Row], name: str) -> Iterator[Row]:
@@ -111,17 +159,17 @@ def bracketed(rows: Iterable[Row], name: str) -> Iterator[Row]:
     pending, first = b"", 0
     for number, text in rows:
         if b"..." in text:
-            raise ValueError(
-                f"{name}:{number}: '...' stands where numbers were left out; print all of them, "
-                "as with numpy.set_printoptions(threshold=sys.maxsize)."
-            )
+            raise ValueError(f"{name}:{number}: {LEFT_OUT}.")
         first = first if pending.strip() else number
+        for word, plain in WORDS.items():
+            text = re.sub(word, plain, text)
         pending += b" " + text
         end = 0
         for match in INNERMOST.finditer(pending):
             before = b" ".join(re.findall(rb"(?<![\w.])[-+]?\d+\.?\d*(?:[eE][-+]?\d+)?", match[1]))
-            if match[2].strip():
-                yield Row(first, before + b" " + match[2].replace(b",", b" ").replace(b";", b" "))
+            for row in match[2].split(b";"):  # MATLAB parts rows so
+                if row.strip():
+                    yield Row(first, before + b" " + row.replace(b",", b" "))
             end, first = match.end(), number
         pending = pending[end:]
         if len(pending) > LONGEST_ROW:

@@ -56,6 +56,7 @@ def recording_in(folder: Path) -> Path:
     """
     if storage_files(folder):
         return folder
+    bag_of_metadata(folder / METADATA)
     bags = [path for path in _entries(folder) if path.is_dir() and storage_files(path)]
     files = [path for path in _entries(folder) if path.is_file() and path.suffix.lower() in _suffixes()]
     found = bags or files

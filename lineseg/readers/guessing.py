@@ -15,6 +15,8 @@ NEAR, FAR = 0.35, 60.0
 # What drivers write for "no return": the greatest numbers of 16, 15, 14, 13 and 12 bits in millimetres or centimetres.
 CODES = (655.35, 655.34, 655.33, 65.535, 65.534, 65.533, 32.767, 16.383, 8.191, 4.095)
 OFTEN = 0.01
+# A greatest value so many times as large as the next is no reading.
+ALONE, FEW = 3.0, 100
 MOST_SAMPLED = 8_000
 
 
@@ -63,11 +65,13 @@ def no_return_codes(recording: Recording, reading: Reading, notes: Notes) -> tup
     limit = float(np.max(recording.range_max, initial=0.0))
     greatest = float(finite.max(initial=0.0))
     code = next((each for each in CODES if abs(greatest - each) < 5e-4), None)
+    if code is None and "range_max" in notes.unstated and len(finite) >= FEW:
+        others = float(finite[finite < greatest].max(initial=0.0))
+        code = greatest if greatest > ALONE * others > 0 else None
     if code is None or code >= limit or np.count_nonzero(np.abs(finite - code) < 5e-4) < max(2, OFTEN * len(ranges)):
         return ()
-    notes.guess(
-        "no_return", f"{code:g} m means no return", "it is the greatest number that fits, and recurs", no_return="none"
-    )
+    why = "it is the greatest number that fits, and recurs" if code in CODES else "it recurs, far beyond all others"
+    notes.guess("no_return", f"{code:g} m means no return", why, no_return="none")
     return (code,)
 
 

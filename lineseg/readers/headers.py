@@ -10,7 +10,7 @@ from .reading import AngleUnit, Unit
 ANGLES = ("angle", "angles", "ang", "theta", "bearing", "azimuth", "phi", "winkel", "alpha")
 DISTANCES = (
     "distance", "distances", "dist", "range", "ranges", "rho", "r", "d", "radius", "depth", "distanz", "abstand",
-    "entfernung",
+    "entfernung", "länge", "laenge", "length",
 )  # fmt: skip
 STAMPS = ("stamp", "timestamp", "time", "t", "secs", "sec", "seconds", "zeit", "rosbagtimestamp", "datetime")
 SCANS = ("scan", "scan_id", "scan_number", "frame", "sweep", "turn", "revolution", "rev")

@@ -33,6 +33,6 @@ def longest_return(ranges: Floats, announced: float | None = None) -> float:
     if announced is not None and announced > 0:
         beyond = np.unique(finite[finite >= announced])
         return announced if len(beyond) <= FEW_CODES else np.inf
-    if greatest in ROUND_MAXIMA and np.count_nonzero(finite == greatest) > 1:
+    if np.isclose(greatest, ROUND_MAXIMA, rtol=0, atol=1e-6).any() and np.count_nonzero(finite == greatest) > 1:
         return greatest
     return np.inf

@@ -41,17 +41,19 @@ def scan_records(path: Path) -> Iterator[tuple[Connection, int, bytes]]:
 
 
 def _record(file: BinaryIO, size: int) -> tuple[dict[str, bytes], bytes] | None:
-    """The header and the data of the next record; None if it is not whole."""
-    parts: list[bytes] = []
-    for _ in range(2):
-        length = file.read(4)
-        if len(length) < 4:
-            return None
-        (wanted,) = struct.unpack("<I", length)
-        if wanted > size - file.tell():
-            return None
-        parts.append(file.read(wanted))
-    return _fields(parts[0]), parts[1]
+    """The header and the data of the next record; None if it is not whole. A chunk may be cut: it has whole messages."""
+    header = _part(file, size)
+    fields = {} if header is None else _fields(header)
+    data = None if header is None else _part(file, size, cut=fields.get("op") == bytes([CHUNK]))
+    return None if data is None else (fields, data)
+
+
+def _part(file: BinaryIO, size: int, cut: bool = False) -> bytes | None:
+    length = file.read(4)
+    if len(length) < 4:
+        return None
+    (wanted,) = struct.unpack("<I", length)
+    return file.read(min(wanted, MOST_CHUNK)) if cut or wanted <= size - file.tell() else None
 
 
 def _fields(header: bytes) -> dict[str, bytes]:

@@ -6,6 +6,7 @@ import itertools
 import shutil
 import sqlite3
 import tempfile
+from collections import Counter
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
@@ -16,10 +17,11 @@ from ..scan import Recording
 from .account import Notes
 from .bags import Stream, choose_streams, collect, cut_off, guarded, tell_cut
 from .bounded import MOST_MESSAGE, expand, limit_of, zstd_file
-from .decoders import Decoder
+from .decoders import Decoder, plain_type
 from .folder import storage_files
 from .mcap_records import McapFile
 from .source import Reader, Source
+from .sqlite_pages import scan_pages
 from .wrapping import tell_break
 
 SQLITE_MAGIC = b"SQLite format 3\0"
@@ -119,7 +121,7 @@ def _storage(file: Path, stack: ExitStack, notes: Notes) -> Iterator[Storage]:
         stack.callback(reader.close)
         yield _McapStorage(reader)
     elif magic.startswith(SQLITE_MAGIC):
-        yield _Database(_connect(file, stack))
+        yield _Database(_connect(file, stack), file)
     else:
         raise ValueError(f"{file.name} begins with {magic[:8]!r}, which is neither SQLite nor MCAP")
 
@@ -127,31 +129,38 @@ def _storage(file: Path, stack: ExitStack, notes: Notes) -> Iterator[Storage]:
 class _Database:
     """The `sqlite3` storage."""
 
-    broken = ""
+    def __init__(self, database: sqlite3.Connection, file: Path) -> None:
+        self.database, self.file = database, file
+        self.broken = ""
+        rows = database.execute("SELECT id, name, type, serialization_format FROM topics ORDER BY id").fetchall()
+        if any(not isinstance(each, str) for row in rows for each in row[1:3]):
+            raise ValueError("the names of its topics are lost")
+        counts = self._counts()
+        self.streams = [
+            Stream(str(name), plain_type(str(type)), counts.get(id, 0), id, str(encoding or "cdr"))
+            for id, name, type, encoding in rows
+        ]
 
     def tell(self, notes: Notes, name: str) -> None:
         """SQLite has no checksums."""
 
-    def __init__(self, database: sqlite3.Connection) -> None:
-        self.database = database
-        rows = database.execute("SELECT id, name, type, serialization_format FROM topics ORDER BY id").fetchall()
-        cut = 0
+    def _counts(self) -> dict[int, int]:
+        """The number of messages of each topic, as far as they are whole."""
         try:
-            counts = dict(database.execute("SELECT topic_id, count(*) FROM messages GROUP BY topic_id"))
-        except sqlite3.DatabaseError:
-            counts, cut = {}, 1  # the file breaks off; its messages are read up to there
-        self.streams = [
-            Stream(str(name), str(type), counts.get(id, cut), id, str(encoding or "cdr"))
-            for id, name, type, encoding in rows
-        ]
+            return dict(self.database.execute("SELECT topic_id, count(*) FROM messages GROUP BY topic_id"))
+        except sqlite3.DatabaseError as error:
+            self.broken = str(error)
+            return Counter(id for id, _, _ in scan_pages(self.file))
 
     def messages(self, streams: list[Stream]) -> Iterator[tuple[Stream, int, bytes]]:
         by_id = {stream.handle: stream for stream in streams}
+        if self.broken:
+            yield from ((by_id[id], time, data) for id, time, data in scan_pages(self.file) if id in by_id)
+            return
         marks = ",".join("?" * len(by_id))
-        for id, nanoseconds, data in self.database.execute(
-            f"SELECT topic_id, timestamp, data FROM messages WHERE topic_id IN ({marks}) ORDER BY timestamp, id",
-            list(by_id),
-        ):
+        # The index of times may be missing from a cut file, so `collect` sorts.
+        query = f"SELECT topic_id, timestamp, data FROM messages NOT INDEXED WHERE topic_id IN ({marks})"
+        for id, nanoseconds, data in self.database.execute(query, list(by_id)):
             yield by_id[id], nanoseconds, data
 
 
@@ -161,7 +170,14 @@ class _McapStorage:
     def __init__(self, file: McapFile) -> None:
         self._file = file
         self.streams = [
-            Stream(each.topic, each.schema, file.counts.get(each.id, 0), each.id, each.encoding, each.schema_data)
+            Stream(
+                each.topic,
+                plain_type(each.schema),
+                file.counts.get(each.id, 0),
+                each.id,
+                each.encoding,
+                each.schema_data,
+            )
             for each in file.channels.values()
         ]
 
@@ -215,6 +231,8 @@ def _restrict(database: sqlite3.Connection, file: Path) -> None:
     database.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, MOST_MESSAGE)
     database.set_progress_handler(lambda: next(blocks) * STEPS_AT_ONCE > most, STEPS_AT_ONCE)
     database.execute("PRAGMA trusted_schema = OFF")
+    # Otherwise SQLite refuses a file that is shorter than its header says.
+    database.execute("PRAGMA writable_schema = ON")
     for name in ("topics", "messages"):
         row = database.execute("SELECT type, sql FROM sqlite_master WHERE lower(name) = ?", [name]).fetchone()
         if row and (row[0] != "table" or str(row[1]).upper().startswith("CREATE VIRTUAL")):

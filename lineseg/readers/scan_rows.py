@@ -195,8 +195,9 @@ def _skipped(
     if geometry is not None and 0 <= usual - geometry.beams <= MOST_LEADING:
         return usual - geometry.beams
     skip = double or _unlike(values)
-    if not skip and reading.angle_increment is None and usual_angles(usual) is None:
-        skip = next((lead for lead in range(1, MOST_LEADING) if usual - lead in LASERS and _leaps(values, lead)), 0)
+    if reading.angle_increment is None and usual_angles(usual - skip) is None:
+        leads = range(skip + 1, MOST_LEADING)
+        skip = next((lead for lead in leads if usual - lead in LASERS and _leaps(values, lead)), skip)
     if skip:
         why = "they differ from the numbers after them"
         source.notes.guess("skip_columns", f"{skip} leading column{'' if skip == 1 else 's'}", why, skip_columns=0)
@@ -229,13 +230,15 @@ def _leaps(values: list[Floats], lead: int) -> bool:
 
 
 def _stamps(source: Source, values: list[Floats], skip: int, leading: tuple[str, ...] | None) -> Floats:
-    """(rows,) [s]: the leading column of stamps, or the first that rises from row to row; 0 without one."""
+    """(rows,) [s]: the leading column of stamps, or one that rises from row to row; 0 without one."""
     if leading is not None:
         at = leading.index("stamp") if "stamp" in leading else None
     else:
         columns = [np.array([row[lead] for row in values]) for lead in range(min(skip, MOST_LEADING))]
-        rising = (lead for lead, column in enumerate(columns) if len(column) > 1 and bool((np.diff(column) > 0).all()))
-        at = next(rising, None)
+        rising = [lead for lead, column in enumerate(columns) if len(column) > 1 and bool((np.diff(column) > 0).all())]
+        # A column that counts the rows is a time only if there is no other.
+        timed = [lead for lead in rising if not (np.diff(columns[lead]) == 1).all()]
+        at = next(iter(timed or rising), None)
     if at is None:
         return np.zeros(len(values))
     column = np.array([row[at] for row in values])
@@ -279,8 +282,13 @@ def _tell_angles(source: Source, low: float, step: float, beams: int, geometry: 
         return
     why = f"the rows have {beams} ranges and no angles"
     text = f"{first:.4g}…{last:.4g}°".replace("-", "−")
-    source.notes.guess("angle_min", text, why, angle_min=round(low, 6), angle_increment=round(step, 8))
+    source.notes.guess("angle_min", text, why, **other_angles(low, step))
     source.notes.guess("direction", "counter-clockwise", why, direction="clockwise")
+
+
+def other_angles(low: float, step: float) -> dict[str, float]:
+    """What the angles might be instead: beams that are counted from 0°, or from −180° if they are already."""
+    return {"angle_min": 0.0 if low else -3.141593, "angle_increment": round(step, 8)}
 
 
 def usual_angles(beams: int) -> tuple[float, float] | None:

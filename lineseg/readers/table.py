@@ -10,11 +10,11 @@ from typing import NamedTuple
 import numpy as np
 
 from ..scan import Floats, Recording, Topic
-from .dialect import Dialect, Row
+from .dialect import LEFT_OUT, Dialect, Row
 from .headers import LENGTHS, TIMES, Name, array_columns, column_of
 from .numbers import all_numbers
 from .reading import Reading
-from .scan_rows import usual_angles
+from .scan_rows import other_angles, usual_angles
 from .source import Source, Sweeps
 from .stamping import stamp_unit
 
@@ -24,7 +24,8 @@ BEFORE_RANGES = (
     "time_increment", "scan_time", "range_min", "range_max",
 )  # fmt: skip
 FIELDS = ("angle_min", "angle_max", "angle_increment", "range_min", "range_max")
-SECONDS, NANOSECONDS = ("stamp_sec", "stamp_secs"), ("stamp_nanosec", "stamp_nsecs", "stamp_nsec", "stamp_nanosecs")
+SECONDS = ("stamp_sec", "stamp_secs", "secs")
+NANOSECONDS = ("stamp_nanosec", "stamp_nsecs", "stamp_nsec", "stamp_nanosecs", "nsecs")
 
 
 class Layout(NamedTuple):
@@ -76,8 +77,9 @@ def read_table(source: Source, reading: Reading, rows: Iterable[Row], dialect: D
         raise ValueError(f"{source.name} has column names, but no scans below them.")
     times = np.array(stamps)
     if layout.stamp is not None and layout.seconds is None and layout.header is None:
-        unit = TIMES.get(names[layout.stamp].unit) or (1e-9 if names[layout.stamp].ends("header_stamp") else None)
-        times *= unit or stamp_unit(times)
+        # ROS 1 exports header.stamp as whole nanoseconds, other tools as seconds.
+        whole = names[layout.stamp].ends("header_stamp") and bool((times == np.floor(times)).all())
+        times *= TIMES.get(names[layout.stamp].unit) or (1e-9 if whole else stamp_unit(times))
     if times.any():
         at = next(place for place in (layout.seconds, layout.header, layout.stamp) if place is not None)
         source.notes.stamps = f"column {at + 1}"
@@ -131,7 +133,11 @@ def _add(source: Source, reading: Reading, sweeps: Sweeps, row: Row, dialect: Di
 
 def _ranges(dialect: Dialect, cells: list[bytes], layout: Layout) -> Floats:
     if layout.listed is not None:
-        text = cells[layout.listed].strip(b" []()'\"")
+        cell = cells[layout.listed]
+        if b"..." in cell:
+            raise ValueError(LEFT_OUT)
+        # array('f', [1.5, …]) and the like
+        text = (cell[cell.index(b"[") :] if b"[" in cell else cell).strip(b" []()'\"")
         values = all_numbers(text)
         if values is None:
             text = re.sub(rb"[\[\](){}'\"]|array|[dD]type=\w+", b" ", text)
@@ -143,6 +149,8 @@ def _ranges(dialect: Dialect, cells: list[bytes], layout: Layout) -> Floats:
     found = [dialect.number(cells[at]) if at < len(cells) else math.nan for at in layout.beams]
     if None in found:
         wrong = cells[layout.beams[found.index(None)]][:40].decode("utf-8", "replace")
+        if "..." in wrong:
+            raise ValueError(LEFT_OUT)
         raise ValueError(f"{wrong!r} among the ranges is not a number")
     return np.array(found, dtype=np.float64)
 
@@ -168,7 +176,7 @@ def _angles(source: Source, reading: Reading, field: dict[str, float | None], be
         if not any(guess.field == "angle_min" for guess in source.notes.guesses):
             why = f"the table has {beams} ranges and no angles"
             text = f"{math.degrees(low):.4g}…{math.degrees(low + step * (beams - 1)):.4g}°"
-            source.notes.guess("angle_min", text.replace("-", "−"), why, angle_min=low, angle_increment=step)
+            source.notes.guess("angle_min", text.replace("-", "−"), why, **other_angles(low, step))
     if low is None:
         raise ValueError("angle_min is missing; give it in a column or an option")
     if not step and beams > 1:

@@ -9,15 +9,15 @@ from typing import Any
 
 from ..scan import Recording
 from .beam_rows import read_beams
-from .dialect import COMMENTS, Dialect, Row, bracketed, dialect_of, labels_of, unlabelled
+from .dialect import COMMENTS, Dialect, Row, bracketed, dialect_of, is_list, labels_of, text_of, unlabelled
 from .headers import Name, array_columns, column_of, is_angle, is_distance, name_of
-from .numbers import is_number
 from .reading import Reading, columns_of
 from .scan_rows import read_scans
 from .source import Reader, Source
 from .table import echo_columns, read_table
 
-ECHO = b"%time,field."  # the first line of `rostopic echo -p`
+ECHO = re.compile(rb"%time[,;\t]field\.")  # the first line of `rostopic echo -p`
+SEPARATOR = re.compile(rb"sep=.", re.IGNORECASE)  # the first line of Excel's tables
 SETTING = re.compile(rb"(\w+)\s*[=:]\s*([^\s,;]+)")
 TEXT_FORMS = "use one scan per row, or columns of angle and distance, or a table with a column named ranges."
 SAMPLE = 40
@@ -41,7 +41,7 @@ class Text(Reader):
         rows = _rows(source)
         said: dict[str, str] = {}
         comment, first = b"", next(rows, None)
-        while first is not None and first.text.startswith(COMMENTS) and not first.text.startswith(ECHO):
+        while first is not None and first.text.startswith(COMMENTS) and not ECHO.match(first.text):
             said.update((key.decode(), value.decode("utf-8", "replace")) for key, value in SETTING.findall(first.text))
             comment, first = first.text, next(rows, None)
         if first is None:
@@ -55,7 +55,8 @@ class Text(Reader):
 def _rows(source: Source) -> Iterator[Row]:
     for number, line in source.lines():
         text = line.removeprefix(b"\xef\xbb\xbf") if number == 1 else line
-        if stripped := text.strip():
+        stripped = text.strip()
+        if stripped and not (number == 1 and SEPARATOR.fullmatch(stripped)):
             yield Row(number, stripped if stripped.startswith(COMMENTS) else text)
 
 
@@ -83,24 +84,28 @@ def _read(source: Source, reading: Reading, head: list[Row], rows: Iterable[Row]
     """Decides what the rows hold, from the first of them."""
     lines = [row.text for row in head]
     source.notes.kind = "text"
-    if lines[0].lstrip().startswith((b"[", b"(", b"array(")) and not is_number(lines[0].strip(b"[] ")):
+    if is_list(lines[0]):
         rows, dialect = bracketed(rows, source.name), Dialect(b" ")
         head = list(islice(rows, SAMPLE))
         if not head:
             raise ValueError(f"{source.name} has brackets, but no list of numbers in them; {TEXT_FORMS}")
         return _read_numbers(source, reading, head, chain(head, rows), dialect, None)
     if labels := labels_of(lines):
-        names = [name_of(label.decode("utf-8", "replace")) for label in labels]
+        names = [name_of(text_of(label)) for label in labels]
         return _read_named(source, reading, unlabelled(rows, len(names)), Dialect(b" "), names)
     dialect = dialect_of(lines)
     source.notes.kind = "CSV" if dialect.separator in b",;" else "text"
     cells = dialect.cells(lines[0])
     if column := echo_columns(dialect, head):
         return read_table(source, reading, rows, dialect, column)
+    if (row := _angles_after_name(dialect, cells)) is not None:
+        head[0] = head[0]._replace(text=row)
+        rows = chain(head[:1], islice(rows, 1, None))
+        return _read_numbers(source, reading, head, rows, dialect, None)
     if _is_header(dialect, cells):
         names = _names(dialect, head, cells)
         return _read_named(source, reading, (row for row in rows if row is not head[0]), dialect, names)
-    names = [name_of(word.decode("utf-8", "replace")) for word in re.split(rb"[\s,;]+", comment.strip(b"#%/ ,;"))]
+    names = [name_of(text_of(word)) for word in re.split(rb"[\s,;]+", comment.strip(b"#%/ ,;"))]
     named = len(names) == len(cells) and any(map(is_distance, names)) and any(map(is_angle, names))
     return _read_numbers(source, reading, head, rows, dialect, names if named else None)
 
@@ -109,6 +114,13 @@ def _is_header(dialect: Dialect, cells: list[bytes]) -> bool:
     """Whether a line has names: its first cell is no number, or is empty and followed by names."""
     cells = [cell for cell in cells if cell]
     return bool(cells) and dialect.number(cells[0]) is None
+
+
+def _angles_after_name(dialect: Dialect, cells: list[bytes]) -> bytes | None:
+    """A row of numbers below a name of the first column, such as the angles of the beams; None if it is another row."""
+    rest = [dialect.number(cell) for cell in cells[1:]]
+    named = len(rest) >= MANY_ROWS and dialect.number(cells[0]) is None and None not in rest
+    return dialect.separator.join([b"nan", *cells[1:]]) if named else None
 
 
 def _names(dialect: Dialect, head: list[Row], cells: list[bytes]) -> list[Name]:
@@ -120,7 +132,7 @@ def _names(dialect: Dialect, head: list[Row], cells: list[bytes]) -> list[Name]:
         wide = re.split(rb"\t+| {2,}|\s*,\s*", head[0].text.strip())
         if len(cells) != width == len(wide):
             cells = wide
-    return [name_of(cell.decode("utf-8", "replace")) for cell in cells]
+    return [name_of(text_of(cell)) for cell in cells]
 
 
 def _read_named(

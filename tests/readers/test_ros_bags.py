@@ -1,11 +1,13 @@
 """Bags written by `rosbags` and read by lineseg: the decoder is tested with an independent encoder."""
 
+import gzip
 import shutil
 import sqlite3
 import struct
 
 import numpy as np
 import pytest
+import zstandard
 from rosbags.rosbag1 import Writer as Writer1
 from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin
 from rosbags.rosbag2 import Writer as Writer2
@@ -203,6 +205,7 @@ def test_a_long_bag_that_breaks_off_is_read_up_to_there(tmp_path):
     paths = [bag1(tmp_path / "whole.bag", ("/scan", ranges), stamps=stamps)]
     folder = bag2(tmp_path / "b", ("/scan", ranges), stamps=stamps, plugin=StoragePlugin.MCAP)
     paths += [path for path in folder.iterdir() if path.suffix != ".yaml"]
+    paths.append(bag2(tmp_path / "c", ("/scan", ranges), stamps=stamps) / "c.db3")
     for path in paths:
         broken = tmp_path / f"broken{path.suffix}"
         broken.write_bytes(path.read_bytes()[: int(path.stat().st_size * 0.6)])
@@ -211,10 +214,31 @@ def test_a_long_bag_that_breaks_off_is_read_up_to_there(tmp_path):
         assert "breaks off" in [notice.kind for notice in recording.account.notices]
 
 
-@pytest.mark.parametrize("share", [0.3, 0.9])
-def test_a_truncated_bag_is_damaged(tmp_path, share):
+def zstd(data):
+    """Packed in blocks that do not refer to each other, as data that vary are."""
+    settings = zstandard.ZstdCompressionParameters(window_log=10)
+    return zstandard.ZstdCompressor(compression_params=settings).compress(data)
+
+
+@pytest.mark.parametrize("compression", [gzip.compress, zstd])
+def test_what_can_be_unpacked_of_a_packed_bag_that_breaks_off_is_read_and_the_rest_is_told(tmp_path, compression):
+    ranges, stamps = np.random.default_rng(0).uniform(1, 5, 500).astype(np.float32), np.arange(1.0, 200.0)
+    folder = bag2(tmp_path / "bag", ("/scan", ranges), stamps=stamps)
+    packed = compression((folder / "bag.db3").read_bytes())
+    suffix = ".gz" if compression is gzip.compress else ".zstd"
+    (folder / "bag.db3").unlink()
+    (folder / f"bag.db3{suffix}").write_bytes(packed[: len(packed) // 2])
+    for path in (folder / f"bag.db3{suffix}", *([folder] if suffix == ".zstd" else [])):
+        recording = open_recording(path)
+        assert 10 < len(recording) < 199
+        assert np.array_equal(recording[0].ranges, ranges)
+        assert [notice.kind for notice in recording.account.notices] == ["breaks off"] * 2
+
+
+@pytest.mark.parametrize("share", [0.05, 0.15])
+def test_a_bag_that_breaks_off_before_its_first_scan_is_damaged(tmp_path, share):
     for path in (
-        bag1(tmp_path / "whole.bag", ("/scan", [1.0] * 500)),
+        bag1(tmp_path / "whole.bag", ("/scan", [1.0] * 5000)),
         bag2(tmp_path / "b", ("/scan", [1.0] * 999)) / "b.db3",
     ):
         broken = tmp_path / f"broken{path.suffix}"
