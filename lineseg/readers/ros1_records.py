@@ -41,7 +41,10 @@ def scan_records(path: Path) -> Iterator[tuple[Connection, int, bytes]]:
 
 
 def _record(file: BinaryIO, size: int) -> tuple[dict[str, bytes], bytes] | None:
-    """The header and the data of the next record; None if it is not whole. A chunk may be cut: it has whole messages."""
+    """The header and the data of the next record; None if it is not whole.
+
+    The data of a chunk may be cut, because there are whole messages in it.
+    """
     header = _part(file, size)
     fields = {} if header is None else _fields(header)
     data = None if header is None else _part(file, size, cut=fields.get("op") == bytes([CHUNK]))

@@ -1,4 +1,4 @@
-"""The messages of a `.db3` that breaks off, page by page: SQLite's own way to a row may lead through pages that are gone.
+"""The messages of a `.db3` that breaks off, page by page, because SQLite reaches rows through pages that may be gone.
 
 Format: https://www.sqlite.org/fileformat2.html.
 """

@@ -1,4 +1,4 @@
-"""Takes off what files are wrapped in: gzip, zstd, zip and UTF-16, also one inside the other."""
+"""Takes off what files are wrapped in: gzip, zstd, zip, UTF-16 and UTF-32, also one inside the other."""
 
 from __future__ import annotations
 
@@ -16,7 +16,13 @@ from .account import Notes
 from .bounded import expand, limit_of, zstd_file
 
 GZIP_MAGIC, ZSTD_MAGIC, ZIP_MAGIC = b"\x1f\x8b", b"\x28\xb5\x2f\xfd", b"PK\x03\x04"
-UTF16_MARKS = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
+# UTF-32 first, because its mark begins like that of UTF-16.
+MARKS = {
+    codecs.BOM_UTF32_LE: "utf-32", codecs.BOM_UTF32_BE: "utf-32", codecs.BOM_UTF16_LE: "utf-16",
+    codecs.BOM_UTF16_BE: "utf-16",
+}  # fmt: skip
+PLAIN = frozenset(b"\t\r\n" + bytes(range(32, 127)))
+HEAD_BYTES = 1 << 13
 MOST_LAYERS = 4
 MOST_NAMED = 5
 BAG_PARTS = (".db3", ".mcap", ".db3.zstd", ".mcap.zstd")
@@ -36,11 +42,11 @@ def unwrapped(path: Path, stack: ExitStack, notes: Notes, progress: Progress) ->
         if path.is_dir():
             return path
         with path.open("rb") as file:
-            head = file.read(64)
+            head = file.read(HEAD_BYTES)
         if head.startswith((GZIP_MAGIC, ZSTD_MAGIC)):
             path = _stream(path, head, name, stack, notes, progress)
-        elif head.startswith(UTF16_MARKS) and len(head) % 2 == 0:
-            path = _utf8(path, name, stack)
+        elif encoding := _encoding(head):
+            path = _utf8(path, encoding, stack)
         elif head.startswith(ZIP_MAGIC) and not _is_arrays(head):
             unzipped = _unzipped(path, name, stack, notes, progress)
             if unzipped is None:
@@ -83,10 +89,23 @@ def tell_break(why: str, target: Path, name: str, kind: str, notes: Notes) -> No
         notes.notice("breaks off", text)
 
 
-def _utf8(path: Path, name: str, stack: ExitStack) -> Path:
+def _encoding(head: bytes) -> str:
+    """The encoding of text that is not UTF-8, "" for all else: by its mark, or by the NULs between plain characters."""
+    marked = next((encoding for mark, encoding in MARKS.items() if head.startswith(mark)), "")
+    first = head[:64]
+    if marked or len(first) < 8:
+        return marked
+    for encoding, side in (("utf-16-le", 0), ("utf-16-be", 1)):
+        if not any(first[1 - side :: 2]) and all(byte in PLAIN for byte in first[side::2]):
+            return encoding
+    # Lines end with a carriage return alone on an old Mac, and in some tools.
+    return "latin-1" if b"\r" in head and b"\n" not in head and all(byte in PLAIN for byte in first) else ""
+
+
+def _utf8(path: Path, encoding: str, stack: ExitStack) -> Path:
     target = _target(path, stack)
     with path.open("rb") as raw:
-        text = io.TextIOWrapper(raw, encoding="utf-16", errors="replace", newline="")
+        text = io.TextIOWrapper(raw, encoding=encoding, errors="replace", newline=None)
         packed = codecs.iterencode(iter(lambda: text.read(1 << 16), ""), "utf-8")
         with target.open("wb") as out:
             out.writelines(packed)
