@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ..scan import Recording, Scan
 from .account import Account, Notes
-from .guessing import guess_limit, guess_unit, no_return_codes
+from .guessing import guess_limit, guess_unit, no_return_codes, sampled
 from .lasers import one_laser
 from .plausible import noticed, trouble_of
 from .reading import METRES, Reading, Span, frames_of, span_of, values_of
@@ -55,11 +55,13 @@ def _in_metres_and_radians(recording: Recording, reading: Reading, notes: Notes)
     """Units, angles and direction; also returns the Reading completed with what was found."""
     unit = guess_unit(recording, reading, notes)
     angle_unit = reading.angle_unit or notes.found.get("angle_unit", "rad")
-    direction = reading.direction or "counter-clockwise"
+    direction = reading.direction or notes.found.get("direction", "counter-clockwise")
     used = Reading(**{**notes.found, **reading.given(), "unit": unit, "angle_unit": angle_unit, "direction": direction})
     changes: dict[str, Any] = {}
     if (scale := METRES[unit]) != 1:
-        changes |= {name: getattr(recording, name) * scale for name in ("ranges", "range_min", "range_max")}
+        changes["ranges"] = recording.ranges * scale
+        if not _limits_in_metres(recording):
+            changes |= {name: getattr(recording, name) * scale for name in ("range_min", "range_max")}
     if angle_unit == "deg" and not notes.radians:
         changes |= _angles(recording, np.deg2rad)
     recording = replace(recording, **changes)
@@ -67,6 +69,12 @@ def _in_metres_and_radians(recording: Recording, reading: Reading, notes: Notes)
     if direction == "clockwise":
         recording = replace(recording, **_angles(recording, np.negative))
     return recording, used
+
+
+def _limits_in_metres(recording: Recording) -> bool:
+    """Whether ranges in another unit stand beside limits in metres: then most of them lie beyond."""
+    ranges = sampled(recording.ranges)
+    return float(np.mean(ranges[ranges > 0] > np.median(recording.range_max))) > 0.5 if (ranges > 0).any() else False
 
 
 def _angles(recording: Recording, change: Any) -> dict[str, Any]:

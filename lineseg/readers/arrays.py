@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 from ..scan import Recording, Topic
 from .beam_rows import beams_of
 from .guessing import angle_unit_of
-from .headers import Name
+from .headers import Name, is_angle, is_distance, name_of
 from .reading import columns_of
-from .scan_rows import scans_of
+from .scan_rows import scans_of, usual_angles
 from .source import Reader, Source, Sweeps
 from .stamping import stamp_unit
 
@@ -36,15 +36,30 @@ class Npy(Reader):
     def read(source: Source) -> Recording:
         source.progress(0, 1)
         try:
-            array = np.load(source.path, mmap_mode="r", allow_pickle=False)
+            array = _loaded(source)
         except (ValueError, OSError, EOFError, MemoryError) as error:
-            pickled = "pickle" in str(error)
+            pickled = "pickle" in str(error) or "Python objects" in str(error)
             why = "Python objects, which are not loaded; save plain numbers" if pickled else str(error).rstrip(".")
             raise ValueError(f"{source.name}: a damaged NPY file, or one with more than numbers ({why}).") from None
         if array.dtype.names:
             arrays = {name: np.asarray(array[name]) for name in array.dtype.names}
             return recording_of_arrays(source, arrays, Npy.format)
         return recording_of_arrays(source, {"array": np.asarray(array)}, Npy.format)
+
+
+def _loaded(source: Source) -> NDArray:
+    """The array; without its last rows if the file breaks off in them."""
+    with source.path.open("rb") as file:
+        major = np.lib.format.read_magic(file)[0]
+        header = np.lib.format.read_array_header_1_0 if major == 1 else np.lib.format.read_array_header_2_0
+        shape, fortran, kind = header(file)
+        start, left = file.tell(), source.path.stat().st_size - file.tell()
+    row = kind.itemsize * int(np.prod(shape[1:], dtype=np.int64))
+    if kind.hasobject or fortran or not shape or not row or left // row >= shape[0] or left < row:
+        return np.load(source.path, mmap_mode="r", allow_pickle=False)
+    rows = left // row
+    source.notes.notice("breaks off", f"The array announces {shape[0]} rows, but only {rows} are there.")
+    return np.memmap(source.path, kind, "r", start, (rows, *shape[1:]))
 
 
 def is_exchange(arrays: Mapping[str, NDArray]) -> bool:
@@ -66,6 +81,10 @@ def recording_of_arrays(source: Source, arrays: Mapping[str, NDArray], format: s
     named = {name: array for name, array in rows.items() if name not in (angles, stamps)}
     if len(tables) > 1 and "ranges" in tables:
         tables = {"ranges": tables["ranges"]}
+    if (beams := _beam_columns(rows)) and not tables:
+        names = [name_of(name) for name in beams]
+        table = np.column_stack([rows[name].astype(np.float64) for name in beams])
+        return beams_of(source, source.reading, table, names, format=format)
     found = tables or named
     if len(found) != 1:
         raise ValueError(_which(source, arrays, f"{len(found)} of them may be the ranges"))
@@ -78,15 +97,30 @@ def recording_of_arrays(source: Source, arrays: Mapping[str, NDArray], format: s
     return _guessed(source, name, array, arrays, format)
 
 
+def _beam_columns(rows: Mapping[str, NDArray]) -> list[str]:
+    """The names of two arrays that are an angle and a distance, or x and y, of each beam; [] without them."""
+    names = {name: name_of(name) for name in rows}
+    points = [next((name for name in rows if names[name].plain.split("_")[-1] == axis), "") for axis in "xy"]
+    angle = next((name for name in rows if is_angle(names[name])), "")
+    distance = next((name for name in rows if is_distance(names[name])), "")
+    pairs = ([angle, distance], points)
+    return next((pair for pair in pairs if all(pair) and rows[pair[0]].shape == rows[pair[1]].shape), [])
+
+
 def _guessed(
     source: Source, name: str, array: NDArray[np.float64], arrays: Mapping[str, NDArray], format: str
 ) -> Recording:
     reading = source.reading
     given = None if reading.columns is None else columns_of(reading.columns)
     beams = given is not None and "ranges" not in given
-    if (array.ndim == 2 and 2 <= array.shape[1] <= MOST_COLUMNS < array.shape[0]) or beams:
+    narrow = array.ndim == 2 and 2 <= array.shape[1] <= MOST_COLUMNS < array.shape[0]
+    if (narrow and not _repeats(array)) or beams:
         names = [Name(word) for word in given] if beams and given else None
         return beams_of(source, reading, np.atleast_2d(array), names, format=format)
+    if array.ndim == 2 and usual_angles(array.shape[0]) and not usual_angles(array.shape[1]) and given is None:
+        text = f"{name} was read as {array.shape[0]} beams × {array.shape[1]} scans, because no laser has so few beams."
+        source.notes.notice("transposed", text)
+        array = array.T
     values = list(np.atleast_2d(array))
     try:
         leading = given[:-1] if given else None
@@ -97,6 +131,13 @@ def _guessed(
         raise ValueError(
             _which(source, arrays, f"{name} has rows of {array.shape[-1]} ranges without angles")
         ) from None
+
+
+def _repeats(array: NDArray[np.float64]) -> bool:
+    """Whether columns hold about the same, as scans of one place do, and not angles beside distances."""
+    first, *others = array.T
+    gaps = [np.nanmedian(np.abs(first - other)) for other in others]
+    return bool(max(gaps) < 0.05 * np.nanmedian(np.abs(first))) if np.isfinite(first).any() else False
 
 
 def _with_angles(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterable
 from dataclasses import replace
 from itertools import pairwise
@@ -61,7 +62,9 @@ def beams_of(
         notes.unstated.add("unit")
     first, second = table[:, roles.first], table[:, roles.second]
     bearings, ranges = _polar(source, reading, first, second) if roles.polar else _from_points(first, second)
-    if roles.polar and guess_direction and reading.direction is None:
+    if names is not None and re.search(r"(?<!counter_)(?<!anti_)(clockwise|\bcw\b)", names[roles.first].plain):
+        notes.found["direction"] = "clockwise"
+    elif roles.polar and guess_direction and reading.direction is None:
         notes.guess(
             "direction", "counter-clockwise", "the file does not say in which sense its angles count",
             direction="clockwise",

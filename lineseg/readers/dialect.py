@@ -22,7 +22,8 @@ PAIR = re.compile(
 )
 INNERMOST = re.compile(rb"([^\[\](){}]*)[\[({]([^\[\](){}]*)[\])}]")
 LIST = re.compile(
-    rb"[\w\s.:=,+-]*[\[({][\[({\s]*(?:[-+]?\.?(?:\d|nan|inf|None|True|False|float)[^:\"]*)?", re.IGNORECASE
+    rb"[\w\s.:=,+-]*(?:\('\w',\s*)?[\[({][\[({\s]*(?:[-+]?\.?(?:\d|nan|inf|None|True|False|float)[^:\"]*)?",
+    re.IGNORECASE,
 )
 WORDS = {
     rb"float\(['\"]([-+\w]+)['\"]\)": rb"\1",
@@ -83,7 +84,7 @@ class Dialect:
         try:
             return float(cell.replace(b",", b".") if self.comma else cell)
         except ValueError:
-            return float("nan") if cell.strip().lower() in MISSING else _seconds(cell.strip())
+            return float("nan") if cell.strip().lower() in MISSING else seconds_of(cell.strip())
 
     def _plain(self, text: bytes) -> bytes:
         """The line with decimal points, and blanks between the numbers."""
@@ -98,7 +99,7 @@ class Dialect:
         return mark * 2 in bare or bare.startswith(mark) or mark + b" " + mark in bare
 
 
-def _seconds(cell: bytes) -> float | None:
+def seconds_of(cell: bytes) -> float | None:
     """A date and time, or a time of day, in seconds; None for other text. Without a zone, it is taken for UTC."""
     found = TIME.fullmatch(cell)
     if found is None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import lru_cache
 from typing import NamedTuple
 
 from .reading import AngleUnit, Unit
@@ -42,6 +43,7 @@ class Name(NamedTuple):
         return any(self.plain == name or self.plain.endswith(f"_{name}") for name in known)
 
 
+@lru_cache(maxsize=4096)
 def name_of(cell: str) -> Name:
     """`/scan/ranges[3]` → ranges of index 3; `Angle (deg)` → angle in deg; `field.header.stamp` → header_stamp."""
     text = cell.strip().strip("\"'%\ufeff ").replace("\N{DEGREE SIGN}", "°")

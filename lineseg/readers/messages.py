@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import re
 from collections.abc import Iterator, Mapping
 from itertools import chain
@@ -11,17 +10,23 @@ from typing import Any
 import numpy as np
 
 from ..scan import Recording, Topic
-from .dialect import Dialect, Row
+from .beam_rows import beams_of, read_beams
+from .dialect import LEFT_OUT, Dialect, Row
 from .headers import is_angle, is_distance, name_of
+from .json_scans import json_values, parsed, scan_of
 from .laser_scan import LaserScan, decode_json
 from .source import Reader, Source, Sweeps
+from .stamping import stamp_unit
 
 MOST_DEPTH = 6
 LIST_KEYS = ("ranges", "distances", "range", "distance")
+LEAST_BEAMS = 8
+
+Table = list[list[float]]
 
 
 class JsonMessages(Reader):
-    """Objects with `ranges`, alone, in a list, one a line, or inside of others; or lists of angle and distance."""
+    """Objects with `ranges`, alone, in a list, one a line, or inside of others; or lists of beams or points."""
 
     format = "JSON"
     suffixes = (".json", ".jsonl", ".ndjson")
@@ -30,25 +35,33 @@ class JsonMessages(Reader):
     @staticmethod
     def recognises(head: bytes) -> bool:
         start = head.removeprefix(b"\xef\xbb\xbf").lstrip()
-        return start.startswith(b"{") or bool(re.match(rb"\[\s*\{", start))
+        return bool(re.match(rb"(?:\[\s*)?\{\s*[\"}]", start))
 
     @staticmethod
     def read(source: Source) -> Recording:
         source.notes.kind = "JSON"
         found: dict[str, list[LaserScan]] = {}
         beams: list[Mapping[str, Any]] = []
-        for place, value in _values(source):
+        tables: list[Table] = []
+        for place, value in json_values(source):
             for topic, message in _messages(value, "scan"):
-                if not any(key in message for key in LIST_KEYS):
+                if isinstance(message, list):
+                    tables.append(message)
+                elif _ranges_key(message) is None:
                     beams.append(message)
-                    continue
-                try:
-                    found.setdefault(topic, []).append(_decoded(source, message))
-                except ValueError as error:
-                    source.notes.skip(place, str(error))
-        if not found and beams:
+                else:
+                    try:
+                        scan = scan_of(source, message)
+                    except ValueError as error:
+                        source.notes.skip(place, str(error))
+                    else:
+                        found.setdefault(topic, []).append(scan)
+        if not found and len(beams) >= LEAST_BEAMS:
             return _beams(source, beams)
-        return recording_of(source, found, "JSON")
+        if not found and tables:
+            table = np.array([row for each in tables for row in each], dtype=np.float64)
+            return beams_of(source, source.reading, table, None, format=JsonMessages.format)
+        return recording_of(source, found, JsonMessages.format)
 
 
 class EchoYaml(Reader):
@@ -82,6 +95,13 @@ def recording_of(source: Source, found: dict[str, list[LaserScan]], format: str)
         raise ValueError(f"{source.name} has no object with ranges; a scan has ranges, angle_min and angle_increment.")
     topics = tuple(Topic(name, len(scans)) for name, scans in found.items())
     topic = source.choose(list(topics))
+    if "stamps" in source.notes.unstated:
+        times = np.array([scan.stamp for scan in found[topic]])
+        unit = stamp_unit(times)
+        found[topic] = [
+            scan._replace(seconds=0, nanoseconds=time * unit * 1e9)
+            for scan, time in zip(found[topic], times, strict=True)
+        ]
     sweeps = Sweeps()
     for scan in found[topic]:
         sweeps.add(
@@ -94,73 +114,64 @@ def recording_of(source: Source, found: dict[str, list[LaserScan]], format: str)
 # JSON
 
 
-def _values(source: Source) -> Iterator[tuple[str, Any]]:
-    """(place, value): the whole file as one value if it is one, else each line. Lines that are no JSON are skipped."""
-    first = next((line for _, line in source.lines() if line.strip()), b"")
-    if _parsed(first) is None:
-        whole = _parsed(source.path.read_bytes())
-        if whole is not None:
-            yield source.name, whole
-            return
-    for number, line in source.lines():
-        if not line.strip():
-            continue
-        value = _parsed(line)
-        if value is None:
-            source.notes.skip(f"{source.name}:{number}", "the line is not JSON; is it complete?")
-        else:
-            yield f"{source.name}:{number}", value
-
-
-def _parsed(text: bytes) -> Any:
-    """The value, None if the text is not JSON."""
-    try:
-        return json.loads(text.removeprefix(b"\xef\xbb\xbf").strip().rstrip(b","))
-    except (ValueError, RecursionError):
-        return None
-
-
-def _messages(value: Any, topic: str, depth: int = 0) -> Iterator[tuple[str, Mapping[str, Any]]]:
-    """(topic, object with ranges, or with one angle and one distance), wherever it lies inside of other objects."""
+def _messages(value: Any, topic: str, depth: int = 0) -> Iterator[tuple[str, Mapping[str, Any] | Table]]:
+    """(topic, object with ranges, or with one beam, or list of beams), wherever it lies inside of other objects."""
     if depth > MOST_DEPTH:
         return
+    if isinstance(value, str) and value[:1] in ("{", "["):
+        value = parsed(value)
     if isinstance(value, Mapping):
-        if any(isinstance(value.get(key), list) for key in LIST_KEYS) or _is_beam(value):
+        if _ranges_key(value) is not None or _is_beam(value):
             yield topic, value
-            return
-        named = value.get("topic")
-        for inner in value.values():
-            if isinstance(inner, Mapping | list):
+        elif (table := _keyed(value)) is not None:
+            yield topic, table
+        else:
+            named = value.get("topic")
+            for inner in value.values():
                 yield from _messages(inner, named if isinstance(named, str) and named else topic, depth + 1)
+    elif _is_table(value):
+        yield topic, value
     elif isinstance(value, list):
         for inner in value:
             yield from _messages(inner, topic, depth + 1)
 
 
+def _ranges_key(value: Mapping[str, Any]) -> str | None:
+    return next((key for key, held in value.items() if isinstance(held, list) and _is_ranges(key, held)), None)
+
+
+def _is_ranges(key: str, held: list[Any]) -> bool:
+    return name_of(key).plain.split("_")[-1] in LIST_KEYS and not any(isinstance(each, list) for each in held[:2])
+
+
 def _is_beam(value: Mapping[str, Any]) -> bool:
-    numbers = [name_of(key) for key, held in value.items() if isinstance(held, int | float)]
-    return any(map(is_angle, numbers)) and any(map(is_distance, numbers))
+    names = [name_of(key) for key, held in value.items() if isinstance(held, int | float)]
+    plain = {name.plain for name in names}
+    return (any(map(is_angle, names)) and any(map(is_distance, names))) or {"x", "y"} <= plain
 
 
-def _decoded(source: Source, message: Mapping[str, Any]) -> LaserScan:
-    """A LaserScan; also with other names for ranges, and with the bearing of each beam if they are even."""
-    key = next(key for key in LIST_KEYS if isinstance(message.get(key), list))
-    angles = next((message[name] for name in ("angles", "bearings") if isinstance(message.get(name), list)), None)
-    plain = dict(message) | {"ranges": message[key]}
-    if angles is not None and len(angles) == len(message[key]) > 1:
-        even = np.asarray(angles, dtype=np.float64)
-        plain |= {"angle_min": float(even[0]), "angle_increment": float(even[-1] - even[0]) / (len(even) - 1)}
-        if float(np.abs(even).max()) > 2 * np.pi + 0.2:
-            source.notes.found.setdefault("angle_unit", "deg")
-    if key != "ranges" or angles is not None:
-        source.notes.unstated.add("unit")
-    return decode_json(plain)
+def _is_table(value: Any) -> bool:
+    """Whether it is a list of beams or points: lists of a few numbers."""
+    rows = value if isinstance(value, list) and len(value) >= LEAST_BEAMS else []
+    width = len(rows[0]) if rows and isinstance(rows[0], list) else 0
+    return 2 <= width <= 4 and all(
+        isinstance(row, list) and len(row) == width and all(isinstance(each, int | float) for each in row)
+        for row in rows
+    )
+
+
+def _keyed(value: Mapping[str, Any]) -> Table | None:
+    """The beams of an object whose keys are angles; None if they are not."""
+    if len(value) < LEAST_BEAMS or not all(isinstance(held, int | float) for held in value.values()):
+        return None
+    try:
+        return [[float(key), float(held)] for key, held in value.items()]
+    except ValueError:
+        return None
 
 
 def _beams(source: Source, beams: list[Mapping[str, Any]]) -> Recording:
-    """Objects with an angle and a distance each."""
-    from .beam_rows import read_beams
-
+    """Objects with an angle and a distance each, or with x and y."""
     keys = list(beams[0])
     rows = (Row(at, b"\t".join(str(beam.get(key)).encode() for key in keys)) for at, beam in enumerate(beams, 1))
     return read_beams(source, source.reading, rows, Dialect(b"\t"), [name_of(key) for key in keys])
@@ -180,9 +191,11 @@ def _documents(source: Source) -> Iterator[tuple[int, dict[str, Any]]]:
     for number, line in chain(source.lines(), [(0, b"---")]):
         text = line.decode("utf-8", "replace").strip()
         if text.startswith("---"):
-            if "ranges" in message:
+            if "ranges" in message and not (number == 0 and _is_cut(message)):
                 stamp = {name: header[name] for name in STAMP_KEYS if name in header}
                 yield began, message | {"header": {"stamp": stamp, "frame_id": header.get("frame_id", "")}}
+            elif "ranges" in message:
+                source.notes.skip(f"{source.name}:{began}", f"it breaks off after {len(message['ranges'])} ranges")
             message, header, began, key, flow = {}, {}, number + 1, "", ""
             continue
         if flow:
@@ -210,16 +223,21 @@ def _documents(source: Source) -> Iterator[tuple[int, dict[str, Any]]]:
             flow = ""
 
 
+def _is_cut(message: Mapping[str, Any]) -> bool:
+    """Whether the last message has fewer ranges than its angles announce."""
+    low, high, step = (message.get(name) for name in ("angle_min", "angle_max", "angle_increment"))
+    if low is None or high is None or not step:
+        return not message["ranges"]
+    return len(message["ranges"]) < round((high - low) / step)
+
+
 STAMP_KEYS = ("sec", "nanosec", "secs", "nsecs")
 
 
 def _scalar(word: str, source: Source, number: int) -> float | None:
     word = word.strip().strip("'\"")
     if word == "...":
-        raise ValueError(
-            f"{source.name}:{number}: `ros2 topic echo` has left out ranges here ('...'); "
-            "save them again with its flag --full-length."
-        )
+        raise ValueError(f"{source.name}:{number}: {LEFT_OUT}.")
     try:
         return float(word.lstrip("+-.") if word.lower().lstrip("+-.") in ("inf", "nan") else word)
     except ValueError:

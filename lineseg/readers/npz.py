@@ -115,6 +115,10 @@ def _array(archive: Mapping[str, NDArray], name: str) -> NDArray:
 
 def _recording(source: Source, arrays: dict[str, NDArray]) -> Recording:
     has = f"it has {', '.join(sorted(arrays)) or 'nothing'}"
+    if "angle_increment" not in arrays and {"ranges", "angle_min", "angle_max"} <= arrays.keys():
+        steps = max(np.atleast_2d(arrays["ranges"]).shape[-1] - 1, 1)
+        step = (_numbers(arrays, "angle_max", np.float64) - _numbers(arrays, "angle_min", np.float64)) / steps
+        arrays["angle_increment"] = np.asarray(step)
     for name in ("ranges",) if "bearings" in arrays else ("ranges", "angle_min", "angle_increment"):
         if name not in arrays:
             raise ValueError(f"there is no array {name!r}; {has}. Required: {SHAPES}.")

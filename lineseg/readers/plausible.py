@@ -9,7 +9,7 @@ import numpy as np
 
 from ..scan import Floats, Recording
 from .account import Notice
-from .guessing import MOST_SAMPLED, sampled
+from .guessing import MOST_SAMPLED, UNIT_NAMES, sampled, unit_of
 from .reading import Reading
 
 MOST_RANGE, LEAST_MEDIAN = 500.0, 0.05
@@ -24,9 +24,11 @@ def noticed(recording: Recording, reading: Reading, recorded: bool) -> Iterator[
     Stamps without a notice of the kind "stamps" can be times: they rise, and neither jump by years nor wrap.
     """
     yield from _about_angles(recording, reading)
-    yield from _about_size(recording, reading)
+    size = list(_about_size(recording, reading))
+    yield from size
     ranges, inside = _sample(recording)
-    yield from _about_limits(recording, reading, ranges, inside)
+    if not any("unit" in notice.change for notice in size):
+        yield from _about_limits(recording, reading, ranges, inside)
     yield from _about_recurring(recording, ranges[inside])
     yield from _about_stamps(recording.stamps, recorded and reading.stamps != "recorded")
 
@@ -49,10 +51,23 @@ def _about_angles(recording: Recording, reading: Reading) -> Iterator[Notice]:
         views = np.rad2deg(np.array(inner or [0.0]))
     view = float(np.median(views))
     if view > 360.0 + 1.5 * float(np.rad2deg(np.median(steps))) + 0.5:
-        in_degrees = float(np.deg2rad(view))
-        change = {"angle_unit": "deg"} if reading.angle_unit != "deg" and in_degrees <= 361 else {}
+        change = _in_degrees(recording, reading, float(np.deg2rad(view)))
         question = "Are the angles in degrees?" if change else "Check angle_increment."
+        if "angle_increment" in change:
+            question = "Is only angle_increment in degrees?"
         yield Notice("field of view", f"A field of view of {view:.0f}° is more than a turn. {question}", change)
+
+
+def _in_degrees(recording: Recording, reading: Reading, view: float) -> dict[str, Any]:
+    """The change for angles in degrees, which would give this field of view [°]: of all, or of the step alone."""
+    if reading.angle_unit == "deg" or view > 361:
+        return {}
+    first, step = float(np.median(recording.angle_min)), float(np.median(recording.angle_increment))
+    # In radians −2.36 is the first angle of a laser that sees 270°; in degrees it would look ahead.
+    half = np.deg2rad(view) / 2
+    if recording.bearings is None and first and abs(abs(first) - half) < 0.1 * half:
+        return {"angle_increment": round(float(np.deg2rad(step)), 8)}
+    return {"angle_unit": "deg"}
 
 
 def _about_size(recording: Recording, reading: Reading) -> Iterator[Notice]:
@@ -63,13 +78,12 @@ def _about_size(recording: Recording, reading: Reading) -> Iterator[Notice]:
         return
     middle = float(np.median(finite))
     far = float(np.mean(finite > MOST_RANGE))
-    if far > RECURS:
-        unit = "mm" if reading.unit == "m" else None
-        question = " Are they in millimetres?" if unit else " Check the unit."
-        yield Notice(
-            "far", f"{far:.0%} of all ranges are above {MOST_RANGE:g} m (the median is {middle:.4g} m).{question}",
-            {"unit": unit} if unit else {},
-        )  # fmt: skip
+    likely = unit_of(finite) if reading.unit == "m" else "m"
+    if far > RECURS or likely != "m":
+        question = f"Are they in {UNIT_NAMES[likely]}?" if likely != "m" else "Check the unit, or what means no return."
+        share = f"{far:.0%} of all ranges are above {MOST_RANGE:g} m (the median is {middle:.4g} m)"
+        text = share if far > RECURS else f"The median of the ranges is {middle:.4g} m"
+        yield Notice("far", f"{text}. {question}", {"unit": likely} if likely != "m" else {})
     elif middle < LEAST_MEDIAN:
         unit = {"mm": "m", "cm": "m"}.get(reading.unit or "m")
         question = f" Are they in {'metres' if unit else 'another unit'}?"

@@ -28,8 +28,11 @@ class PlayerLog(Reader):
     @staticmethod
     def read(source: Source) -> Recording:
         lasers: dict[str, Sweeps] = {}
+        others: set[str] = set()
         for number, line in source.lines():
             words = line.split()
+            if len(words) > 3 and words[3][:1].isalpha() and not words[0].startswith(b"#"):
+                others.add(words[3].decode("ascii", "replace"))
             if len(words) <= WORDS_BEFORE or words[0].startswith(b"#") or words[3] != b"laser":
                 continue
             if words[5].lstrip(b"0") not in (b"1", b"01"):
@@ -44,7 +47,8 @@ class PlayerLog(Reader):
             lasers.setdefault(laser, Sweeps()).add(ranges, low, step, 0.0, limit, stamp, laser)
         if not lasers:
             source.notes.nothing_left()
-            raise ValueError(f"{source.name} has no laser message; a Player log has {PlayerLog.expects}.")
+            has = f"it has {', '.join(sorted(others)[:8])}; " if others else ""
+            raise ValueError(f"{source.name} has no laser message; {has}a Player log has {PlayerLog.expects}.")
         topics = tuple(Topic(name, len(sweeps)) for name, sweeps in lasers.items())
         topic = source.choose(list(topics), "device")
         source.notes.stamps = "the log"

@@ -1,0 +1,166 @@
+"""Scans as JSON: the values of a file, also one that breaks off, and a scan under other names than those of ROS."""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+import numpy as np
+
+from .dialect import seconds_of
+from .guessing import angle_unit_of
+from .headers import LENGTHS, TIMES, TURNS, Name, name_of
+from .laser_scan import LaserScan, decode_json
+from .scan_rows import other_angles, usual_angles
+from .source import Source
+
+# What the fields of a scan are called elsewhere.
+NAMES = {
+    "ranges": ("ranges", "distances", "range", "distance"),
+    "angles": ("angles", "bearings", "thetas", "theta"),
+    "angle_min": ("angle_min", "start_angle", "first_angle", "min_angle", "angle_start", "angle_first"),
+    "angle_max": ("angle_max", "end_angle", "last_angle", "max_angle", "angle_end", "angle_last"),
+    "angle_increment": ("angle_increment", "angle_step", "angle_resolution", "angular_resolution", "increment"),
+    "range_min": ("range_min", "min_range"),
+    "range_max": ("range_max", "max_range"),
+    "stamp": ("stamp", "timestamp", "time", "t", "ts"),
+    "frame_id": ("frame_id", "frame"),
+}
+FIELD = {name: field for field, names in NAMES.items() for name in names}
+
+
+def parsed(text: bytes | str) -> Any:
+    """The value, None if the text is not JSON."""
+    try:
+        return json.loads(text.strip().rstrip(b"," if isinstance(text, bytes) else ","))  # type: ignore[arg-type]
+    except (ValueError, RecursionError):
+        return None
+
+
+def json_values(source: Source) -> Iterator[tuple[str, Any]]:
+    """(place, value): the whole file as one value, or one a line, or one after the other up to where it breaks off."""
+    first = next((line for _, line in source.lines() if line.strip()), b"").removeprefix(b"\xef\xbb\xbf")
+    if parsed(first) is None:
+        text = source.path.read_bytes().removeprefix(b"\xef\xbb\xbf").decode("utf-8", "replace")
+        whole = parsed(text)
+        if whole is not None:
+            yield source.name, whole
+            return
+        read = 0
+        for end, place, value in _one_by_one(text):
+            read = end
+            yield f"{source.name}:{place}", value
+        if read and text[read:].strip(" \r\n\t,]"):
+            source.notes.notice("breaks off", f"The JSON breaks off after {read} characters; it was read up to there.")
+        if read:
+            return
+    for number, line in source.lines():
+        if not line.strip():
+            continue
+        value = parsed(line.removeprefix(b"\xef\xbb\xbf") if number == 1 else line)
+        if value is None:
+            source.notes.skip(f"{source.name}:{number}", "the line is not JSON; is it complete?")
+        else:
+            yield f"{source.name}:{number}", value
+
+
+def _one_by_one(text: str) -> Iterator[tuple[int, int, Any]]:
+    """(end, line, value) of the objects of a text, or of the list that it begins."""
+    decoder, gap = json.JSONDecoder(), re.compile(r"[\s,]*")
+    at = text.index("[") + 1 if text.lstrip().startswith("[") else 0
+    line, seen = 1, 0
+    while True:
+        match = gap.match(text, at)
+        at = match.end() if match else at
+        try:
+            value, end = decoder.raw_decode(text, at)
+        except (ValueError, RecursionError):
+            return
+        line, seen = line + text.count("\n", seen, at), at
+        yield end, line, value
+        at = end
+
+
+def scan_of(source: Source, message: Mapping[str, Any]) -> LaserScan:
+    """A scan under any of the usual names of its fields. Raises ValueError if it is none.
+
+    What its names do not say is noted: the unit, angles of a common laser, a stamp of unknown unit.
+    """
+    if "ranges" in message and "angle_min" in message and not isinstance(message.get("header", {}), Mapping):
+        message = {name: value for name, value in message.items() if name != "header"}
+    found: dict[str, tuple[Name, Any]] = {}
+    for key, value in message.items():
+        name = name_of(key)
+        field = FIELD.get(name.plain) or FIELD.get(name.plain.removeprefix("scan_"))
+        if field is not None and value is not None:
+            found.setdefault(field, (name, value))
+    plain = {field: value for field, (_, value) in found.items() if field not in ("angles", "stamp", "frame_id")}
+    header = message.get("header")
+    header = dict(header) if isinstance(header, Mapping) else {}
+    if "frame_id" in found:
+        header.setdefault("frame_id", found["frame_id"][1])
+    _take_units(source, found)
+    beams = len(found["ranges"][1]) if isinstance(found.get("ranges", ("", 0))[1], list) else 0
+    plain |= _angles(source, found, beams)
+    name, stamp = found.get("stamp", (Name(""), None))
+    stamp = header.pop("stamp", stamp)
+    if isinstance(stamp, Mapping):
+        return decode_json(plain | {"header": header | {"stamp": stamp}})
+    scan = decode_json(plain | {"header": header})
+    return scan if stamp is None else _with_time(source, scan, stamp, name)
+
+
+def _with_time(source: Source, scan: LaserScan, stamp: Any, name: Name) -> LaserScan:
+    """The scan with a stamp that is one number, or text."""
+    number = seconds_of(stamp.encode()) if isinstance(stamp, str) else stamp
+    if isinstance(number, bool) or not isinstance(number, int | float) or not math.isfinite(number):
+        raise ValueError(f"the stamp is {stamp!r:.40}; it must be a number or a time such as 2023-11-14T22:13:20Z")
+    if (unit := TIMES.get(name.unit)) is not None:
+        number *= unit
+    elif not isinstance(stamp, str):
+        source.notes.unstated.add("stamps")
+    whole = math.floor(number)
+    return scan._replace(seconds=whole, nanoseconds=round((number - whole) * 1e9))
+
+
+def _take_units(source: Source, found: Mapping[str, tuple[Name, Any]]) -> None:
+    notes = source.notes
+    if "ranges" in found:
+        unit = LENGTHS.get(found["ranges"][0].unit)
+        if unit is not None:
+            notes.found["unit"] = unit
+        elif found["ranges"][0].plain != "ranges" or "angle_min" not in found:
+            notes.unstated.add("unit")
+    turns = [TURNS.get(name.unit) for field, (name, _) in found.items() if field.startswith("angle")]
+    if "deg" in turns:
+        notes.found["angle_unit"] = "deg"
+
+
+def _angles(source: Source, found: Mapping[str, tuple[Name, Any]], beams: int) -> dict[str, float]:
+    """angle_min and angle_increment where the message has them in another form, or not at all."""
+    reading, notes = source.reading, source.notes
+    listed = found["angles"][1] if "angles" in found else None
+    if isinstance(listed, list) and len(listed) == beams > 1:
+        angles = np.asarray(listed, dtype=np.float64)
+        if reading.angle_unit is None and "angle_unit" not in notes.found:
+            unit = notes.found["angle_unit"] = angle_unit_of(angles)
+            why = f"the angles go from {angles.min():.4g} to {angles.max():.4g}"
+            notes.guess("angle_unit", "degrees" if unit == "deg" else "radians", why,
+                        angle_unit="rad" if unit == "deg" else "deg")  # fmt: skip
+        return {"angle_min": float(angles[0]), "angle_increment": float(angles[-1] - angles[0]) / (beams - 1)}
+    if "angle_min" in found or beams < 2:
+        return {}
+    step, low = reading.angle_increment, reading.angle_min
+    usual = usual_angles(beams)
+    if step is None and usual is not None:
+        low, step = (math.radians(each) for each in usual)
+        if not any(guess.field == "angle_min" for guess in notes.guesses):
+            text = f"{usual[0]:g}…{usual[0] + usual[1] * (beams - 1):g}°".replace("-", "−")
+            why = f"the scan has {beams} ranges and no angles"
+            notes.guess("angle_min", text, why, **other_angles(low, step))
+    if step is None:
+        raise ValueError(f"it has {beams} ranges without angles; give angle_min and angle_increment")
+    return {"angle_min": -step * (beams - 1) / 2 if low is None else low, "angle_increment": step}
