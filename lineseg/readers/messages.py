@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping
 from itertools import chain
-from typing import Any
+from typing import Any, TypeGuard
 
 import numpy as np
 
@@ -150,7 +150,7 @@ def _is_beam(value: Mapping[str, Any]) -> bool:
     return (any(map(is_angle, names)) and any(map(is_distance, names))) or {"x", "y"} <= plain
 
 
-def _is_table(value: Any) -> bool:
+def _is_table(value: Any) -> TypeGuard[Table]:
     """Whether it is a list of beams or points: lists of a few numbers."""
     rows = value if isinstance(value, list) and len(value) >= LEAST_BEAMS else []
     width = len(rows[0]) if rows and isinstance(rows[0], list) else 0
