@@ -12,7 +12,7 @@ from ..scan import Recording, Scan
 from .account import Account, Notes
 from .guessing import guess_limit, guess_unit, no_return_codes, sampled
 from .lasers import one_laser
-from .plausible import noticed, trouble_of
+from .plausible import noticed, oddness, trouble_in, trouble_of
 from .reading import METRES, Reading, Span, frames_of, span_of, values_of
 from .saying import line_of
 
@@ -25,8 +25,9 @@ def applied(recording: Recording, reading: Reading, notes: Notes) -> Recording:
     recording = _with_stamps(recording, reading, notes)
     recording, used = _in_metres_and_radians(recording, reading, notes)
     recording = _with_limits(recording, used, notes)
-    notices = (*notes.notices, *noticed(recording, used, notes.recorded is not None))
-    whole = recording
+    odd = oddness(recording.stamps)
+    notices = (*notes.notices, *noticed(recording, used, notes.recorded is not None, odd))
+    trouble = trouble_in(recording.stamps, odd)
     recording = _chosen_frames(recording, used)
     recording = _chosen_beams(recording, used)
     account = Account(
@@ -36,7 +37,7 @@ def applied(recording: Recording, reading: Reading, notes: Notes) -> Recording:
         notices=notices,
         skipped=tuple(notes.skipped),
         skips=notes.skips,
-        stamp_trouble=trouble_of(whole.stamps),
+        stamp_trouble=trouble,
     )
     account = replace(account, line=line_of(recording, account, notes))
     return replace(recording, account=account)

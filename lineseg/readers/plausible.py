@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -18,10 +18,10 @@ YEAR = 365.25 * 86400
 WRAPS = tuple(2.0**32 * scale for scale in (1.0, 1e-3, 1e-6, 1e-9))
 
 
-def noticed(recording: Recording, reading: Reading, recorded: bool) -> Iterator[Notice]:
+def noticed(recording: Recording, reading: Reading, recorded: bool, odd: Oddness | None) -> Iterator[Notice]:
     """All notices of a recording in metres and radians; recorded: whether its recorder's times are known.
 
-    Stamps without a notice of the kind "stamps" can be times: they rise, and neither jump by years nor wrap.
+    odd: what is wrong with its stamps.
     """
     yield from _about_angles(recording, reading)
     size = list(_about_size(recording, reading))
@@ -30,7 +30,7 @@ def noticed(recording: Recording, reading: Reading, recorded: bool) -> Iterator[
     if not any("unit" in notice.change for notice in size):
         yield from _about_limits(recording, reading, ranges, inside)
     yield from _about_recurring(recording, ranges[inside])
-    yield from _about_stamps(recording.stamps, recorded and reading.stamps != "recorded")
+    yield from _about_stamps(odd, recorded and reading.stamps != "recorded")
 
 
 def _sample(recording: Recording) -> tuple[Floats, Any]:
@@ -143,37 +143,48 @@ def _about_recurring(recording: Recording, valid: Floats) -> Iterator[Notice]:
 
 def trouble_of(stamps: Floats) -> str:
     """Why stamps cannot be times, in a few words; "" if they rise, and neither jump by years nor wrap."""
+    return trouble_in(stamps, oddness(stamps))
+
+
+def trouble_in(stamps: Floats, odd: Oddness | None) -> str:
+    """The same for stamps whose oddness is known."""
     if not stamps.any():
         return "no stamps"
-    odd = _oddness(stamps)
-    return odd[0] if odd else ""
+    return "" if odd is None else odd.words
 
 
-def _about_stamps(stamps: Floats, recorded: bool = False) -> Iterator[Notice]:
-    if odd := _oddness(stamps):
+def _about_stamps(odd: Oddness | None, recorded: bool) -> Iterator[Notice]:
+    if odd is not None:
         way = "Use the times of the recorder?" if recorded else "Read the file without stamps?"
-        yield Notice("stamps", f"{odd[1]} {way}", {"stamps": "recorded" if recorded else "none"})
+        yield Notice("stamps", f"{odd.sentence} {way}", {"stamps": "recorded" if recorded else "none"})
 
 
-def _oddness(stamps: Floats) -> tuple[str, str] | None:
-    """What is wrong with stamps, in a few words and as a sentence."""
+class Oddness(NamedTuple):
+    """Why stamps cannot be times."""
+
+    words: str
+    sentence: str
+
+
+def oddness(stamps: Floats) -> Oddness | None:
+    """What is wrong with stamps; None if they rise, and neither jump by years nor wrap."""
     if len(stamps) < 2 or not stamps.any():
         return None
     if not np.isfinite(stamps).all():
-        return "stamps are not numbers", "Some stamps are not numbers."
+        return Oddness("stamps are not numbers", "Some stamps are not numbers.")
     steps = np.diff(stamps)
     if not steps.any():
-        return "stamps are equal", f"All stamps are equal ({stamps[0]:g})."
+        return Oddness("stamps are equal", f"All stamps are equal ({stamps[0]:g}).")
     at, leap = int(np.argmin(steps)), int(np.argmax(np.abs(steps)))
     if any(steps[at] < 0 and abs(-steps[at] - wrap) < 0.01 * wrap for wrap in WRAPS):
-        return "stamps wrap", f"The stamps wrap at 2³² before frame {at + 1}."
+        return Oddness("stamps wrap", f"The stamps wrap at 2³² before frame {at + 1}.")
     if abs(steps[leap]) > YEAR:
         years = abs(steps[leap]) / YEAR
-        return "stamps jump by years", f"The stamps jump by {years:.0f} years before frame {leap + 1}."
+        return Oddness("stamps jump by years", f"The stamps jump by {years:.0f} years before frame {leap + 1}.")
     if steps[at] < 0:
         backwards = np.count_nonzero(steps < 0)
         times = "once" if backwards == 1 else f"{backwards} times"
-        return (
+        return Oddness(
             "stamps run backwards",
             f"The stamps run backwards {times}, by {-steps[at]:.3g} s before frame {at + 1}.",
         )
