@@ -41,6 +41,8 @@ class Knob:
     def reaching(self, *values: float) -> Knob:
         """The same with a slider that reaches these values: an end that is too near moves to the next round number."""
         low, high = min(values), max(values)
+        if self.low <= low and high <= self.high:
+            return self
         return replace(
             self,
             low=self.low if low >= self.low else max(max(each for each in _round(low) if each <= low), self.least),

@@ -45,18 +45,28 @@ class Findings:
         """First and last beam of the seed of each candidate; none if the method has no seeds."""
         if "seed found" not in self.trace.vocabulary.names:
             return {}
-        found = (self.trace[int(index)] for index in self.trace.indices("seed found"))
-        return {decision.candidate: (decision.first, decision.last) for decision in found}
+        rows = self.trace.log[self.trace.indices("seed found")]
+        spans = self.trace.as_beams(np.array((rows["first"], rows["last"]))).T.tolist()
+        return {
+            candidate: (first, last) for candidate, (first, last) in zip(rows["candidate"].tolist(), spans, strict=True)
+        }
 
     @cached_property
     def drops(self) -> tuple[Decision, ...]:
         """The decisions that dropped a line."""
-        return tuple(self.trace[int(index)] for index in self.trace.jump("drop"))
+        return tuple(self.trace.at(self.trace.jump("drop")))
 
-    def ends(self, decision: Decision) -> NDArray[np.float64]:
-        """(2, 2): the outermost points of its span [m]; if dropouts count as points, it may end at a dropout."""
-        beams = self.trace.beams(decision.first, decision.last)
-        return self.scan.xy[beams[[0, -1]]] if len(beams) else np.zeros((2, 2))
+    @cached_property
+    def drop_ends(self) -> NDArray[np.float64]:
+        """(drops, 2, 2): the outermost points of each dropped line [m]; 0 if it has no valid beam."""
+        spans = np.array([(drop.first, drop.last) for drop in self.drops], int).reshape(-1, 2)
+        beams, drops = self.trace.beams_of(*spans.T)
+        outermost = np.searchsorted(drops, np.arange(len(spans) + 1))
+        some = np.diff(outermost) > 0
+        ends = np.zeros((len(spans), 2, 2))
+        ends[some, 0] = self.scan.xy[beams[outermost[:-1][some]]]
+        ends[some, 1] = self.scan.xy[beams[outermost[1:][some] - 1]]
+        return ends
 
     @cached_property
     def marks(self) -> dict[str, list[int]]:
@@ -137,9 +147,8 @@ def _seed_distances(found: Findings) -> tuple[NDArray, NDArray]:
     rows = found.trace.log[found.trace.indices("seed found")]
     if not len(rows):
         return np.empty(0), np.empty(0)
-    beams = [found.trace.beams(first, last) for first, last in found.seeds.values()]
-    a, b, c = (np.repeat(rows["line"][name], [len(window) for window in beams]) for name in "abc")
-    inside = np.concatenate(beams)
+    inside, seeds = found.trace.beams_of(*np.array(list(found.seeds.values())).T)
+    a, b, c = (rows["line"][name][seeds] for name in "abc")
     xy, predicted = found.scan.xy[inside], predicted_ranges((a, b, c), found.scan.rays[:, inside])
     return np.abs(a * xy[:, 0] + b * xy[:, 1] + c), np.abs(found.scan.ranges[inside] - predicted)
 

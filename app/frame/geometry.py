@@ -42,19 +42,38 @@ def united(one: Bounds, other: Bounds) -> Bounds:
     return min(one[0], other[0]), min(one[1], other[1]), max(one[2], other[2]), max(one[3], other[3])
 
 
-def voids(scan: Scan, beams: NDArray[np.intp]) -> NDArray[np.intp]:
-    """(voids, 2) the beams on both sides of each void in a line with these rising beams.
+def voids(scan: Scan, labels: NDArray[np.integer]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """(voids, 2) the beams on both sides of each void in a line, and (voids,) its line; labels: (n,) the line of each
+    beam, or −1.
 
     A void is a gap of more than LEAST_VOID in which other beams ended, or one more than TIMES as wide as the gaps next
     to it.
     """
-    if scan.full_circle and len(beams):
-        beams = np.roll(beams, -int(np.argmax((beams - np.roll(beams, 1)) % scan.around)))
+    beams, line = _along_lines(scan, labels)
+    within = line[1:] == line[:-1]
     steps = np.diff(beams) % max(scan.around, len(scan))
     gaps = np.hypot(*np.diff(scan.xy[beams], axis=0).T)
-    each = np.concatenate(([0.0], gaps / steps, [0.0]))
-    wide = (gaps > LEAST_VOID) & ((steps > 1) | (gaps > TIMES * np.maximum(each[:-2], each[2:])))
-    return np.column_stack((beams[:-1][wide], beams[1:][wide]))
+    each = np.concatenate(([0.0], np.where(within, gaps / np.maximum(steps, 1), 0.0), [0.0]))
+    wide = within & (gaps > LEAST_VOID) & ((steps > 1) | (gaps > TIMES * np.maximum(each[:-2], each[2:])))
+    return np.column_stack((beams[:-1][wide], beams[1:][wide])), line[:-1][wide]
+
+
+def _along_lines(scan: Scan, labels: NDArray[np.integer]) -> tuple[NDArray[np.intp], NDArray[np.integer]]:
+    """The valid beams, line after line, and their lines; a line across the seam begins after its widest gap."""
+    beams = np.flatnonzero((labels >= 0) & scan.valid)
+    beams = beams[np.argsort(labels[beams], kind="stable")]
+    line = labels[beams]
+    if not scan.full_circle or not len(beams):
+        return beams, line
+    first = np.flatnonzero(np.diff(line, prepend=-1))
+    counts = np.diff(first, append=len(beams))
+    before = np.arange(len(beams)) - 1
+    before[first] += counts
+    gaps = (beams - beams[before]) % scan.around
+    own = np.repeat(np.arange(len(first)), counts)
+    widest = np.flatnonzero(gaps == np.maximum.reduceat(gaps, first)[own])
+    begin = widest[np.unique(own[widest], return_index=True)[1]]
+    return beams[first[own] + (np.arange(len(beams)) - 2 * first[own] + begin[own]) % counts[own]], line
 
 
 def beam_near(scan: Scan, point: tuple[float, float], radius: float) -> int | None:

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict
-
 import numpy as np
+from numpy.typing import NDArray
 
 from lineseg import Decision, FrameLabels, Recording, Segment, TrueLine, difference
 from lineseg.readers import Account
@@ -35,8 +34,9 @@ def state_of(
     scan, trace = found.scan, found.trace
     first, every = numbering(recording)
     chosen = trace[view.step] if view.step is not None else None
+    said = view.as_json()
     return {
-        "view": view.as_json()
+        "view": said
         | {
             "topic": recording.topic if len(recording.topics) > 1 else None,
             # Of a recording that does not grow there is no newest frame to leave.
@@ -64,20 +64,20 @@ def state_of(
         "valid": int(scan.valid.sum()),
         "covered": found.extraction.covered,
         "method": view.method,
-        "params": view.params.numbers(),
+        "params": said["params"],
         "step": view.step,
         "steps": len(trace),
-        "layers": asdict(view.layers),
+        "layers": said["layers"],
         "selected": view.selected,
         "camera": view.camera,
         "score": view.score,
-        "against": view.against.numbers() if view.against is not None else None,
-        "weights": view.all_weights,
+        "against": said["against"],
+        "weights": said["weights"],
         "difference": difference(pinned.extraction, found.extraction).counts if pinned is not None else None,
         "extent": extent_of(scan, bounds),
         "bounds": bounds,
         "segments": [_segment(segment) for segment in found.extraction.segments],
-        "dropped": [_dropped(found, drop) for drop in found.drops],
+        "dropped": [_dropped(drop, *ends) for drop, ends in zip(found.drops, found.drop_ends, strict=True)],
         "decision": _decision(chosen) if chosen is not None else None,
         "explanation": _explanation(found, view.selected) if view.selected is not None else None,
         "histograms": {name: _histogram(each) for name, each in found.histograms.items()},
@@ -129,8 +129,7 @@ def _segment(segment: Segment) -> told.Segment:
     }
 
 
-def _dropped(found: Findings, drop: Decision) -> told.Dropped:
-    start, end = found.ends(drop)
+def _dropped(drop: Decision, start: NDArray, end: NDArray) -> told.Dropped:
     across = end - start
     length = abs(drop.line[0] * across[1] - drop.line[1] * across[0])
     if not np.isfinite(length):

@@ -5,11 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 
-from lineseg import Decision, Recording, Scan, Segment, difference
+from lineseg import Recording, Scan, Segment, difference
 from lineseg.survey.difference import KEPT
 
 from ..frame.findings import Findings
@@ -17,7 +18,7 @@ from ..frame.geometry import Bounds, voids
 from ..frame.judge import Judged
 from ..view import View
 from .palette import DARK, LIGHT, Colours, Theme
-from .replay import NO_XY, State, decision_geometry, foot_between, state_at
+from .replay import State, decision_geometry, foot_between, state_at
 from .shapes import Lines, Points, dashed, joined, lines_between, points_at
 
 DASH = 0.10
@@ -25,6 +26,8 @@ FALSE_DASH = 0.04
 MISSED_DASH = 0.20
 NORMAL = 0.3
 FAR = 100.0
+# Bounds and themes whose grid is kept.
+CACHED = 64
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,7 +94,7 @@ def _lines(
     if layers.segments:
         lines["segments"] = segments(found.scan, state)
     if layers.dropped:
-        lines["dropped"] = dropped_lines(found, state.drops, theme)
+        lines["dropped"] = dropped_lines(found.drop_ends[: len(state.drops)], theme)
     if layers.normals and view.step is None:
         lines["normals"] = normals(found.extraction.segments, state.colours)
     return lines
@@ -106,25 +109,26 @@ def scan_points(scan: Scan, state: State, theme: Theme) -> Points:
 
 def seed_points(found: Findings, state: State, theme: Theme) -> Points:
     """The seeds of the lines shown."""
-    windows = [found.trace.beams(*found.seeds[candidate]) for candidate in state.candidates if candidate in found.seeds]
-    beams = np.concatenate(windows) if windows else np.empty(0, dtype=int)
+    windows = [found.seeds[candidate] for candidate in state.candidates if candidate in found.seeds]
+    beams, _ = found.trace.beams_of(*np.array(windows, int).reshape(-1, 2).T)
     return points_at(found.scan.xy[beams], theme.strong)
 
 
 def segments(scan: Scan, state: State) -> Lines:
     """The lines, dashed across voids."""
-    pieces, dashes = [], []
-    for line, (start, end) in enumerate(zip(state.starts, state.ends, strict=True)):
-        cuts = foot_between(scan.xy[voids(scan, np.flatnonzero((state.labels == line) & scan.valid))], start, end)
-        solid = np.vstack((start, cuts.reshape(-1, 2), end)).reshape(-1, 2, 2)
-        pieces.append(lines_between(solid[:, 0], solid[:, 1], state.colours[line]))
-        dashes.append(dashed(cuts[:, 0], cuts[:, 1], DASH, state.colours[line]))
-    return joined(*pieces, *dashes) if pieces else lines_between(NO_XY, NO_XY, state.colours)
+    every = np.arange(len(state.starts))
+    beams, at = voids(scan, state.labels)
+    cuts = foot_between(scan.xy[beams], state.starts[at][:, None], state.ends[at][:, None])
+    # A line begins at its start and after each void, and ends before each void and at its end.
+    begins, ends = np.concatenate((every, at)), np.concatenate((at, every))
+    starts = np.concatenate((state.starts, cuts[:, 1]))[np.argsort(begins, kind="stable")]
+    stops = np.concatenate((cuts[:, 0], state.ends))[np.argsort(ends, kind="stable")]
+    solid = lines_between(starts, stops, state.colours[np.sort(begins)])
+    return joined(solid, dashed(cuts[:, 0], cuts[:, 1], DASH, state.colours[at]))
 
 
-def dropped_lines(found: Findings, drops: Sequence[Decision], theme: Theme) -> Lines:
-    """Dropped candidates, dashed between their outermost points."""
-    ends = np.array([found.ends(drop) for drop in drops]).reshape(-1, 2, 2)
+def dropped_lines(ends: NDArray, theme: Theme) -> Lines:
+    """Dropped candidates, dashed between their outermost points (lines, 2, 2)."""
     return dashed(ends[:, 0], ends[:, 1], DASH, theme.faint)
 
 
@@ -182,6 +186,7 @@ def truth(recording: Recording, frame: int, theme: Theme) -> Lines:
     return lines_between(ends[:, 0], ends[:, 1], theme.truth)
 
 
+@lru_cache(maxsize=CACHED)
 def laser(bounds: Bounds, theme: Theme) -> Lines:
     """The laser as an arrowhead along its x axis."""
     size = 0.012 * max(bounds[2] - bounds[0], bounds[3] - bounds[1])
@@ -189,6 +194,7 @@ def laser(bounds: Bounds, theme: Theme) -> Lines:
     return lines_between([tip, left, notch, right], [left, notch, right, tip], theme.laser)
 
 
+@lru_cache(maxsize=CACHED)
 def grid(bounds: Bounds, theme: Theme) -> Lines:
     """Grid lines 1, 2 or 5 × 10ⁿ m apart, about a dozen across the recording, with highlighted axes."""
     spacing = grid_spacing(max(bounds[2] - bounds[0], bounds[3] - bounds[1]))

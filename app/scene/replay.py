@@ -153,9 +153,10 @@ def foot(xy: NDArray, line: Line | NDArray) -> NDArray:
 
 
 def foot_between(xy: NDArray, start: NDArray, end: NDArray) -> NDArray:
-    """Points (…, 2) projected onto the line through two points."""
-    along = (end - start) / max(float(np.linalg.norm(end - start)), 1e-12)
-    return start + ((xy - start) @ along)[..., None] * along
+    """Points (…, 2) projected onto the lines through two points (…, 2)."""
+    along = end - start
+    along = along / np.maximum(np.linalg.norm(along, axis=-1, keepdims=True), 1e-12)
+    return start + ((xy - start) * along).sum(axis=-1, keepdims=True) * along
 
 
 def is_line(line: Line | NDArray) -> NDArray[np.bool_]:

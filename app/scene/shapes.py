@@ -44,24 +44,21 @@ def joined(*parts: Lines) -> Lines:
     return Lines(np.concatenate([part.xyz for part in parts]), np.concatenate([part.colours for part in parts]))
 
 
-def dashed(starts: NDArray, ends: NDArray, dash: float, colour: Colour, most: int = 4000) -> Lines:
+def dashed(starts: NDArray, ends: NDArray, dash: float, colours: Colours | Colour, most: int = 4000) -> Lines:
     """The lines dashed, with gaps as long as the dashes; very long lines get longer dashes.
 
     Lines that are not finite are left out.
     """
     finite = np.isfinite(starts).all(axis=1) & np.isfinite(ends).all(axis=1)
-    starts, ends = starts[finite], ends[finite]
+    starts, ends, colours = starts[finite], ends[finite], _each(colours, len(starts))[finite]
     lengths = np.linalg.norm(ends - starts, axis=1)
     dash = max(dash, float(lengths.sum()) / (2 * most))
-    pieces_from, pieces_to = [], []
-    for start, end, length in zip(starts, ends, lengths, strict=True):
-        cuts = np.arange(0.0, length, 2 * dash)
-        along = (end - start) / max(length, 1e-12)
-        pieces_from.append(start + cuts[:, None] * along)
-        pieces_to.append(start + np.minimum(cuts + dash, length)[:, None] * along)
-    if not pieces_from:
-        return lines_between(np.empty((0, 2)), np.empty((0, 2)), colour)
-    return lines_between(np.concatenate(pieces_from), np.concatenate(pieces_to), colour)
+    dashes = np.ceil(lengths / (2 * dash)).astype(int)
+    line = np.repeat(np.arange(len(lengths)), dashes)
+    place = 2 * dash * (np.arange(len(line)) - np.repeat(np.cumsum(dashes) - dashes, dashes))
+    start, along = starts[line], ((ends - starts) / np.maximum(lengths, 1e-12)[:, None])[line]
+    stop = np.minimum(place + dash, lengths[line])
+    return lines_between(start + place[:, None] * along, start + stop[:, None] * along, colours[line])
 
 
 def _raised(xy: NDArray) -> NDArray[np.float32]:

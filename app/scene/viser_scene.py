@@ -75,6 +75,7 @@ class ViserScene:
         self._metres_per_pixel = 0.02
         self._dark: bool | None = None
         self._bounds: Bounds | None = None
+        self._shown = Picture({}, {}, (0.0, 0.0, 0.0, 0.0))
         nodes = self._server.scene
         no_points, no_lines = np.zeros((1, 3), np.float32), np.zeros((1, 2, 3), np.float32)
         self._clouds = {
@@ -110,10 +111,11 @@ class ViserScene:
         with self._server.atomic():
             self._set_theme(dark)
             self._set_bounds(picture.bounds)
-            for name, handle in self._clouds.items():
-                _show_points(handle, picture.points.get(name))
-            for name, handle in self._lines.items():
-                _show_lines(handle, picture.lines.get(name))
+            for name, cloud in self._clouds.items():
+                _show_points(cloud, picture.points.get(name), self._shown.points.get(name))
+            for name, lines in self._lines.items():
+                _show_lines(lines, picture.lines.get(name), self._shown.lines.get(name))
+            self._shown = Picture(self._shown.points | picture.points, self._shown.lines | picture.lines, picture.bounds)
             self._set_sliders(params)
 
     def flush(self) -> None:
@@ -222,15 +224,19 @@ def _path(name: str) -> str:
     return "/" + name.replace(" ", "_")
 
 
-def _show_points(handle: viser.PointCloudHandle, points: Points | None) -> None:
-    if points is not None and len(points.xyz):
-        handle.points = points.xyz
+def _show_points(handle: viser.PointCloudHandle, points: Points | None, last: Points | None) -> None:
+    """last: what the handle has."""
+    if points is not None and len(points.xyz) and points is not last:
+        # viser compares as well, but takes ten times as long.
+        if last is None or not np.array_equal(points.xyz, last.xyz):
+            handle.points = points.xyz
         handle.colors = points.colours
     _set_visible(handle, points is not None and len(points.xyz) > 0)
 
 
-def _show_lines(handle: viser.LineSegmentsHandle, lines: Lines | None) -> None:
-    if lines is not None and len(lines.xyz):
+def _show_lines(handle: viser.LineSegmentsHandle, lines: Lines | None, last: Lines | None) -> None:
+    """last: what the handle has."""
+    if lines is not None and len(lines.xyz) and lines is not last:
         handle.points = lines.xyz
         handle.colors = np.repeat(linear(lines.colours)[:, None, :], 2, axis=1)
     _set_visible(handle, lines is not None and len(lines.xyz) > 0)

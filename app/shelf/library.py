@@ -152,8 +152,14 @@ class Library:
     def label(self, id: str) -> str:
         if id.startswith(DRAWN):
             return DRAWN_LABEL
-        kept = {f"upload:{upload.id}": upload.name for upload in self.uploads.all()}
-        return kept.get(id) or next((entry.label for entry in self.entries() if entry.id == id), id)
+        if (source := self.live.get(id)) is not None:
+            return source.label
+        if id in self._samples:
+            return _title(self._samples[id])
+        path = self._files.get(id) or self._recent.get(id)
+        if path is not None:
+            return path.name
+        return next((upload.name for upload in self.uploads.all() if id == f"upload:{upload.id}"), id)
 
     def path(self, id: str) -> Path:
         """The file with an id. Raises ValueError for an unknown id."""

@@ -114,7 +114,8 @@ def written(call: Callable[[Log], T], rows: int) -> tuple[T, NDArray[np.void]]:
     if log.used[0] > rows:
         log = Log(np.empty(log.used[0], ROW), np.zeros(1, np.int64))
         result = call(log)
-    return result, log.rows[: log.used[0]]
+    # A copy, because few rows of the memory are used, and a trace may be kept for long.
+    return result, log.rows[: log.used[0]].copy()
 
 
 class Notes:
