@@ -4,8 +4,8 @@ import hashlib
 import json
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass, field, fields, replace
-from functools import cached_property
-from typing import Annotated, Any, Literal, Self
+from functools import cache, cached_property
+from typing import Annotated, Any, Literal, Self, TypeVar
 
 from pydantic import Field, ValidationError
 
@@ -39,6 +39,7 @@ SUSPICION = Score(
     least=0.5,
     weight=0.0,
 )
+T = TypeVar("T")
 STRIP_SCORES = {**SCORES, SUSPICION.name: SUSPICION, DIFFERENCE.name: DIFFERENCE}
 
 
@@ -242,7 +243,7 @@ class View:
         for name in patch:
             if name not in declared:
                 raise ValueError(f"a view has no {name!r}; it has {', '.join(sorted(declared))}")
-        view, usual = self, type(self)()
+        view, usual = self, _usual(type(self))
         changed, chosen = set[str](), set[str]()
         for name, entry in declared.items():
             if changed.intersection(entry.reset_by):
@@ -298,6 +299,12 @@ class View:
     def as_json(self) -> dict[str, Any]:
         """A patch that restores this View."""
         return {name: entry.tell(getattr(self, name)) for name, entry in view_fields(type(self)).items()}
+
+
+@cache
+def _usual(view: type[T]) -> T:
+    """A View with its defaults."""
+    return view()
 
 
 def _parts(said: Mapping[str, Any], order: list[str]) -> Iterator[dict[str, Any]]:

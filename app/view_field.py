@@ -8,7 +8,7 @@ from dataclasses import dataclass, fields
 from functools import cache
 from typing import Annotated, Any, Literal, Protocol, get_type_hints
 
-from pydantic import BaseModel, TypeAdapter, create_model
+from pydantic import BaseModel, Field, TypeAdapter, create_model
 
 from .bounds import Message
 from .told.typescript import As
@@ -81,7 +81,11 @@ class Patch(Message):
 def patch_of(view: type[Viewlike]) -> type[Patch]:
     """The model of a patch of this View."""
     usual = view().as_json()
-    types: Any = {name: (patch_type, usual[name]) for name, patch_type in _patch_types(view).items()}
+    # As a factory, because pydantic copies any other default for each message, although `changes` leaves it out.
+    types: Any = {
+        name: (patch_type, Field(default_factory=lambda value=usual[name]: value))
+        for name, patch_type in _patch_types(view).items()
+    }
     return create_model(f"{view.__name__}Patch", __base__=Patch, __module__=__name__, **types)
 
 

@@ -45,10 +45,11 @@ class Findings:
         """First and last beam of the seed of each candidate; none if the method has no seeds."""
         if "seed found" not in self.trace.vocabulary.names:
             return {}
-        rows = self.trace.log[self.trace.indices("seed found")]
-        spans = self.trace.as_beams(np.array((rows["first"], rows["last"]))).T.tolist()
+        log, found = self.trace.log, self.trace.indices("seed found")
+        spans = self.trace.as_beams(np.array((log["first"][found], log["last"][found]))).T.tolist()
         return {
-            candidate: (first, last) for candidate, (first, last) in zip(rows["candidate"].tolist(), spans, strict=True)
+            candidate: (first, last)
+            for candidate, (first, last) in zip(log["candidate"][found].tolist(), spans, strict=True)
         }
 
     @cached_property
@@ -81,7 +82,11 @@ class Findings:
 
 def findings(recording: Recording, frame: int, method: str, params: Thresholds) -> Findings:
     """Run the method on one frame."""
-    scan = recording[frame]
+    return findings_in(recording[frame], method, params)
+
+
+def findings_in(scan: Scan, method: str, params: Thresholds) -> Findings:
+    """Run the method on a scan, which is faster if the scan is the same object for other thresholds."""
     extractor = EXTRACTORS[method]
     # The faster of two runs, because other threads may interrupt one of them.
     elapsed = min(_seconds(lambda: extractor.extract(scan, params)) for _ in range(2))
@@ -121,7 +126,7 @@ def _lines_measured(found: Findings) -> dict[str, tuple[Any, Any]]:
 def _distances_measured(found: Findings, trace: GrowthTrace) -> dict[str, tuple[Any, Any]]:
     """(accepted, refused): the distances to the line and to the predicted point."""
     to_line, to_predicted = _seed_distances(found)
-    growth = trace.log[trace.indices("point added")]["value"]
+    growth = trace.log["value"][trace.indices("point added")]
     return {
         "epsilon": (np.concatenate((to_line, growth)), _refused(trace, "epsilon")),
         "delta": (to_predicted, _refused(trace, "delta")),
@@ -144,15 +149,15 @@ def histogram(passed: NDArray, failed: NDArray, low: float, high: float, log: bo
 
 def _seed_distances(found: Findings) -> tuple[NDArray, NDArray]:
     """Distances to the line and to the predicted point, for all points of the seeds found."""
-    rows = found.trace.log[found.trace.indices("seed found")]
+    rows = found.trace.indices("seed found")
     if not len(rows):
         return np.empty(0), np.empty(0)
     inside, seeds = found.trace.beams_of(*np.array(list(found.seeds.values())).T)
-    a, b, c = (rows["line"][name][seeds] for name in "abc")
+    a, b, c = (found.trace.log["line"][name][rows[seeds]] for name in "abc")
     xy, predicted = found.scan.xy[inside], predicted_ranges((a, b, c), found.scan.rays[:, inside])
     return np.abs(a * xy[:, 0] + b * xy[:, 1] + c), np.abs(found.scan.ranges[inside] - predicted)
 
 
 def _refused(trace: GrowthTrace, check: str) -> NDArray:
-    rows = trace.log[np.concatenate((trace.indices("seed rejected"), trace.indices("growth stopped")))]
-    return rows["value"][rows["check"] == number_of(check)]
+    rows = np.concatenate((trace.indices("seed rejected"), trace.indices("growth stopped")))
+    return trace.log["value"][rows[trace.log["check"][rows] == number_of(check)]]

@@ -118,6 +118,8 @@ def segments(scan: Scan, state: State) -> Lines:
     """The lines, dashed across voids."""
     every = np.arange(len(state.starts))
     beams, at = voids(scan, state.labels)
+    if not len(at):
+        return lines_between(state.starts, state.ends, state.colours)
     cuts = foot_between(scan.xy[beams], state.starts[at][:, None], state.ends[at][:, None])
     # A line begins at its start and after each void, and ends before each void and at its end.
     begins, ends = np.concatenate((every, at)), np.concatenate((at, every))

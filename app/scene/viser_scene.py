@@ -115,7 +115,9 @@ class ViserScene:
                 _show_points(cloud, picture.points.get(name), self._shown.points.get(name))
             for name, lines in self._lines.items():
                 _show_lines(lines, picture.lines.get(name), self._shown.lines.get(name))
-            self._shown = Picture(self._shown.points | picture.points, self._shown.lines | picture.lines, picture.bounds)
+            self._shown = Picture(
+                self._shown.points | picture.points, self._shown.lines | picture.lines, picture.bounds
+            )
             self._set_sliders(params)
 
     def flush(self) -> None:

@@ -8,7 +8,7 @@ from functools import lru_cache
 from lineseg import Recording
 
 from ..frame.clock import Clock
-from ..frame.findings import Findings, findings
+from ..frame.findings import Findings, findings_in
 from ..frame.geometry import Bounds, bounds_of, united
 from ..frame.judge import Reference, judged
 from ..frame.state import state_of
@@ -44,7 +44,11 @@ class Composer:
 
     def __init__(self, library: Library, files: LabelFiles) -> None:
         self._library, self._files = library, files
-        self._findings = lru_cache(maxsize=FRAMES_KEPT)(findings)
+        # While a slider moves, the scan stays the same, and with it what is known of its points.
+        self._scan = lru_cache(maxsize=2)(Recording.__getitem__)
+        self._findings = lru_cache(maxsize=FRAMES_KEPT)(
+            lambda recording, frame, method, params: findings_in(self._scan(recording, frame), method, params)
+        )
         self._judged = lru_cache(maxsize=FRAMES_KEPT)(judged)
         self._clock = lru_cache(maxsize=4)(Clock.of)
         self._bounds = lru_cache(maxsize=4)(bounds_of)
@@ -86,11 +90,11 @@ def _inside(view: View, recording: Recording) -> View:
     frame = recording.position(view.frame)
     beams = int(recording.offsets[frame + 1] - recording.offsets[frame])
     selected = view.selected if view.selected is not None and 0 <= view.selected < beams else None
-    return replace(view, frame=recording.number(frame), selected=selected)
+    number = recording.number(frame)
+    return view if (number, selected) == (view.frame, view.selected) else replace(view, frame=number, selected=selected)
 
 
 def _inside_trace(view: View, found: Findings) -> View:
     """The View with its step limited to the trace; a trace without decisions has no steps."""
-    if view.step is None or not len(found.trace):
-        return replace(view, step=None)
-    return replace(view, step=min(max(view.step, 0), len(found.trace) - 1))
+    step = min(max(view.step, 0), len(found.trace) - 1) if view.step is not None and len(found.trace) else None
+    return view if step == view.step else replace(view, step=step)

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import logging
+import math
 import threading
 import time
 from collections.abc import Callable, Iterator
+from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import NamedTuple
@@ -26,12 +28,17 @@ from ..live.ring import numbering
 from ..newest import Newest
 from ..told.messages import Surveyed
 from ..view import Against, View, all_weights
+from .turns import Turns
 
 # A quick survey of this many beams takes a few milliseconds on one core: too short to be worth stopping.
 GLANCE_BEAMS = 400_000
 LEAST_STRIDE = 4
 # Time between updates of the scores of a growing recording [s].
 LIVE_EVERY = 1.0
+# Changes that follow each other faster belong to one drag, and a survey that takes long waits for its end [s].
+DRAG = 0.15
+# Quick surveys of all tabs together take this share of the time, so that many tabs can be dragged at once.
+QUICK = Turns(0.25)
 
 log = logging.getLogger(__name__)
 
@@ -58,12 +65,13 @@ def key_of(view: View) -> Key:
 
 @dataclass(frozen=True, eq=False)
 class Subject:
-    """What to survey, and the revision of the View."""
+    """What to survey, and the revision of the View. dragged: whether it came soon after another."""
 
     key: Key
     recording: Recording
     rev: int
     stop: NDArray[np.bool_]
+    dragged: bool
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,8 +105,10 @@ class Strip:
         self._glance = lru_cache(maxsize=1)(glance_of)
         self._known: Known | None = None
         self._pinned: tuple[Recording, Thresholds, Survey] | None = None
-        self._lock = threading.RLock()
+        self._lock = threading.Condition()
         self._subject: Subject | None = None
+        self._begun: Subject | None = None
+        self._asked_at = -math.inf
         self._closing = False
         self._rest_until = 0.0
         self._surveying = Newest(name, self._work, behind=True)
@@ -108,7 +118,8 @@ class Strip:
         key = key_of(view)
         self.keep(view)
         with self._lock:
-            subject = Subject(key, recording, rev, np.full(1, passing))
+            before, self._asked_at = self._asked_at, time.monotonic()
+            subject = Subject(key, recording, rev, np.full(1, passing), self._asked_at - before < DRAG)
             if self._subject is None:
                 self._subject = subject
                 self._surveying.put(subject)
@@ -122,6 +133,7 @@ class Strip:
                 self._subject.stop[0] = True
                 self._subject = None
                 self._surveying.drop()
+                self._lock.notify_all()
 
     def close(self) -> None:
         """Stop; blocks until the thread has ended."""
@@ -130,27 +142,34 @@ class Strip:
             self._closing = True
         self._surveying.close()
 
-    def _work(self, subject: Subject) -> None:
-        if not self._begins(subject):
-            return
-        try:
-            for part in self._parts(subject):
-                if self._stands(subject):
-                    self._send(part)
-        except Cancelled:
-            pass
-        except Exception as error:
-            log.exception("surveying %s failed", subject.key)
-            self._send(surveyed(subject, message=f"no scores: {_one_line(error)}"))
+    def _work(self, asked: Subject) -> None:
+        with ExitStack() as turn:
+            turn.enter_context(QUICK.turn())
+            subject = self._begins(asked)
+            if subject is None:
+                return
+            try:
+                for part in self._parts(subject, turn.close):
+                    if self._stands(subject):
+                        self._send(part)
+            except Cancelled:
+                pass
+            except Exception as error:
+                log.exception("surveying %s failed", subject.key)
+                self._send(surveyed(subject, message=f"no scores: {_one_line(error)}"))
 
-    def _begins(self, subject: Subject) -> bool:
-        """Whether it is still wanted, by itself or as what the recording has grown to."""
+    def _begins(self, asked: Subject) -> Subject | None:
+        """What to survey now: this, or the newer one that came while it waited for its turn; None if none is wanted."""
         with self._lock:
-            if self._closing or self._subject is None or self._subject.key != subject.key:
-                return False
-            self._subject = subject
+            if self._closing or self._subject is None:
+                return None
+            if self._subject.key != asked.key:
+                self._surveying.drop()
+            else:
+                # What the recording has grown to.
+                self._subject = asked
             self._rest_until = time.monotonic() + LIVE_EVERY
-            return True
+            return self._subject
 
     def _stands(self, subject: Subject) -> bool:
         """Whether it still matches the screen; a quick survey may be one change of the thresholds late."""
@@ -158,9 +177,10 @@ class Strip:
             now = self._subject
             return not self._closing and (now is None or now.key[:2] == subject.key[:2])
 
-    def _parts(self, subject: Subject) -> Iterator[Surveyed]:
+    def _parts(self, subject: Subject, end_turn: Callable[[], None]) -> Iterator[Surveyed]:
         key, recording = subject.key, subject.recording
         if len(recording) < 2:
+            end_turn()
             yield surveyed(subject, message="one frame: nothing to compare")
             return
         while not self._ready.wait(0.1):
@@ -171,13 +191,19 @@ class Strip:
             and self._known.key == key._replace(weights=())
             and self._known.recording is recording
         ):
+            end_turn()
             yield told(subject, self._known)
             return
         stride = stride_of(recording)
-        # The other methods are too slow for a quick survey that cannot be stopped.
-        if stride >= LEAST_STRIDE and isinstance(key.params, Params):
-            yield surveyed(subject, self._glanced_scores(recording, stride, key.params), stride)
+        if stride >= LEAST_STRIDE:
+            # The other methods are too slow for a quick survey that cannot be stopped.
+            scores = self._glanced_scores(recording, stride, key.params) if isinstance(key.params, Params) else None
+            end_turn()
+            if scores is not None:
+                yield surveyed(subject, scores, stride)
+            self._wait_for_end_of_drag(subject)
         whole = survey(recording, key.params, subject.stop)
+        end_turn()
         assert whole.scores is not None
         known = Known(key._replace(weights=()), recording, whole.scores, np.empty((len(recording), 0)), None)
         yield told(subject, known)
@@ -193,6 +219,11 @@ class Strip:
             known = replace(known, scores=deep.scores)
             yield told(subject, known)
         self._known = known
+
+    def _wait_for_end_of_drag(self, subject: Subject) -> None:
+        if subject.dragged:
+            with self._lock:
+                self._lock.wait_for(lambda: subject.stop[0], DRAG)
 
     def _glanced_scores(self, recording: Recording, stride: int, params: Params) -> NDArray[np.float32]:
         threes = survey(self._glance(recording, stride), params, threads=1)

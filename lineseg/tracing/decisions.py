@@ -205,8 +205,12 @@ class Trace:
         """The lines after decision `step`; none for −1, before the first decision."""
         rows = self.log[: step + 1]
         lines: dict[int, TracedLine] = {}
-        for row in rows[self._lasting[: step + 1]].tolist():
-            self._apply(Row._make(row), lines)
+        lasting = np.flatnonzero(self._lasting[: step + 1])
+        kinds, candidates = rows["kind"][lasting].tolist(), rows["candidate"][lasting].tolist()
+        for index, kind, candidate in zip(lasting.tolist(), kinds, candidates, strict=True):
+            # Most lines that are dropped were never one of `lines`.
+            if candidate in lines or self.vocabulary.kinds[kind].effect != "gone":
+                self._apply(Row._make(rows[index].item()), lines)
         if len(rows) and self._effect(now := Row(*rows[-1].item())) == "shown":
             lines[now.candidate] = self._traced(now, growing=True)
         return tuple(lines.values())
