@@ -26,8 +26,10 @@ class Message(BaseModel):
 def sentence(error: ValidationError) -> str:
     """The first complaint of a validation, with its place and what was found."""
     first = error.errors(include_url=False, include_context=False)[0]
-    place = ".".join(_shown(str(part)) for part in first["loc"]) or "the message"
-    return f"{place} is {_shown(repr(first['input']))}: {first['msg'][:1].lower()}{first['msg'][1:]}"
+    place = ".".join(_shown(" ".join(str(part).split())) for part in first["loc"]) or "the message"
+    # pydantic quotes what it was sent, line ends and all.
+    why = " ".join(first["msg"].split())
+    return f"{place} is {_shown(repr(first['input']))}: {why[:1].lower()}{why[1:]}"
 
 
 def _shown(word: str) -> str:

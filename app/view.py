@@ -4,7 +4,7 @@ import hashlib
 import json
 from collections.abc import Iterator, Mapping
 from dataclasses import asdict, dataclass, field, fields, replace
-from functools import cache, cached_property
+from functools import cache, lru_cache
 from typing import Annotated, Any, Literal, Self, TypeVar
 
 from pydantic import Field, ValidationError
@@ -285,11 +285,10 @@ class View:
         """The Reading with the topic. Raises ValueError for a bad topic."""
         return self.reading if self.topic is None else self.reading.but(topic=self.topic)
 
-    @cached_property
+    @property
     def place(self) -> str:
         """A short text that is equal for Views of the same scans."""
-        said = json.dumps([self.recording, self.topic, self.reading.given()])
-        return hashlib.sha256(said.encode()).hexdigest()[:16]
+        return _place(self.recording, self.topic, self.reading)
 
     @property
     def all_weights(self) -> dict[str, float]:
@@ -299,6 +298,12 @@ class View:
     def as_json(self) -> dict[str, Any]:
         """A patch that restores this View."""
         return {name: entry.tell(getattr(self, name)) for name, entry in view_fields(type(self)).items()}
+
+
+@lru_cache(maxsize=256)
+def _place(recording: str, topic: str | None, reading: Reading) -> str:
+    said = json.dumps([recording, topic, reading.given()])
+    return hashlib.sha256(said.encode()).hexdigest()[:16]
 
 
 @cache

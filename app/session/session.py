@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import os
 import threading
 import time
 from collections.abc import Callable, Mapping
@@ -40,6 +41,9 @@ Watch = Callable[[View, Recording, str, Findings], None]
 log = logging.getLogger(__name__)
 # Shortest time between redraws of a live recording [s]; no scan is lost.
 FOLLOW_EVERY = 0.04
+# Tabs that draw at the same time. Python runs one thread at a time anyway: more would only make each other wait, and
+# show older Views, because each takes the newest when its turn comes.
+AT_ONCE = threading.Semaphore(max(2, os.cpu_count() or 2))
 
 
 @dataclass(frozen=True)
@@ -266,20 +270,23 @@ class Session:
 
     def _draw(self, request: Request) -> None:
         recording = self._load(request)
-        growing = isinstance(recording, LiveRecording) and request.view.live
-        if growing:
-            request = replace(request, view=replace(request.view, frame=recording.number(len(recording) - 1)))
         if not self._warm_up.done.is_set():
             view, note = request.view, self._warm_up.label
             label = self._library.label(view.recording)
             self._tell(Loading(recording=view.recording, label=label, done=0, total=0, note=note))
             self._warm_up.done.wait()
-        begun = time.perf_counter()
-        content = self._composer.compose(request.view, recording)
-        view, found = content.view, content.found
-        painted = time.perf_counter()
-        self._scene.draw(content.picture, view.params, view.dark)
-        timings: Timings = {"pictureMs": _ms(painted - begun), "drawMs": _ms(time.perf_counter() - painted)}
+        with AT_ONCE:
+            newest = self._newest(request)
+            if newest is None:
+                return
+            growing = isinstance(recording, LiveRecording) and newest.view.live
+            request = _at_the_end(newest, recording) if growing else newest
+            begun = time.perf_counter()
+            content = self._composer.compose(request.view, recording)
+            view, found = content.view, content.found
+            painted = time.perf_counter()
+            self._scene.draw(content.picture, view.params, view.dark)
+            timings: Timings = {"pictureMs": _ms(painted - begun), "drawMs": _ms(time.perf_counter() - painted)}
         with self._lock:
             self._shown = Shown(view, recording, found)
             self._done = request.number
@@ -311,6 +318,17 @@ class Session:
         # After the status: the scene's iframe shares a thread with the page, and its rendering would delay the status.
         self._scene.flush()
         self._survey()
+
+    def _newest(self, request: Request) -> Request | None:
+        """What to draw instead, if more was asked for while this waited; None if that needs another recording."""
+        with self._lock:
+            wanted = self._wanted
+            if wanted.number == request.number:
+                return request
+            if (wanted.view.place, wanted.view.live) != (request.view.place, request.view.live):
+                return None
+            self._drawing.drop()
+            return wanted
 
     def _survey(self) -> None:
         """Update the strip to match the screen."""
@@ -387,3 +405,8 @@ class Session:
 
 def _ms(seconds: float) -> float:
     return round(1e3 * seconds, 2)
+
+
+def _at_the_end(request: Request, recording: Recording) -> Request:
+    """The request, for the newest frame."""
+    return replace(request, view=replace(request.view, frame=recording.number(len(recording) - 1)))

@@ -111,11 +111,10 @@ class Trace:
     def at(self, indices: NDArray[np.integer]) -> list[Decision]:
         """The decisions with these indices, from 0; faster than one by one."""
         rows = self.log[indices]
-        spans = self.as_beams(np.maximum([rows["first"], rows["last"]], 0)).T.tolist()
-        beams = self.as_beams(rows["beam"]).tolist()
-        phases = self.phases[indices].tolist()
-        decisions = zip(indices.tolist(), phases, map(Row._make, rows.tolist()), spans, beams, strict=True)
-        return [self._decision(index, phase, row, *span, beam) for index, phase, row, span, beam in decisions]
+        firsts, lasts = self.as_beams(np.maximum([rows["first"], rows["last"]], 0)).tolist()
+        numbers = indices.tolist(), self.phases[indices].tolist(), map(Row._make, rows.tolist())
+        beams = firsts, lasts, self.as_beams(rows["beam"]).tolist()
+        return [self._decision(*decision) for decision in zip(*numbers, *beams, strict=True)]
 
     def _decision(self, index: int, phase: int, row: Row, first: int, last: int, beam: int) -> Decision:
         told = self._sentence(row, first, last, beam)
