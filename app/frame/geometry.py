@@ -42,7 +42,7 @@ def united(one: Bounds, other: Bounds) -> Bounds:
     return min(one[0], other[0]), min(one[1], other[1]), max(one[2], other[2]), max(one[3], other[3])
 
 
-def voids(scan: Scan, labels: NDArray[np.integer]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+def voids(scan: Scan, labels: NDArray[np.integer]) -> tuple[NDArray[np.intp], NDArray[np.integer]]:
     """(voids, 2) the beams on both sides of each void in a line, and (voids,) its line; labels: (n,) the line of each
     beam, or −1.
 
