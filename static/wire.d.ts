@@ -740,15 +740,16 @@ export interface Truth {
 /**
  * A recording under a Reading that someone tries. job: of the wish.
  *
- * message: why it cannot be read in this way, and `named`: the fields that it names. scans: the points of the first
- * scans [m]. whole: whether all of the file was read.
+ * message: why it cannot be read in this way, and `named`: the fields that it names. choices: values to choose
+ * from, by field, which the file has. scans: the points of the first scans [m]. whole: whether all of the file was
+ * read.
  */
 export interface Previewed {
   job: number;
   message: string | null;
   named: string[];
   format: string;
-  topics: string[];
+  choices: Record<string, string[]>;
   account: Account | null;
   scans: [number, number][][];
   whole: boolean;

@@ -26,7 +26,7 @@ class Clock:
         if trouble:
             return cls(None, trouble)
         began = stamps[0] if recording.began is None else recording.began
-        return cls(stamps - began)
+        return cls(np.asarray(stamps - began, np.float64))
 
     def at(self, frame: int) -> float | None:
         """Time since the first scan [s] of the scan at this position."""

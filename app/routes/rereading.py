@@ -12,6 +12,7 @@ from fastapi import FastAPI
 from pydantic import ValidationError
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
+from lineseg import Recording
 from lineseg.readers import Cancelled, Reading, format_of
 
 from ..bounds import Count, Message, ReadingValues, RecordingId, sentence
@@ -72,11 +73,16 @@ def previewed(library: Library, wish: Try, wanted: Callable[[], bool]) -> Previe
         "message": None,
         "named": [],
         "format": recording.format,
-        "topics": [topic.name for topic in recording.topics],
+        "choices": _choices(recording),
         "account": account_told(recording.account) if recording.account is not None else None,
         "scans": seen.points(),
         "whole": seen.whole,
     }
+
+
+def _choices(recording: Recording) -> dict[str, list[str]]:
+    lasers = recording.account.lasers if recording.account is not None else {}
+    return {"topic": [topic.name for topic in recording.topics], **{name: list(each) for name, each in lasers.items()}}
 
 
 def refused(library: Library, wish: Try, message: str) -> Previewed:
@@ -89,7 +95,7 @@ def refused(library: Library, wish: Try, message: str) -> Previewed:
         "message": message,
         "named": named_in(message),
         "format": format,
-        "topics": [],
+        "choices": {},
         "account": None,
         "scans": [],
         "whole": True,

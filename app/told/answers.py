@@ -52,15 +52,15 @@ class Truth(TypedDict):
 class Previewed(TypedDict):
     """A recording under a Reading that someone tries. job: of the wish.
 
-    message: why it cannot be read in this way, and `named`: the fields that it names. scans: the points of the first
-    scans [m]. whole: whether all of the file was read.
+    message: why it cannot be read in this way, and `named`: the fields that it names. choices: values to choose from,
+    by field, which the file has. scans: the points of the first scans [m]. whole: whether all of the file was read.
     """
 
     job: int
     message: str | None
     named: list[str]
     format: str
-    topics: list[str]
+    choices: dict[str, list[str]]
     account: Account | None
     scans: list[list[Point]]
     whole: bool

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from dataclasses import field as dataclass_field
 from typing import Any
@@ -59,6 +60,7 @@ class Account:
     given: the Reading that was asked for; used: the same with all that was found in the file or guessed.
     line: one line that says it. skipped: some of the scans that could not be read; skips: how many there are.
     stamp_trouble: why the stamps cannot be believed, in a few words, "" if they can.
+    lasers: if several lasers share the topic, the values of frame_id, or of geometry, that choose one of them.
     """
 
     given: Reading = dataclass_field(default_factory=Reading)
@@ -69,6 +71,7 @@ class Account:
     skipped: tuple[Skipped, ...] = ()
     skips: int = 0
     stamp_trouble: str = ""
+    lasers: Mapping[str, tuple[str, ...]] = dataclass_field(default_factory=dict)
 
     @property
     def believable(self) -> bool:
@@ -90,7 +93,7 @@ class Notes:
     unstated: fields of the Reading that the file does not give, so that they are to be guessed.
     found: fields of the Reading as the file gives them. stamps: where they come from, "" if there are none.
     recorded: when a bag's recorder received each scan [s]. kind: the name of the format for the line, if another.
-    radians: whether bearings were converted to radians already.
+    radians: whether bearings were converted to radians already. lasers: as in `Account`.
     """
 
     def __init__(self) -> None:
@@ -100,6 +103,7 @@ class Notes:
         self.kind = ""
         self.recorded: Any = None
         self.radians = False
+        self.lasers: dict[str, tuple[str, ...]] = {}
         self.guesses: list[Guess] = []
         self.notices: list[Notice] = []
         self.skipped: list[Skipped] = []

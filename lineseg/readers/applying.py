@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..scan import Recording, Scan
-from .account import Account, Notes
+from .account import Account, Guess, Notes
 from .guessing import guess_limit, guess_unit, no_return_codes, sampled
 from .lasers import one_laser
 from .plausible import noticed, oddness, trouble_in, trouble_of
@@ -28,19 +28,41 @@ def applied(recording: Recording, reading: Reading, notes: Notes) -> Recording:
     odd = oddness(recording.stamps)
     notices = (*notes.notices, *noticed(recording, used, notes.recorded is not None, odd))
     trouble = trouble_in(recording.stamps, odd)
+    guesses, used = _without_present(tuple(notes.guesses), recording, used)
     recording = _chosen_frames(recording, used)
     recording = _chosen_beams(recording, used)
     account = Account(
         given=reading,
         used=used,
-        guesses=tuple(notes.guesses),
+        guesses=guesses,
         notices=notices,
         skipped=tuple(notes.skipped),
         skips=notes.skips,
         stamp_trouble=trouble,
+        lasers=notes.lasers,
     )
     account = replace(account, line=line_of(recording, account, notes))
     return replace(recording, account=account)
+
+
+def _without_present(
+    guesses: tuple[Guess, ...], recording: Recording, used: Reading
+) -> tuple[tuple[Guess, ...], Reading]:
+    """The guesses, without changes to what is there already; also returns the Reading with guessed angles."""
+    sense = -1.0 if used.direction == "clockwise" else 1.0
+    geometry = {name: sense * float(getattr(recording, name)[0]) for name in ("angle_min", "angle_increment")}
+    if any(guess.field == "angle_min" for guess in guesses):
+        used = used.but(**{name: round(value, 8) for name, value in geometry.items()})
+    present = {**geometry, **used.given()}
+    kept = [guess if any(_differs(present.get(name), value) for name, value in guess.change.items())
+            else replace(guess, change={}) for guess in guesses]  # fmt: skip
+    return tuple(kept), used
+
+
+def _differs(one: Any, other: Any) -> bool:
+    if isinstance(one, float) and isinstance(other, float):
+        return abs(one - other) > 1e-5
+    return one != other
 
 
 def _with_stamps(recording: Recording, reading: Reading, notes: Notes) -> Recording:

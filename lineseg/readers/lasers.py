@@ -46,6 +46,7 @@ def _one_frame_id(recording: Recording, reading: Reading, notes: Notes) -> Recor
         return recording
     ids = np.array(recording.frame_ids)
     taken = next(iter(names)) if wanted is None else wanted
+    notes.found["frame_id"], notes.lasers["frame_id"] = taken, tuple(names)
     if wanted is None:
         listed = ", ".join(f"{name} ({np.count_nonzero(ids == name)} scans)" for name in list(names)[:MOST_LASERS])
         other = next(name for name in names if name != taken)
@@ -66,6 +67,7 @@ def _one_geometry(recording: Recording, reading: Reading, notes: Notes) -> Recor
         raise ValueError(f"{recording.name} has no geometry {wanted}; it has {count}, numbered from 0.")
     if count < 2:
         return recording
+    notes.found["geometry"], notes.lasers["geometry"] = wanted or 0, tuple(map(str, range(count)))
     if wanted is None:
         shares = ", ".join(_described(recording, kinds == kind, kind) for kind in range(count))
         notes.notice(

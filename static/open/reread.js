@@ -7,7 +7,7 @@ import { openPanel } from "./reread_panel.js";
 /** @typedef {import("../view/fields.js").Patch} Patch */
 
 // With these unchanged, a frame stays the same frame.
-const CHOOSE_SCANS = ["topic", "frame_id", "geometry", "frames", "seconds", "every_scan", "columns", "skip_columns"];
+const CHOOSE_SCANS = ["topic", "frame_id", "geometry", "columns", "skip_columns"];
 
 /** A Reading as the View has it: the topic apart. @param {Values} values */
 function parted({ topic = null, ...reading }) {

@@ -9,11 +9,14 @@ import { tooltip } from "../widgets/tooltip.js";
 /** @typedef {Record<string, string | number | null>} Values null: not given */
 /** @typedef {typeof import("../text/reading.js").readingText} Text */
 
+/** Fields that choose one of what the file has. */
+const CHOOSING = ["topic", "frame_id", "geometry"];
 const GROUPS = /** @type {const} */ (["numbers", "left out", "scans"]);
 
 /** A field with a control for its value. @param {Entry} entry @param {Text} text @param {() => void} onInput */
 function createRow(entry, text, onInput) {
-  const listed = entry.choices.length > 0 || entry.name === "topic";
+  const choosing = CHOOSING.includes(entry.name);
+  const listed = entry.choices.length > 0 || choosing;
   const common = { class: "reread-input", oninput: onInput };
   const input = listed
     ? h("select", { ...common, class: "reread-input select" })
@@ -51,13 +54,13 @@ function createRow(entry, text, onInput) {
       input.value = words;
     },
     /** What the file says, and whether the field makes sense for it. @param {Previewed} seen */
-    show({ format, topics, account, named }) {
+    show({ format, choices: offered, account, named }) {
       const used = account?.used[entry.name];
-      const choices = entry.name === "topic" ? topics : entry.choices;
+      const choices = choosing ? (offered[entry.name] ?? []) : entry.choices;
       if (listed) offer(choices, used === undefined ? text.unset : text.found(String(used)));
       else Reflect.set(input, "placeholder", used === undefined ? entry.form : String(used));
       const fits = !entry.only.length || !format || entry.only.includes(format);
-      element.hidden = input.value === "" && (!fits || (entry.name === "topic" && topics.length < 2));
+      element.hidden = input.value === "" && (!fits || (choosing && choices.length < 2));
       element.classList.toggle("named", named.includes(entry.name));
     },
     focus: () => input.focus(),
