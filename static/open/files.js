@@ -7,7 +7,13 @@ const PARAMETERS = /\.(ya?ml|launch|xml|json|py)$|flags[^/]*\.txt$/i;
 const RECORDING_INSIDE = /\.(db3|mcap|bag|log|gz|npz|csv|txt|dat)$/i;
 const PART_OF_BAG = /\.(db3|mcap)(\.zstd)?$/i;
 const METADATA = "metadata.yaml";
+const NUMBER_OF_PART = /(_\d+)?\.(db3|mcap)(\.zstd)?$/i;
 const LARGEST_PARAMETERS = 1_000_000;
+// Files with more numbers are no parameter files.
+const MOST_PARAMETERS = 300;
+
+/** The folders that files were dropped in. @type {WeakMap<File, string>} */
+const folders = new WeakMap();
 
 /**
  * Reacts to files dropped anywhere in a window.
@@ -44,41 +50,80 @@ async function filesIn(data) {
   return found.flat().filter((file) => file instanceof File);
 }
 
-/** @param {FileSystemEntry} folder @returns {Promise<File[]>} */
-async function filesInFolder(folder) {
-  const reader = /** @type {FileSystemDirectoryEntry} */ (folder).createReader();
-  const entries = await new Promise((resolve, reject) => reader.readEntries(resolve, reject)).catch(() => []);
-  const files = entries.filter((/** @type {FileSystemEntry} */ entry) => entry.isFile);
-  return Promise.all(
-    files.map(
-      (/** @type {FileSystemFileEntry} */ entry) => new Promise((resolve, reject) => entry.file(resolve, reject)),
-    ),
-  );
+/**
+ * The files in a folder, or in its folders if it has no recording itself.
+ * @param {FileSystemEntry} folder @param {number} [depth] of further folders @returns {Promise<File[]>}
+ */
+async function filesInFolder(folder, depth = 2) {
+  const entries = await entriesOf(/** @type {FileSystemDirectoryEntry} */ (folder)).catch(() => []);
+  const files = await Promise.all(entries.filter(({ isFile }) => isFile).map(fileOf));
+  for (const file of files) folders.set(file, folder.fullPath);
+  if (!depth || files.some(({ name }) => RECORDING_INSIDE.test(name))) return files;
+  const inner = entries.filter(({ isDirectory }) => isDirectory).map((each) => filesInFolder(each, depth - 1));
+  return [...files, ...(await Promise.all(inner)).flat()];
+}
+
+/** @param {FileSystemDirectoryEntry} folder @returns {Promise<FileSystemEntry[]>} */
+async function entriesOf(folder) {
+  const reader = folder.createReader();
+  const all = [];
+  // It gives a hundred at a time.
+  for (;;) {
+    const some = await /** @type {Promise<FileSystemEntry[]>} */ (
+      new Promise((resolve, reject) => reader.readEntries(resolve, reject))
+    );
+    if (!some.length) return all;
+    all.push(...some);
+  }
+}
+
+/** @param {FileSystemEntry} entry @returns {Promise<File>} */
+function fileOf(entry) {
+  return new Promise((resolve, reject) => /** @type {FileSystemFileEntry} */ (entry).file(resolve, reject));
 }
 
 /**
- * What several files are: recordings, each of one file or more, or parameters. The metadata.yaml beside a bag is not a
- * parameter file.
+ * What several files are: recordings, each of one file or more, or files that look like parameters by their names. The
+ * metadata.yaml beside a bag is none of these.
  * @param {File[]} files
- * @returns {{kind: "recordings", recordings: File[][]} | {kind: "parameters", file: File} | null}
+ * @returns {{kind: "recordings", recordings: File[][]} | {kind: "parameters", files: File[]} | null}
  */
 export function pick(files) {
-  const parts = files.filter(({ name }) => PART_OF_BAG.test(name));
-  if (parts.length > 1) {
-    const about = files.filter(({ name }) => name === METADATA);
-    const rest = files.filter((file) => !parts.includes(file) && !about.includes(file));
-    const others = pick(rest);
-    return {
-      kind: "recordings",
-      recordings: [[...parts, ...about], ...(others?.kind === "recordings" ? others.recordings : [])],
-    };
+  const about = files.filter(({ name }) => name === METADATA);
+  const bags = bagsOf(files.filter(({ name }) => PART_OF_BAG.test(name)));
+  const rest = files.filter((file) => !PART_OF_BAG.test(file.name) && !(bags.length && about.includes(file)));
+  const parameters = rest.filter(({ name, size }) => PARAMETERS.test(name) && size < LARGEST_PARAMETERS);
+  const others = rest.filter((file) => !parameters.includes(file));
+  const single = others.filter(({ name }) => RECORDING_INSIDE.test(name));
+  const chosen = bags.length || single.length ? single : others.slice(0, 1);
+  const recordings = [
+    ...bags.map((parts) => (parts.length > 1 ? [...parts, ...metadataOf(parts, about, bags.length)] : parts)),
+    ...chosen.map((file) => [file]),
+  ];
+  if (recordings.length) return { kind: "recordings", recordings };
+  return parameters.length ? { kind: "parameters", files: parameters } : null;
+}
+
+/** Parts of one bag are in one folder and differ in the number at the end: run_0.db3, run_1.db3. @param {File[]} parts @returns {File[][]} */
+function bagsOf(parts) {
+  /** @type {Map<string, File[]>} */
+  const bags = new Map();
+  for (const part of parts) {
+    const key = `${folders.get(part) ?? ""}/${part.name.replace(NUMBER_OF_PART, "")}`;
+    bags.set(key, [...(bags.get(key) ?? []), part]);
   }
-  const parameters = files.filter(({ name, size }) => PARAMETERS.test(name) && size < LARGEST_PARAMETERS);
-  const others = files.filter((file) => !parameters.includes(file));
-  const recordings = others.filter(({ name }) => RECORDING_INSIDE.test(name));
-  const chosen = recordings.length ? recordings : others.slice(0, 1);
-  if (chosen.length) return { kind: "recordings", recordings: chosen.map((file) => [file]) };
-  return parameters[0] ? { kind: "parameters", file: parameters[0] } : null;
+  return [...bags.values()];
+}
+
+/** The metadata.yaml beside these parts, if it is known which one that is. @param {File[]} parts @param {File[]} about @param {number} bags how many there are */
+function metadataOf(parts, about, bags) {
+  const beside = about.filter((file) => folders.get(file) === folders.get(parts[0]));
+  return beside.length === 1 && (bags === 1 || folders.has(parts[0])) ? beside : [];
+}
+
+/** Whether a file that may be parameters has scans: a list, ranges, or many numbers. @param {string} text */
+export function hasScans(text) {
+  return /^\s*\[/.test(text) || /\branges\b/.test(text) || (text.match(/\d+(\.\d+)?/g) ?? []).length > MOST_PARAMETERS;
 }
 
 /** The name of a recording of several files: what their names have in common. @param {File[]} files */

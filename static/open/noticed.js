@@ -37,7 +37,7 @@ export function createNoticed(text, { entries, onMend, onChange }) {
   function items({ account }) {
     if (!account) return [];
     const notices = account.notices.map(({ text: words, change: values }) => ({ words, values }));
-    const guesses = account.guesses.map(({ value }) => value).join(", ");
+    const guesses = account.guesses.map(({ field, value }) => text.guessedValue(field, value)).join(", ");
     const others = [guesses && text.guessed(guesses), account.skipped].filter(Boolean);
     return [...notices, ...others.map((words) => ({ words, values: {} }))];
   }

@@ -3,7 +3,7 @@
 import { isSweepTable } from "../tune/sweep_table.js";
 import { fetchText } from "../fetch.js";
 import { toast } from "../widgets/toast.js";
-import { catchDrops, chooseFile, nameOfAll, pick, upload } from "./files.js";
+import { catchDrops, chooseFile, hasScans, nameOfAll, pick, upload } from "./files.js";
 
 /**
  * @param {import("../page.js").Page} page
@@ -21,8 +21,11 @@ export function createOpening(page, { work, notices }, text, { onSweep, rest }) 
       const [[file]] = picked.recordings;
       return (await isSweepTable(file)) ? onSweep(file) : send(picked.recordings);
     }
-    const why = await importParams(await picked.file.text());
-    if (why) work.refuse(`${picked.file.name}: ${why}`);
+    const [file] = picked.files;
+    const words = await file.text();
+    if (hasScans(words)) return send(picked.files.map((each) => [each]));
+    const why = await importParams(words);
+    if (why) work.refuse(`${file.name}: ${why}`);
     return undefined;
   }
 

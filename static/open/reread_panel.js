@@ -40,7 +40,9 @@ function createFindings(text, entries, onChange) {
       setText(error, message ?? "");
       error.hidden = message === null;
       setText(line, account?.line ?? "");
-      const guesses = (account?.guesses ?? []).map(({ value, why, change }) => entry(text.guess(value, why), change));
+      const guesses = (account?.guesses ?? []).map(({ field, value, why, change }) =>
+        entry(text.guess(text.guessedValue(field, value), why), change),
+      );
       const notices = (account?.notices ?? []).map(({ text: words, change }) => entry(words, change));
       const notes = [account?.skipped, whole ? "" : text.beginning].filter(Boolean);
       list.replaceChildren(...notices, ...guesses, ...notes.map((words) => entry(String(words), {})));

@@ -22,6 +22,8 @@ export const readingText = {
   beginning: "The beginning of the file is shown; all of it is read when you apply.",
   points: (/** @type {number} */ n) => (n === 1 ? "The first scan from above" : `The first ${n} scans from above`),
   noPoints: "No beam has a return.",
+  guessedValue: (/** @type {string} */ field, /** @type {string} */ value) =>
+    field === "columns" ? `columns ${value.replaceAll(",", " ")}` : value,
   guess: (/** @type {string} */ value, /** @type {string} */ why) => `A guess: ${value} (${why}).`,
   guessed: (/** @type {string} */ guesses) => `Guessed, because the file does not say it: ${guesses}.`,
   set: (/** @type {string} */ change) => `Set ${change}`,
