@@ -152,7 +152,7 @@ export function chooseFile(onFiles) {
  * @param {{bundle?: string, into?: string}} [whole] bundle: the name of the recording that it is the first file of; into: its id
  * @returns {Promise<string>} its id; rejected with a sentence
  */
-export function upload(file, onProgress, signal, broken, whole = {}) {
+function upload(file, onProgress, signal, broken, whole = {}) {
   const request = new XMLHttpRequest();
   request.open("POST", `/api/upload?${new URLSearchParams({ name: file.name, ...whole })}`);
   request.setRequestHeader("Content-Type", "application/octet-stream");
@@ -166,4 +166,23 @@ export function upload(file, onProgress, signal, broken, whole = {}) {
     };
     request.send(file);
   });
+}
+
+/**
+ * Sends the files of a recording one after the other.
+ * @param {File[]} files
+ * @param {(done: number, total: number) => void} onProgress
+ * @param {AbortSignal} signal
+ * @param {(name: string) => string} broken what to say if the connection breaks
+ * @returns {Promise<string>} its id; rejected with a sentence
+ */
+export async function uploadAll(files, onProgress, signal, broken) {
+  const total = files.reduce((sum, { size }) => sum + size, 0);
+  let [id, before] = ["", 0];
+  for (const file of files) {
+    const whole = files.length < 2 ? {} : id ? { into: id } : { bundle: nameOfAll(files) };
+    id = await upload(file, (done) => onProgress(before + done, total), signal, broken(file.name), whole);
+    before += file.size;
+  }
+  return id;
 }

@@ -3,7 +3,7 @@
 import { isSweepTable } from "../tune/sweep_table.js";
 import { fetchText } from "../fetch.js";
 import { toast } from "../widgets/toast.js";
-import { catchDrops, chooseFile, hasScans, nameOfAll, pick, upload } from "./files.js";
+import { catchDrops, chooseFile, hasScans, nameOfAll, pick, uploadAll } from "./files.js";
 
 /**
  * @param {import("../page.js").Page} page
@@ -40,25 +40,12 @@ export function createOpening(page, { work, notices }, text, { onSweep, rest }) 
     const [first] = recordings;
     const name = first.length > 1 ? nameOfAll(first) : first[0].name;
     return work.run(text.stage.uploading(name), async (show, signal) => {
-      const recording = await sendOne(first, show, signal);
+      const recording = await uploadAll(first, show, signal, text.stage.uploadFailed);
       if (signal.aborted) return;
       page.change({ ...rest(name), recording });
-      for (const others of recordings.slice(1)) await sendOne(others, show, signal);
+      for (const others of recordings.slice(1)) await uploadAll(others, show, signal, text.stage.uploadFailed);
       if (recordings.length > 1) toast(text.stage.othersInMenu(recordings.length - 1));
     });
-  }
-
-  /** @param {File[]} files @param {(done: number, total: number) => void} show @param {AbortSignal} signal @returns {Promise<string>} its id */
-  async function sendOne(files, show, signal) {
-    const total = files.reduce((sum, { size }) => sum + size, 0);
-    let [id, before] = ["", 0];
-    for (const file of files) {
-      const whole = files.length < 2 ? {} : id ? { into: id } : { bundle: nameOfAll(files) };
-      const progress = (/** @type {number} */ done) => show(before + done, total);
-      id = await upload(file, progress, signal, text.stage.uploadFailed(file.name), whole);
-      before += file.size;
-    }
-    return id;
   }
 
   /** @returns {boolean} whether there was something to cancel */
