@@ -18,6 +18,7 @@ from lineseg import EXTRACTORS, SCORES, Recording, Thresholds, Trace
 from lineseg.rerun import dropped_strips, hue_of_beams, hues_of, raised, segment_strips
 from lineseg.survey import survey
 from lineseg.tracing.vocabulary import Kind
+from lineseg.unfinished import whole_file
 
 from ..scene.palette import LIGHT
 from ..scene.picture import truth
@@ -53,23 +54,27 @@ def save(run: Run, path: Path, progress: Progress = lambda done, total: None) ->
 
     progress: called with (frames done, frames); an exception it raises ends the work and is passed on.
     """
-    part = path.with_name(f"{path.name}.part")
-    part.touch()
-    stream = rr.RecordingStream("lineseg")
-    try:
-        stream.save(part)
-        send(run, stream, progress)
-        stream.flush()
-        stream.disconnect()
-        # rerun's SDK says nothing when it cannot write.
-        if shutil.disk_usage(path.parent).free < LEAST_FREE:
-            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), str(path))
-        part.replace(path)
-    finally:
-        stream.disconnect()
-        part.unlink(missing_ok=True)
-        del stream
-        sweep()
+    with whole_file(path) as part:
+        stream = rr.RecordingStream("lineseg")
+        try:
+            stream.save(part)
+            send(run, stream, progress)
+            stream.flush()
+            stream.disconnect()
+            _check_space(path)
+        except RuntimeError as error:
+            _check_space(path)
+            raise OSError(f"{path}: rerun cannot write this file: {error}.") from None
+        finally:
+            stream.disconnect()
+            del stream
+            sweep()
+
+
+def _check_space(path: Path) -> None:
+    """Raises OSError if the disk is full: rerun's SDK says nothing, or not why."""
+    if shutil.disk_usage(path.parent).free < LEAST_FREE:
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC), str(path))
 
 
 def send(run: Run, stream: rr.RecordingStream, progress: Progress = lambda done, total: None) -> None:

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import tempfile
-from pathlib import Path
-
 from fastapi import FastAPI, Request
 from fastapi.responses import PlainTextResponse, Response
 from starlette.concurrency import run_in_threadpool
 from starlette.exceptions import HTTPException
 
 from lineseg import EXTRACTORS, Thresholds, save_npz
+from lineseg.failing import sentence_of
+from lineseg.unfinished import temporary_folder
 from lineseg.writers import PARAMS_WRITERS, params_text, read_params
 
 from ..session.sessions import Sessions
@@ -86,11 +85,11 @@ def add_api(app: FastAPI, library: Library, sessions: Sessions) -> None:
     def recording(session: str = "") -> Response:
         shown = sessions.shown(session)
         try:
-            with tempfile.TemporaryDirectory() as folder:
-                save_npz(shown.recording, Path(folder) / "recording.npz")
-                content = (Path(folder) / "recording.npz").read_bytes()
+            with temporary_folder() as folder:
+                save_npz(shown.recording, folder / "recording.npz")
+                content = (folder / "recording.npz").read_bytes()
         except OSError as error:
-            raise HTTPException(507, f"the recording cannot be written: {error.strerror}") from None
+            raise HTTPException(507, f"the recording cannot be written: {sentence_of(error, '')}") from None
         headers = attachment(library.label(shown.view.recording), "npz")
         return Response(content, media_type="application/octet-stream", headers=headers)
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import tempfile
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,6 +13,7 @@ import numpy as np
 from lineseg import Recording
 from lineseg.readers import Reading, format_of, open_recording
 from lineseg.readers.reading import TEXT_FORMATS
+from lineseg.unfinished import temporary_folder
 
 from .library import Library
 
@@ -41,7 +41,7 @@ def preview(library: Library, id: str, reading: Reading, wanted: Callable[[], bo
     long = path.is_file() and path.stat().st_size > MOST_TEXT
     if not long or reading.frames or reading.seconds or format_of(path) not in TEXT_FORMATS:
         return Preview(library.recording(id, reading, wanted=wanted), True)
-    with tempfile.TemporaryDirectory(prefix="lineseg-") as folder:
+    with temporary_folder() as folder:
         begin = Path(folder) / path.name
         with path.open("rb") as file:
             begin.write_bytes(file.read(MOST_TEXT).rpartition(b"\n")[0] + b"\n")

@@ -5,7 +5,6 @@ from __future__ import annotations
 import itertools
 import shutil
 import sqlite3
-import tempfile
 from collections import Counter
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
@@ -14,6 +13,7 @@ from typing import Protocol
 from urllib.parse import quote
 
 from ..scan import Recording
+from ..unfinished import temporary_folder
 from .account import Notes
 from .bags import Stream, choose_streams, collect, cut_off, guarded, tell_cut
 from .bounded import MOST_MESSAGE, expand, limit_of, zstd_file
@@ -211,7 +211,7 @@ def _connect(file: Path, stack: ExitStack) -> sqlite3.Connection:
     log = file.with_name(f"{file.name}-wal")
     mode = "mode=ro&immutable=1"
     if log.exists() and log.stat().st_size:
-        folder = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="lineseg-")))
+        folder = stack.enter_context(temporary_folder())
         for each in (file, log):
             shutil.copyfile(each, folder / each.name)
         file, mode = folder / file.name, "mode=rw"
@@ -241,7 +241,7 @@ def _restrict(database: sqlite3.Connection, file: Path) -> None:
 
 def _unpack_file(file: Path, stack: ExitStack, notes: Notes) -> Path:
     """An unpacked copy of a storage file that was compressed as a whole."""
-    folder = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="lineseg-")))
+    folder = stack.enter_context(temporary_folder())
     unpacked = folder / file.name.removesuffix(".zstd")
     with file.open("rb") as raw, zstd_file(raw) as packed:
         why = expand(packed, unpacked, file.name, limit_of(file.stat().st_size))

@@ -5,13 +5,13 @@ from __future__ import annotations
 import codecs
 import gzip
 import io
-import tempfile
 import zipfile
 from collections.abc import Callable
 from contextlib import ExitStack
 from pathlib import Path, PurePosixPath
 from typing import IO, cast
 
+from ..unfinished import temporary_folder
 from .account import Notes
 from .bounded import expand, limit_of, zstd_file
 
@@ -64,8 +64,7 @@ def _is_arrays(head: bytes) -> bool:
 
 
 def _target(path: Path, stack: ExitStack, name: str | None = None) -> Path:
-    folder = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="lineseg-")))
-    return folder / (name or path.name)
+    return stack.enter_context(temporary_folder()) / (name or path.name)
 
 
 def _stream(path: Path, head: bytes, name: str, stack: ExitStack, notes: Notes, progress: Progress) -> Path:

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from ..failing import named
 from ..installation import install_command
 from ..params import Params
+from ..unfinished import whole_file
 from ..writers.finite import finite_or_none
 from . import MEASURES, Sweep
 
@@ -52,12 +53,8 @@ def rows_of(result: Sweep) -> Iterator[dict[str, Any]]:
 
 def write_table(result: Sweep, path: Path) -> None:
     """Write a sweep as .csv or .parquet; the file appears only when it is complete."""
-    partial = path.with_name(path.name + ".writing")
-    try:
-        TABLE_WRITERS[path.suffix.lower()](result, partial)
-        partial.replace(path)
-    finally:
-        partial.unlink(missing_ok=True)
+    with whole_file(path) as unfinished:
+        TABLE_WRITERS[path.suffix.lower()](result, unfinished)
 
 
 def check_table_path(path: Path) -> None:

@@ -15,6 +15,7 @@ from typing import Any, TextIO
 from ..covariance import Noise, covariances
 from ..scan import Scan
 from ..segment import Extraction, Segment
+from ..unfinished import whole_file
 from .finite import finite_or_none
 
 Rows = Iterable[tuple[int, Scan, Extraction]]
@@ -99,14 +100,8 @@ def write_segments(
         return
     path = Path(target)
     lines = segment_lines(format or path.suffix.lstrip(".").lower(), rows, noise, about)
-    unfinished = path.with_name(f"{path.name}.part")
-    try:
-        with unfinished.open("w", encoding="utf-8", newline="") as file:
-            file.writelines(lines)
-        unfinished.replace(path)
-    except BaseException:
-        unfinished.unlink(missing_ok=True)
-        raise
+    with whole_file(path) as unfinished, unfinished.open("w", encoding="utf-8", newline="") as file:
+        file.writelines(lines)
 
 
 def _segments(scan: Scan, extraction: Extraction, noise: Noise | None) -> list[dict[str, object]]:

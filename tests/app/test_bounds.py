@@ -21,12 +21,13 @@ from lineseg_app.server import Settings
 from lineseg_app.session.session import Session
 from lineseg_app.session.sessions import SessionLimits
 from lineseg_app.shelf import uploads
-from lineseg_app.shelf.scratch import LOCK, PREFIX, Scratch, remove_leftovers
+from lineseg_app.shelf.scratch import Scratch, remove_leftovers
 from lineseg_app.shelf.uploads import TooManyError, TooSlowError, Uploads
 from live import SECONDS, Address, Page, page_of, serving
 from starlette.exceptions import HTTPException
 
 from lineseg import open_recording
+from lineseg.unfinished import FOLDERS, LOCK
 
 
 async def nothing() -> AsyncIterator[bytes]:
@@ -159,7 +160,7 @@ def test_folders_of_killed_processes_are_removed_at_the_next_start(tmp_path: Pat
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
     ours = Scratch()
     ours.folder.joinpath("upload.npz").write_bytes(b"x")
-    left = tmp_path / f"{PREFIX}left"
+    left = tmp_path / f"{FOLDERS}left"
     left.mkdir()
     (left / LOCK).touch()
     foreign = tmp_path / "lineseg-other"

@@ -20,6 +20,7 @@ from processes import lineseg
 
 from lineseg import Params, extract
 from lineseg.readers import open_recording
+from lineseg.unfinished import FILES
 from lineseg.writers import params_text
 
 TURN = 0.25 * np.pi / 180
@@ -213,9 +214,8 @@ def test_ctrl_c_ends_an_extraction_without_a_trace(tmp_path):
     rows = "\n".join(",".join(map(str, rng.uniform(1, 9, 1081).round(3))) for _ in range(20))
     path.write_text("\n".join([rows] * 400))
     process = lineseg("extract", path, "-o", tmp_path / "out.jsonl", "--seed-points", "3", "--epsilon", "0.5")
-    part = tmp_path / "out.jsonl.part"
     deadline = time.monotonic() + 60
-    while not part.exists() and process.poll() is None and time.monotonic() < deadline:
+    while not list(tmp_path.glob(FILES)) and process.poll() is None and time.monotonic() < deadline:
         time.sleep(0.01)
     process.send_signal(signal.SIGINT)
     _, err = process.communicate(timeout=60)

@@ -1,0 +1,94 @@
+"""Files appear when they are complete; killed processes and full disks leave nothing that counts."""
+
+import os
+import subprocess
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from lineseg_app.__main__ import main
+from lineseg_app.server import Settings
+from live import page_of, serving
+from processes import lineseg
+
+from lineseg import Recording, Scan
+from lineseg.readers import save_npz
+from lineseg.unfinished import FILES, temporary_folder, whole_file
+
+WALLS = Path(__file__).parents[1] / "sample_scans" / "hallway.npz"
+
+
+@pytest.fixture
+def tiny(tmp_path) -> Iterator[Path]:
+    """A disk with room for 128 kB."""
+    folder = tmp_path / "tiny"
+    folder.mkdir()
+    made = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=128k", "tmpfs", folder], capture_output=True)
+    if made.returncode:
+        pytest.skip("mounting a small disk needs root")
+    yield folder
+    subprocess.run(["umount", "-l", folder], check=True)
+
+
+def test_what_a_killed_command_left_is_removed_by_the_next(tmp_path, capsys):
+    process = lineseg("extract", WALLS, "-o", tmp_path / "out.jsonl")
+    late = time.monotonic() + 120
+    while not any(part.stat().st_size for part in tmp_path.glob(FILES)) and time.monotonic() < late:
+        assert process.poll() is None
+        time.sleep(0.002)
+    process.kill()
+    process.communicate(timeout=60)
+    (left,) = tmp_path.iterdir()
+    os.utime(left, (0, 0))
+    small = tmp_path / "small.npz"
+    save_npz(Recording.from_scans([Scan.regular(np.ones(9), 0.0, 0.01)]), small)
+    assert main(["extract", str(small), "-o", str(tmp_path / "other.csv")]) == 0
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["other.csv", "other.csv.json", "small.npz"]
+    capsys.readouterr()
+
+
+def test_what_another_process_is_writing_stays(tmp_path):
+    with whole_file(tmp_path / "one.txt") as one:
+        one.write_text("1")
+        os.utime(one, (0, 0))
+        with whole_file(tmp_path / "two.txt") as two:
+            two.write_text("2")
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["one.txt", "two.txt"]
+
+
+def test_an_error_leaves_the_former_file_and_nothing_else(tmp_path):
+    path = tmp_path / "out.txt"
+    path.write_text("former")
+    path.chmod(0o600)
+    with pytest.raises(ZeroDivisionError), whole_file(path) as part:
+        part.write_text("new")
+        raise ZeroDivisionError
+    assert [each.read_text() for each in tmp_path.iterdir()] == ["former"]
+    with whole_file(path) as part:
+        part.write_text("new")
+    assert (path.read_text(), path.stat().st_mode & 0o777) == ("new", 0o600)
+
+
+def test_a_temporary_folder_is_gone_at_the_end():
+    with temporary_folder() as folder:
+        (folder / "file").touch()
+    assert not folder.exists()
+
+
+@pytest.mark.parametrize(("command", "name"), [("extract", "out.jsonl"), ("record", "out.rrd")])
+def test_a_full_disk_is_called_so_and_nothing_is_left_on_it(tiny, capsys, command, name):
+    assert main([command, str(WALLS), "-o", str(tiny / name)]) == 2
+    assert capsys.readouterr().err.strip() == f"lineseg: {tiny / name}: No space left on device."
+    assert list(tiny.iterdir()) == []
+
+
+def test_a_download_for_which_the_disk_has_no_space_is_refused_with_a_sentence(tiny, tmp_path, monkeypatch):
+    with serving(Settings(files=(WALLS,), data_folder=tmp_path / "data")) as server, page_of(server) as page:
+        page.hello()
+        monkeypatch.setattr("tempfile.tempdir", str(tiny))
+        answer = server.get("/api/recording", params={"session": page.welcome["session"]})
+    assert answer.status_code == 507
+    assert answer.json()["message"] == "the recording cannot be written: No space left on device."
+    assert list(tiny.iterdir()) == []
