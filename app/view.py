@@ -33,8 +33,8 @@ SUSPICION = Score(
     "suspicion",
     "suspicion",
     "",
-    "All scores combined: the weighted mean of how far each stands out, in its doubtful direction, from the recording "
-    "and from nearby frames.",
+    "In how many lines the frame is probably wrong: its disputed lines, and more for whatever else has a weight and "
+    "stands out from the recording and from nearby frames.",
     "higher",
     least=0.5,
     weight=0.0,

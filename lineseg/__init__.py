@@ -19,7 +19,8 @@ Understand a result
     `trace` it, a `Trace` of `Decision`s with each `TracedLine`, and an `Explanation` of a beam; `what_if`, `WhatIf`:
     which threshold would change it; `why`, `Remark`: what looks wrong in a frame; `misses`, `Miss`: lines not found.
 Judge results
-    Without truth: `SCORES`, `with_stability`, and by `WEIGHTS` the `doubts`, the `suspicion`, the frames `worst_first`.
+    Without truth: `SCORES`, `with_disputes`, `with_stability`, and by `WEIGHTS` the `doubts`, the `suspicion`, the
+    frames `worst_first`.
     Against truth: `true_lines`, `near_lines`, `true_ends`; `match`, `Matching`; `agreement`, `agreements`, `Agreement`.
     Against each other: `difference`, `differences`, `Difference`.
 Say what is true
@@ -46,9 +47,11 @@ from .readers.pack import read_pack
 from .scan import PackAbout, Recording, Scan, Topic
 from .segment import Dropped, Extraction, Segment
 from .survey import Survey, survey
+from .survey.committee import with_disputes
 from .survey.difference import Difference, difference, differences
+from .survey.remark import Remark
 from .survey.stability import with_stability
-from .survey.why import Remark, why
+from .survey.why import why
 from .tracing.decisions import Decision, Explanation, Trace, TracedLine
 from .truth import Agreement, Matching, agreement, agreements, match, near_lines, true_ends, true_lines
 from .truth.label_file import ConflictError, label_file, read_labels, save_labels
@@ -122,6 +125,7 @@ __all__ = [
     "true_lines",
     "what_if",
     "why",
+    "with_disputes",
     "with_stability",
     "worst_first",
     "write_pack",

@@ -17,10 +17,11 @@ from numpy.typing import NDArray
 from pydantic import BaseModel
 
 from lineseg import Params, Recording, Thresholds, differences
-from lineseg.doubt import SCORES
+from lineseg.doubt import COLUMN, SCORES
 from lineseg.doubt.suspicion import suspicion
 from lineseg.readers import Cancelled
 from lineseg.survey import BESIDE, Survey, survey
+from lineseg.survey.committee import disputed, known_committee, with_disputes
 from lineseg.survey.difference import FATES, KEPT
 from lineseg.survey.stability import with_stability
 
@@ -30,6 +31,8 @@ from ..told.messages import Surveyed
 from ..view import Against, View, all_weights
 from .turns import Turns
 
+# Scores that are computed only if they are shown, or in Inspect.
+DEEP = ("suspicion", "disputed", "blank", "unstable")
 # A quick survey of this many beams takes a few milliseconds on one core: too short to be worth stopping.
 GLANCE_BEAMS = 400_000
 LEAST_STRIDE = 4
@@ -56,10 +59,8 @@ class Key(NamedTuple):
 
 
 def key_of(view: View) -> Key:
-    # Stability needs many surveys and the suspicion many medians: compute them only if shown, and not while growing.
-    deep = (view.mode == "inspect" or view.score in ("unstable", "suspicion")) and not view.recording.startswith(
-        "live:"
-    )
+    # The committee and stability need many surveys: compute them only if shown, and not while growing.
+    deep = (view.mode == "inspect" or view.score in DEEP) and not view.recording.startswith("live:")
     return Key(view.recording, view.place, view.method, view.params, view.against, view.weights, deep)
 
 
@@ -86,11 +87,15 @@ class Known:
 
 
 def told(subject: Subject, known: Known) -> Surveyed:
-    """The message with every frame; the suspicion is unknown unless it is shown."""
-    deep = subject.key.deep
-    rank = suspicion(known.scores, all_weights(subject.key.weights)) if deep else np.full(len(known.scores), np.nan)
-    columns = [known.scores, rank[:, None], known.changed] if deep or known.totals else [known.scores]
-    return surveyed(subject, np.hstack(columns), totals=known.totals)
+    """The message with every frame."""
+    return surveyed(subject, np.hstack([ranked(subject.key, known.scores), known.changed]), totals=known.totals)
+
+
+def ranked(key: Key, scores: NDArray[np.floating]) -> NDArray[np.floating]:
+    """The scores and the suspicion, which is unknown unless it is shown, and as long as the committee is."""
+    known = key.deep and len(scores) > 0 and not np.isnan(scores[0, COLUMN.disputed])
+    rank = suspicion(scores, all_weights(key.weights)) if known else np.full(len(scores), np.nan)
+    return np.column_stack((scores, rank))
 
 
 class Strip:
@@ -200,9 +205,11 @@ class Strip:
             scores = self._glanced_scores(recording, stride, key.params) if isinstance(key.params, Params) else None
             end_turn()
             if scores is not None:
-                yield surveyed(subject, scores, stride)
+                yield surveyed(subject, ranked(key, scores), stride)
             self._wait_for_end_of_drag(subject)
-        whole = survey(recording, key.params, subject.stop)
+        whole, committee = survey(recording, key.params, subject.stop), known_committee(recording)
+        if committee is not None:
+            whole = disputed(recording, whole, committee, np.arange(len(recording)))
         end_turn()
         assert whole.scores is not None
         known = Known(key._replace(weights=()), recording, whole.scores, np.empty((len(recording), 0)), None)
@@ -212,6 +219,11 @@ class Strip:
             changed = fates.sum(axis=1, keepdims=True) - fates[:, [KEPT]]
             totals = {name: int(total) for name, total in zip(FATES, fates.sum(axis=0), strict=True)}
             known = replace(known, changed=changed, totals=totals)
+            yield told(subject, known)
+        if key.deep and committee is None:
+            whole = with_disputes(recording, whole, subject.stop)
+            assert whole.scores is not None
+            known = replace(known, scores=whole.scores)
             yield told(subject, known)
         if key.deep:
             deep = with_stability(recording, whole, subject.stop)
@@ -226,7 +238,10 @@ class Strip:
                 self._lock.wait_for(lambda: subject.stop[0], DRAG)
 
     def _glanced_scores(self, recording: Recording, stride: int, params: Params) -> NDArray[np.float32]:
-        threes = survey(self._glance(recording, stride), params, threads=1)
+        glance = self._glance(recording, stride)
+        threes, committee = survey(glance, params, threads=1), known_committee(recording)
+        if committee is not None:
+            threes = disputed(glance, threes, committee, glanced_frames(len(recording), stride))
         assert threes.scores is not None
         scores = threes.scores[1::3]
         # The first and the last frame have only one neighbour.
@@ -273,9 +288,14 @@ def stride_of(recording: Recording) -> int:
 
 def glance_of(recording: Recording, stride: int) -> Recording:
     """Every stride-th frame with its two neighbours, for scores that compare them."""
-    glanced = np.arange(0, len(recording), stride)
+    return recording.only(glanced_frames(len(recording), stride))
+
+
+def glanced_frames(frames: int, stride: int) -> NDArray[np.int64]:
+    """Triples of every stride-th frame and its two neighbours."""
+    glanced = np.arange(0, frames, stride)
     beside = np.column_stack((glanced - 1, glanced, glanced + 1))
-    return recording.only(np.clip(beside, 0, len(recording) - 1).ravel())
+    return np.clip(beside, 0, frames - 1).ravel()
 
 
 def _one_line(error: Exception) -> str:

@@ -31,7 +31,8 @@ CHANGE_OF_THRESHOLD = 0.05
 class Score:
     """The name and meaning of a score; worse: whether higher or lower values are doubtful.
 
-    least: smallest difference between frames that matters; weight: its weight in the suspicion, see suspicion.py.
+    least: smallest difference between frames that matters; weight: its weight in the suspicion; counts: whether its
+    value itself is the doubt, not how far it stands out. See suspicion.py.
     """
 
     name: str
@@ -41,6 +42,7 @@ class Score:
     worse: Literal["higher", "lower"]
     least: float
     weight: float
+    counts: bool = False
 
 
 SCORES = {
@@ -50,71 +52,82 @@ SCORES = {
         Score(
             "coverage", "coverage", "",
             "Share of the valid beams that belong to a segment.",
-            "lower", least=0.05, weight=1.0,
+            "lower", least=0.05, weight=0.0,
         ),
         Score(
-            "invalid", "invalid beams", "", "Share of the beams without a return.", "higher", least=0.03, weight=1.0
+            "invalid", "invalid beams", "", "Share of the beams without a return.", "higher", least=0.1, weight=2.0
         ),
         Score(
             "rms", "largest rms", "m",
             "Largest root mean square distance from the points of a segment to its line.",
-            "higher", least=0.003, weight=0.5,
+            "higher", least=0.003, weight=0.0,
         ),
         Score(
             "splits", "over-split neighbours", "",
             f"Pairs of neighbouring segments on one line: less than {SPLIT_ANGLE} rad and {SPLIT_GAP} m apart, "
             f"with facing endpoints within {LOOSER:g}·ε of each other's line.",
-            "higher", least=0.5, weight=1.0,
+            "higher", least=0.5, weight=0.0,
         ),
         Score(
             "gap", "widest gap bridged", "m",
             f"Largest difference between a gap inside a segment and the wider of the two gaps next to it. "
             f"Gaps of up to {LEAST_GAP:g} m do not count.",
-            "higher", least=0.2, weight=1.0,
+            "higher", least=0.2, weight=0.0,
         ),
         Score(
             "misses", "probable misses", "",
             f"Lines found in the points without a segment when ε and δ are {LOOSER:g} times as large.",
-            "higher", least=0.5, weight=0.5,
+            "higher", least=0.5, weight=0.0,
         ),
         Score(
             "change", "change", "",
             "Share of the covered bearings that changed segment since the previous frame.",
-            "higher", least=0.05, weight=0.5,
+            "higher", least=0.05, weight=0.0,
         ),
         Score(
             "near", "fits near ε", "",
             f"Segments with a root mean square distance above {NEAR_EPSILON:g}·ε: they only just fit.",
-            "higher", least=0.5, weight=0.5,
+            "higher", least=0.5, weight=0.0,
         ),
         Score(
             "brief", "short-lived lines", "m",
             "Total length of the segments that neither the previous nor the next frame has, after correcting for "
             "motion.",
-            "higher", least=0.3, weight=0.5,
+            "higher", least=0.3, weight=0.0,
         ),
         Score(
             "gone", "interrupted lines", "m",
             "Total length of the segments that the previous and the next frame have and this one lacks, after "
-            "correcting for motion.",
-            "higher", least=0.3, weight=3.0,
+            "correcting for motion; of these, once it is known, only what is undisputed in the previous frame.",
+            "higher", least=0.5, weight=3.0,
         ),
         Score(
             "jump", "jump of the count", "",
             "How many more, or fewer, segments the frame has than both the previous and the next frame.",
-            "higher", least=1.0, weight=1.0,
+            "higher", least=1.0, weight=0.0,
         ),
         Score(
             "jolt", "jolt", "rad",
-            "Difference between the sensor's turn to this frame and its turn to the next, estimated from the segments.",
-            "higher", least=0.05, weight=2.0,
+            "Angle by which the sensor turned to this frame and back again to the next, estimated from the segments.",
+            "higher", least=0.1, weight=4.0,
         ),
         Score(
             "unstable", "unstable segments", "",
             f"Largest number of segments that appear or disappear when one threshold changes by "
             f"{CHANGE_OF_THRESHOLD:.0%}, "
             "or by at least 1 if it is a whole number.",
-            "higher", least=0.5, weight=0.5,
+            "higher", least=0.5, weight=0.0,
+        ),
+        Score(
+            "disputed", "disputed lines", "",
+            "Lines missed or false, on average, if each of four careful extractions were the truth: they use 0.8 to "
+            "1.6 times the ε that fits this laser, and join the pieces of a wall.",
+            "higher", least=1.0, weight=1.0, counts=True,
+        ),
+        Score(
+            "blank", "walls of a frame without lines", "",
+            "Lines that the same four extractions find, on average, in a frame that has no segment.",
+            "higher", least=0.5, weight=6.0, counts=True,
         ),
     ]
 }  # fmt: skip

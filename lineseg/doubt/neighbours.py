@@ -29,8 +29,7 @@ def compare_frames(segments, offsets, views, start, stop, votes, brief, gone, ju
 
     brief: total length of the segments that neither the previous nor the next frame has, after correcting for motion
     [m]; gone: of those that both have and this frame lacks although it looks there [m]. jump: how many more, or fewer,
-    segments the frame has than both. jolt: difference between the turn from the previous frame to this one and the turn
-    to the next [rad].
+    segments the frame has than both. jolt: see `turned_back`.
     All are 0 for the first and the last frame.
     """
     known = -1
@@ -58,7 +57,7 @@ def compare_frames(segments, offsets, views, start, stop, votes, brief, gone, ju
                         past, sought = motion_between(before, behind, votes), True
                     if is_among(before[i], behind, past):
                         gone[frame] += before[i].length
-            jolt[frame] = abs(math.asin(forth[1] * come[0] - forth[0] * come[1]))
+            jolt[frame] = turned_back(come, forth)
 
 
 @entry_kernel
@@ -83,6 +82,16 @@ def views_of(recording: Recording) -> NDArray[np.float64]:
         return np.sort(np.column_stack((recording.angle_min, last)).astype(np.float64), axis=1)
     spans = [np.unwrap(scan.bearings) if len(scan) else np.zeros(1) for scan in recording]
     return np.array([(span.min(), span.max()) for span in spans]).reshape(-1, 2)
+
+
+@kernel
+def turned_back(come, forth):
+    """Angle [rad] by which the sensor turned to this frame and back again to the next; 0 if it turned on, or rested.
+
+    A robot that turns, or begins to, is no reason for doubt; a knock is.
+    """
+    turn, back = math.asin(come[1]), -math.asin(forth[1])
+    return min(abs(turn), abs(back)) if turn * back > 0.0 else 0.0
 
 
 @kernel

@@ -1,4 +1,9 @@
-"""Combines all scores into one: how far each frame stands out from its recording in the doubtful direction."""
+"""Combines scores into one: in how many lines a frame is probably wrong.
+
+By default that is what the committee disputes (`lineseg/survey/committee.py`), and more where a frame has no line
+before walls, lacks what its neighbours have, was knocked aside, or lost beams. Scores that move with the robot, or
+are normal for a place, have the weight 0: they do not follow the truth (`tests/benchmarks/suspicion.py`).
+"""
 
 from __future__ import annotations
 
@@ -21,25 +26,27 @@ WEIGHTS = {name: score.weight for name, score in SCORES.items()}
 
 
 def doubts(scores: NDArray[np.floating]) -> NDArray[np.float64]:
-    """(frames, len(SCORES)) how doubtful each frame is by each score, from 0 to MOST_DOUBT; unknown scores give 0.
+    """(frames, len(SCORES)) how doubtful each frame is by each score; unknown scores give 0.
 
-    The mean of two numbers: how far the score stands out from the whole recording, and from the AROUND frames around
-    it. Each is min(max(d / spread, 0), MOST_DOUBT), where d is how much worse the score is than the median of the
-    recording or of the frames around, and spread = max(the d that a tenth of all frames exceed / 1.2816, least), with
-    `least` the smallest difference of this score that matters.
+    A score that `counts` lines is itself the doubt. For the others it is from 0 to MOST_DOUBT, the mean of two numbers:
+    how far the score stands out from the whole recording, and from the AROUND frames around it. Each is
+    min(max((d − least) / spread, 0), MOST_DOUBT), where d is how much worse the score is than the median of the
+    recording or of the frames around, `least` the smallest difference of this score that matters, and
+    spread = max(the d that a tenth of all frames exceed / 1.2816, least).
     """
-    scores = np.asarray(scores, np.float64)
+    scores = np.nan_to_num(np.asarray(scores, np.float64))
     if not len(scores):
         return np.zeros(scores.shape)
     signs = np.array([1.0 if score.worse == "higher" else -1.0 for score in SCORES.values()])
-    worse = signs * np.nan_to_num(scores)
-    return 0.5 * (_standing_out(worse - np.median(worse, axis=0)) + _standing_out(worse - _around(worse)))
+    worse = signs * scores
+    outstanding = 0.5 * (_standing_out(worse - np.median(worse, axis=0)) + _standing_out(worse - _around(worse)))
+    return np.where([score.counts for score in SCORES.values()], np.maximum(worse, 0.0), outstanding)
 
 
 def _standing_out(by: NDArray[np.float64]) -> NDArray[np.float64]:
     least = np.array([score.least for score in SCORES.values()])
     spread = np.maximum(np.quantile(by, 0.9, axis=0) / TENTH, least)
-    return np.clip(by / spread, 0.0, MOST_DOUBT)
+    return np.clip((by - least) / spread, 0.0, MOST_DOUBT)
 
 
 def _around(values: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -50,7 +57,7 @@ def _around(values: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def suspicion(scores: NDArray[np.floating], weights: Mapping[str, float] = WEIGHTS) -> NDArray[np.float64]:
-    """(frames,) Σ weight·doubt / Σ weight over the scores (frames, len(SCORES)), from 0 to MOST_DOUBT.
+    """(frames,) Σ weight·doubt over the scores (frames, len(SCORES)): in lines, if "disputed" has the weight 1.
 
     weights: by name of score; a score without a weight or without a known value does not count.
     """
@@ -60,10 +67,7 @@ def suspicion(scores: NDArray[np.floating], weights: Mapping[str, float] = WEIGH
     by_score = np.array([float(weights.get(name, 0.0)) for name in SCORES])
     if (by_score < 0).any() or not np.isfinite(by_score).all():
         raise ValueError("a weight must be a number ≥ 0")
-    if len(scores):
-        by_score = by_score * ~np.isnan(scores).all(axis=0)
-    total = by_score.sum()
-    return doubts(scores) @ by_score / total if total > 0 else np.zeros(len(scores))
+    return doubts(scores) @ by_score
 
 
 def worst_first(scores: NDArray[np.floating], weights: Mapping[str, float] = WEIGHTS) -> NDArray[np.intp]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
@@ -19,7 +19,10 @@ from ..knobs import Thresholds
 from ..params import Params
 from ..region_growing.limits import limits_of
 from ..scan import Recording, Scan
+from .committee import Committee, disputed, judges_of, walls_of
+from .disputes import confirmed, disputes
 from .frame_by_frame import judge_of
+from .remark import Remark
 from .result import Survey
 from .stability import changes
 from .threads import survey
@@ -43,22 +46,10 @@ WITH_SENTENCE = frozenset(
         "jump",
         "jolt",
         "unstable",
+        "disputed",
+        "blank",
     ]
 )
-
-
-@dataclass(frozen=True)
-class Remark:
-    """One thing that looks wrong. score: the name of its score; first, last: the beams concerned, or −1.
-
-    doubt: how far the score stands out, times its weight; see suspicion.py.
-    """
-
-    score: str
-    text: str
-    first: int = -1
-    last: int = -1
-    doubt: float = 0.0
 
 
 def why(
@@ -76,24 +67,28 @@ def why(
         raise IndexError(f"frame {frame}: the recording has the frames 0 to {len(recording) - 1}")
     first = max(frame - AROUND, 0)
     part = recording.only(np.arange(first, min(frame + AROUND + 1, len(recording))))
-    found = survey(part, params)
+    judges = judges_of(recording)
+    panel = Committee(judges, [walls_of(part, judge, threads=1) for judge in judges])
+    found = disputed(part, survey(part, params), panel, np.arange(len(part)))
     assert found.scores is not None
-    scene = _Scene(part, found, frame - first, params or Params())
+    scene = _Scene(part, found, frame - first, params or Params(), panel)
     known = (found.scores, frame - first) if scores is None else (scores, frame)
     doubt = dict(zip(SCORES, doubts(known[0])[known[1]].tolist(), strict=True))
     remarks = [*_lines(scene), *_beside(scene), *_whole(scene, doubt), *_stability(scene)]
-    weighted = [
-        Remark(each.score, each.text, each.first, each.last, WEIGHTS[each.score] * doubt[each.score])
-        for each in remarks
-    ]
-    return tuple(sorted(weighted, key=lambda each: -each.doubt))
+    weighted = [replace(each, doubt=WEIGHTS[each.score] * doubt[each.score]) for each in remarks]
+    # Each dispute is about one line, so it has its own share of the doubt.
+    disputed_lines = [replace(each, doubt=WEIGHTS[each.score] * each.doubt) for each in _disputes(scene)]
+    return tuple(sorted((*disputed_lines, *weighted), key=lambda each: -each.doubt))
 
 
 class _Scene:
     """A frame and the surveyed frames around it."""
 
-    def __init__(self, recording: Recording, found: Survey, frame: int, params: Thresholds) -> None:
+    def __init__(
+        self, recording: Recording, found: Survey, frame: int, params: Thresholds, committee: Committee
+    ) -> None:
         self.recording, self.found, self.frame, self.params = recording, found, frame, params
+        self.committee = committee
         self.judge = judge_of(params)
         self.scan: Scan = recording[frame]
         self.rows = found[frame]
@@ -105,6 +100,10 @@ class _Scene:
         """The median of the frames around."""
         return float(np.median(self.found.score(name)))
 
+    def walls(self, frame: int) -> list[NDArray[np.void]]:
+        """The lines of each judge in a frame."""
+        return [rows[offsets[frame] : offsets[frame + 1]] for rows, offsets in self.committee.walls]
+
     def points_of(self, row: np.void) -> NDArray[np.intp]:
         """The valid beams of a segment."""
         beams = (row["first"] + np.arange((row["last"] - row["first"]) % len(self.scan) + 1)) % len(self.scan)
@@ -114,6 +113,11 @@ class _Scene:
     def _in_lines(self) -> NDArray[np.bool_]:
         """(n,) the valid beams; for region growing without those on objects that lines pass behind."""
         return extract(self.scan, self.params).labels >= 0 if type(self.params) is Params else self.scan.valid
+
+
+def _disputes(scene: _Scene) -> Iterator[Remark]:
+    """Lines that others find, and lines that others do not find."""
+    yield from disputes(scene.scan, scene.rows, scene.params, scene.committee.judges, scene.walls(scene.frame))
 
 
 def _lines(scene: _Scene) -> Iterator[Remark]:
@@ -168,14 +172,19 @@ def _beside(scene: _Scene) -> Iterator[Remark]:
         row = scene.rows[i]
         text = f"segment {i}, {row['length']:.1f} m, appears only in this frame"
         yield Remark("brief", text, int(row["first"]), int(row["last"]))
+    walls, beams_before = scene.walls(scene.frame - 1), len(scene.recording[scene.frame - 1])
+    for i in np.flatnonzero(gone):
+        gone[i] = confirmed(before[i], walls, scene.params, beams_before)
     traced = trace(scene.scan, scene.params) if gone.any() else None
     for row in before[gone]:
-        beams = _beams_to(scene.scan, moved(row, to_here))
+        ends = moved(row, to_here)
+        beams = _beams_to(scene.scan, ends)
         place = f"beams {beams[0]}–{beams[-1]}" if len(beams) else "between two beams"
         reason = why_none(traced, beams) if traced is not None and len(beams) else ""
         because = f" – {reason}" if reason else ""
         text = f"a {row['length']:.1f} m line of both neighbouring frames is missing, {place}{because}"
-        yield Remark("gone", text, *((int(beams[0]), int(beams[-1])) if len(beams) else ()))
+        span = (int(beams[0]), int(beams[-1])) if len(beams) else (-1, -1)
+        yield Remark("gone", text, *span, ghosts=(ends,))
     if scene.score("jump") > SCORES["jump"].least:
         counts = f"{len(before)} in the previous frame, {len(behind)} in the next"
         yield Remark("jump", f"{len(scene.rows)} segments here, {counts}")

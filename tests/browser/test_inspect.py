@@ -19,6 +19,7 @@ from lineseg import (
     survey,
     what_if,
     why,
+    with_disputes,
     with_stability,
     worst_first,
 )
@@ -160,7 +161,7 @@ def test_the_most_suspicious_frame_says_what_looks_wrong_and_weights_change_the_
     tab = new_tab()
     tab.page.get_by_role("button", name="Inspect").click()
     tab.until("s.mode === 'inspect' && s.score === 'suspicion'")
-    found = with_stability(hallway, survey(hallway))
+    found = with_stability(hallway, with_disputes(hallway, survey(hallway)))
     assert found.scores is not None
     worst = int(worst_first(found.scores)[0])
     row = tab.page.locator(".frames-row").first

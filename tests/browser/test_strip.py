@@ -15,6 +15,7 @@ from lineseg import Params, Recording, open_recording
 from lineseg.doubt import SCORES
 from lineseg.readers import save_npz
 from lineseg.survey import survey
+from lineseg.survey.committee import with_disputes
 from lineseg.survey.stability import with_stability
 
 FRAMES = 10_000
@@ -68,7 +69,7 @@ def test_after_a_drag_the_strip_and_the_frame_agree(new_tab: Callable[..., Any],
     assert state["frame"] == 4321
     assert strip["params"] == state["params"] != before["params"]
     assert strip["values"][4321] == pytest.approx(state["covered"] / state["valid"], abs=1e-6)
-    expected = with_stability(recording, survey(recording, params))
+    expected = with_stability(recording, with_disputes(recording, survey(recording, params)))
     np.testing.assert_array_equal(np.float32(strip["values"]), expected.score("coverage"))
     for name in SCORES:
         tab.page.get_by_label("Score of the frames").select_option(name)

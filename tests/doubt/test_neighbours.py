@@ -106,7 +106,7 @@ def test_a_line_that_is_out_of_view_is_not_interrupted():
     around = seen_from(0, 0, 0, wall, seed=1, **ahead), seen_from(0, 0, 0, wall, seed=2, **ahead)
     turned = scores_of(around[0], seen_from(0, 0, 0.6, wall, **ahead), around[1])
     assert turned["gone"] == 0
-    assert turned["jolt"] == pytest.approx(1.2, abs=0.02)
+    assert turned["jolt"] == pytest.approx(0.6, abs=0.02)
 
 
 def test_a_new_line_that_stays_is_neither():
@@ -123,9 +123,10 @@ def test_a_wall_cut_in_two_is_still_there_and_its_count_jumps():
 
 def test_a_knock_is_a_jolt_and_a_steady_turn_is_none():
     assert scores_of(seen_from(0, 0, 0), seen_from(0, 0, 0.15), seen_from(0, 0, 0))["jolt"] == pytest.approx(
-        0.3, abs=0.02
+        0.15, abs=0.02
     )
     assert scores_of(seen_from(0, 0, -0.15), seen_from(0, 0, 0), seen_from(0, 0, 0.15))["jolt"] < 0.02
+    assert scores_of(seen_from(0, 0, 0), seen_from(0, 0, 0), seen_from(0, 0, 0.3))["jolt"] < 0.02
 
 
 def test_the_first_and_the_last_frame_do_not_stand_out():

@@ -1,5 +1,6 @@
 """The ranking puts failures first: it finds planted failures in recordings that also have their own."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -8,10 +9,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from planted import FAILING, PLANTS, planted
+from scenes import room
 
-from lineseg import extract, open_recording, survey, with_stability
+from lineseg import Recording, Scan, agreements, extract, open_recording, survey, with_disputes
 from lineseg.doubt import SCORES
-from lineseg.doubt.suspicion import MOST_DOUBT, WEIGHTS, doubts, suspicion, worst_first
+from lineseg.doubt.suspicion import MOST_DOUBT, doubts, suspicion, worst_first
+from lineseg.simulate.laser import TIM_561, UTM_30LX
+from lineseg.simulate.worlds import WORLDS
 from lineseg.truth import agreement, true_lines
 
 SAMPLES = Path(__file__).parents[2] / "sample_scans"
@@ -32,9 +36,9 @@ def fails_by_itself(recording):
 
 
 @pytest.mark.parametrize("seed", [1, 2, 3])
-@pytest.mark.parametrize("name", ["hallway", "laboratory"])
-def test_eight_of_ten_planted_failures_are_among_the_fifteen_worst(name, seed):
-    """The weights were chosen on the seeds 100 to 129.
+@pytest.mark.parametrize("name, found_least", [("hallway", 9), ("laboratory", 7)])
+def test_nine_of_ten_planted_failures_are_among_the_fifteen_worst(name, found_least, seed):
+    """The weights were chosen on the seeds 100 to 111: there 9.2 of 10 are found in the hallway, 8.3 of 9 here.
 
     Frames that fail on their own, a third of each recording, are not counted among the fifteen: they rightly rank high.
     No wall of the laboratory is seen at an angle small enough for a line to bridge an open door.
@@ -44,10 +48,45 @@ def test_eight_of_ten_planted_failures_are_among_the_fifteen_worst(name, seed):
     unplantable = {"bridged_door"} if name == "laboratory" else set()
     assert set(where.values()) == {plant.__name__ for plant in PLANTS} - unplantable
     own = fails_by_itself(sample)
-    ranked = worst_first(with_stability(recording, survey(recording, FAILING)).scores).tolist()
+    ranked = worst_first(with_disputes(recording, survey(recording, FAILING)).scores).tolist()
     worst = [frame for frame in ranked if frame in where or not own[frame]][:15]
     found = {where[frame] for frame in worst if frame in where}
-    assert len(found) >= 8, set(where.values()) - found
+    assert len(found) >= found_least, set(where.values()) - found
+
+
+@pytest.mark.parametrize("seed", [60, 61])
+def test_suspicion_follows_the_truth(seed):
+    """In rooms that nobody tuned to, with a laser for which the default ε is too small, and one for which it fits."""
+    for name, laser, least in (("flat", TIM_561, 0.6), ("corridor", UTM_30LX, 0.35)):
+        recording = replace(WORLDS[name], laser=laser, seed=seed).recording(name, 60)
+        rank = suspicion(with_disputes(recording, survey(recording)).scores)
+        assert correlation(rank, faults(recording)) >= least, name
+
+
+def faults(recording):
+    """(frames,) lines missed or false by the truth."""
+    found = list(agreements(recording))
+    return np.array([each.true_lines + each.segments - 2 * each.matches for each in found])
+
+
+def correlation(one, other):
+    """Spearman's rank correlation."""
+    return np.corrcoef(ranks(one), ranks(other))[0, 1]
+
+
+def ranks(values):
+    """Ranks, equal values at the mean of theirs."""
+    _, inverse, counts = np.unique(values, return_inverse=True, return_counts=True)
+    return (np.cumsum(counts) - (counts - 1) / 2)[inverse]
+
+
+def test_a_frame_without_lines_before_walls_is_the_most_suspicious():
+    scans = [room(noise=0.005, seed=seed) for seed in range(12)]
+    rough = np.random.default_rng(1).normal(0, 0.1, len(scans[5]))
+    scans[5] = Scan(scans[5].ranges + rough, scans[5].bearings)
+    recording = Recording.from_scans(scans)
+    scores = with_disputes(recording, survey(recording)).scores
+    assert worst_first(scores)[0] == 5
 
 
 def test_only_a_frame_that_stands_out_to_the_bad_side_is_doubtful():
@@ -58,13 +97,23 @@ def test_only_a_frame_that_stands_out_to_the_bad_side_is_doubtful():
     assert np.count_nonzero(doubt) == 1
 
 
+def test_less_than_the_smallest_difference_that_matters_is_no_doubt():
+    values = np.zeros(100)
+    values[30], values[60] = 0.9 * SCORES["jump"].least, 2 * SCORES["jump"].least
+    assert np.flatnonzero(doubts(column("jump", values))[:, NAMES.index("jump")]).tolist() == [60]
+
+
+def test_disputed_lines_are_their_own_doubt_even_if_every_frame_has_them():
+    assert suspicion(column("disputed", [7.0, 7.0, 9.0])).tolist() == [7.0, 7.0, 9.0]
+
+
 def test_the_spread_is_that_of_the_worst_tenth_with_a_minimum():
     values = np.zeros(101)
-    values[50] = 1.2
+    values[50] = 2.2
     assert doubts(column("jump", values))[50, NAMES.index("jump")] == pytest.approx(1.2)
     values = np.tile(np.arange(11.0), 10)
     doubt = doubts(column("jump", values))[:, NAMES.index("jump")]
-    assert doubt.max() == pytest.approx(0.5 * 5 / (4 / 1.2816) * 2, rel=0.05)
+    assert doubt.max() == pytest.approx((5 - 1) / (4 / 1.2816), rel=0.05)
 
 
 def test_a_lasting_fault_counts_half():
@@ -75,12 +124,10 @@ def test_a_lasting_fault_counts_half():
 
 
 def test_unknown_scores_count_for_nothing():
-    scores = column("jump", np.arange(20.0))
+    scores = column("jolt", np.arange(20.0))
     unknown = scores.copy()
-    unknown[:, NAMES.index("unstable")] = np.nan
-    assert np.isfinite(suspicion(unknown)).all()
-    share = 1 - WEIGHTS["unstable"] / sum(WEIGHTS.values())
-    assert suspicion(unknown) * share == pytest.approx(suspicion(scores))
+    unknown[:, [NAMES.index(name) for name in ("unstable", "disputed", "blank")]] = np.nan
+    assert suspicion(unknown).tolist() == suspicion(scores).tolist()
 
 
 def test_weights_choose_what_counts():
@@ -100,6 +147,8 @@ def test_other_weights_are_refused(weights):
 @given(arrays(np.float64, st.tuples(st.integers(0, 30), st.just(len(SCORES))), elements=st.floats(0, 100)), st.data())
 def test_the_rank_is_bounded_and_follows_the_frames(scores, data):
     rank = suspicion(scores)
-    assert ((rank >= 0) & (rank <= MOST_DOUBT)).all()
+    assert (rank >= 0).all()
+    counts = [score.counts for score in SCORES.values()]
+    assert (doubts(scores)[:, np.logical_not(counts)] <= MOST_DOUBT).all()
     assert sorted(worst_first(scores).tolist()) == list(range(len(scores)))
     assert suspicion(scores[::-1]) == pytest.approx(rank[::-1])

@@ -23,6 +23,7 @@ from lineseg import Params, Recording, open_recording
 from lineseg.doubt import SCORES
 from lineseg.readers import save_npz
 from lineseg.survey import survey
+from lineseg.survey.committee import with_disputes
 from lineseg.survey.stability import with_stability
 
 
@@ -115,14 +116,15 @@ def test_an_outdated_survey_is_only_done_coarsely(long: Recording):
     assert heard.empty()
 
 
-def test_stability_is_computed_last_and_only_on_request(page: Page, recordings: Path):
+def test_the_committee_and_then_stability_are_computed_last_and_only_on_request(page: Page, recordings: Path):
     page.hello()
     assert np.isnan(whole(page)["scores"]["unstable"]).all()
     page.ask(score="unstable")
-    first, last = whole(page), whole(page)
-    assert np.isnan(first["scores"]["unstable"]).all()
+    first, second, last = whole(page), whole(page), whole(page)
+    assert np.isnan(first["scores"]["disputed"]).all()
+    assert np.isnan(second["scores"]["unstable"]).all()
     recording = open_recording(recordings / "walls.npz")
-    expected = with_stability(recording, survey(recording))
+    expected = with_stability(recording, with_disputes(recording, survey(recording)))
     for name in SCORES:
         np.testing.assert_array_equal(last["scores"][name], expected.score(name), err_msg=name)
 
