@@ -10,7 +10,7 @@ import numpy as np
 from lineseg import EXTRACTORS, Recording, Scan, extract, trace
 from lineseg.baselines.authors import AuthorsParams
 from lineseg.survey import survey
-from lineseg.tuning.proposal import propose
+from lineseg.survey.committee import with_disputes
 
 log = logging.getLogger(__name__)
 
@@ -50,7 +50,8 @@ class WarmUp:
         finally:
             self.surveyed.set()
         try:
-            propose(Recording.from_scans(_noisy_scans()))
+            noisy = Recording.from_scans(_noisy_scans())
+            with_disputes(noisy, survey(noisy))
             for method in EXTRACTORS.values():
                 method.extract(wall, method.params_type())
                 method.trace(wall, method.params_type())
