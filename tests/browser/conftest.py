@@ -10,7 +10,7 @@ import socket
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -19,11 +19,14 @@ from lineseg_app.server import Settings
 from live import Address, serving
 
 try:
-    from playwright.sync_api import Browser, ConsoleMessage, Error, Frame, Page, sync_playwright
+    from playwright.sync_api import Browser, ConsoleMessage, Error, Frame, Page, ViewportSize, sync_playwright
 except ImportError:
     pytest.skip("pip install playwright", allow_module_level=True)
 
 SECONDS = 60
+VIEWPORT = ViewportSize(width=1280, height=800)
+# What a tab shows that no link tells what to show.
+FIRST = "#recording=sample:hallway"
 FLAGS = (
     "--no-sandbox",
     "--use-angle=swiftshader",
@@ -75,6 +78,29 @@ class Tab:
         self.page.goto(self.address + hash)
         # The very first picture may wait for the kernels to be compiled.
         self.until("true", seconds=120)
+        return self
+
+    def look_at(self, hash: str) -> Tab:
+        """Open a link in this tab as it is, as a person does who clicks one."""
+        if "follow=" in hash or hash.startswith("?"):
+            return self.open(hash)
+        self.page.set_viewport_size(VIEWPORT)
+        self.page.evaluate(
+            """(hash) => new Promise((done) => {
+                localStorage.clear();
+                for (const dialog of document.querySelectorAll("dialog[open]")) dialog.close();
+                document.activeElement?.blur();
+                history.replaceState(null, "", "#");
+                addEventListener("hashchange", () => setTimeout(done), { once: true });
+                location.hash = hash;
+            })""",
+            hash if len(hash) > 1 else FIRST,
+        )
+        self.until("true")
+        self.page.evaluate("""() => {
+            const tabs = [...document.querySelectorAll("#panel [role=tab]")];
+            tabs.find((tab) => tab.checkVisibility())?.click();
+        }""")
         return self
 
     def until(self, condition: str, seconds: int = SECONDS) -> dict[str, Any]:
@@ -180,22 +206,59 @@ def address(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Address]:
         yield address
 
 
-@pytest.fixture
-def new_tab(browser: Browser, address: Address) -> Iterator[Callable[..., Tab]]:
-    """Open tabs of one browser profile; at the end none may have reported an error."""
-    context = browser.new_context(viewport={"width": 1280, "height": 800}, accept_downloads=True)
-    context.set_default_timeout(1000 * SECONDS)
-    context.add_init_script(LESS_OFTEN)
-    tabs: list[Tab] = []
+class Profile:
+    """A browser profile, and the tab that the tests of a file share, since opening one takes seconds."""
 
-    def open_tab(hash: str = "", at: str = f"{address.http}/") -> Tab:
-        tab = Tab(context.new_page(), at)
-        tabs.append(tab)
-        return tab.open(hash)
+    def __init__(self, browser: Browser) -> None:
+        self.context = browser.new_context(viewport=VIEWPORT, accept_downloads=True)
+        self.context.set_default_timeout(1000 * SECONDS)
+        self.context.add_init_script(LESS_OFTEN)
+        self._shared: Tab | None = None
+
+    def lend(self, address: str, hash: str) -> Tab:
+        """The shared tab, where this link is opened; a new one, if there is none."""
+        shared, self._shared = self._shared, None
+        if shared is None:
+            return Tab(self.context.new_page(), address).open(hash)
+        return shared.look_at(hash)
+
+    def take_back(self, tabs: Sequence[Tab], share: bool) -> None:
+        """Close these tabs; with share, the next test gets the first."""
+        if share and tabs:
+            self._shared, *tabs = tabs
+        for tab in tabs:
+            tab.page.close()
+
+
+@pytest.fixture(scope="module")
+def profile(browser: Browser) -> Iterator[Profile]:
+    profile = Profile(browser)
+    yield profile
+    profile.context.close()
+
+
+@pytest.fixture
+def new_tab(profile: Profile, address: Address, request: pytest.FixtureRequest) -> Iterator[Callable[..., Tab]]:
+    """Open tabs of one browser profile; at the end none may have reported an error.
+
+    The first is shared with other tests, unless the mark `own_tab` says that this one needs a fresh tab or leaves
+    behind what a link does not set back.
+    """
+    tabs: list[Tab] = []
+    failed = request.session.testsfailed
+    own = request.node.get_closest_marker("own_tab") is not None
+    usual = f"{address.http}/"
+
+    def open_tab(hash: str = "", at: str = usual) -> Tab:
+        lent = not own and not tabs and at == usual
+        tabs.append(profile.lend(at, hash) if lent else Tab(profile.context.new_page(), at).open(hash))
+        return tabs[-1]
 
     yield open_tab
-    context.close()
-    assert [complaint for tab in tabs for complaint in tab.complaints] == []
+    complaints = [complaint for tab in tabs for complaint in tab.complaints]
+    sound = not complaints and request.session.testsfailed == failed
+    profile.take_back(tabs, sound and not own and tabs[:1] != [] and tabs[0].address == usual)
+    assert complaints == []
 
 
 @pytest.fixture

@@ -95,6 +95,7 @@ def test_a_drawing_survives_a_reload_and_becomes_a_file_with_truth(drawing, tmp_
     np.testing.assert_array_equal(mine.wall, scan.wall)
 
 
+@pytest.mark.own_tab
 def test_a_link_to_an_invalid_world_says_why(new_tab):
     tab = new_tab("#recording=drawn:w1,2,3")
     alert = tab.page.get_by_role("alert").filter(has_text="a wall needs x1,y1,x2,y2")

@@ -145,6 +145,7 @@ def span_of(tab) -> float:
     return 2 * tab.scene.evaluate("() => window.__viserMutable.cameraControl.distance") * np.tan(np.radians(5))
 
 
+@pytest.mark.own_tab
 def test_a_link_to_a_missing_file_says_so_and_applies_once_the_file_is_opened(new_tab):
     link = "#mode=inspect&recording=file:0123456789ab&name=hallway.npz&frame=17&epsilon=0.02&beam=40"
     tab = new_tab(link)
@@ -162,6 +163,7 @@ def test_a_link_to_a_missing_file_says_so_and_applies_once_the_file_is_opened(ne
     tab.page.wait_for_function("/recording=upload:.*&name=hallway.npz&frame=17/.test(location.hash)")
 
 
+@pytest.mark.own_tab
 def test_opening_something_else_replaces_the_link(new_tab):
     tab = new_tab("#recording=upload:gone&frame=17&epsilon=0.02")
     assert "no longer on the server" in tab.page.locator(".notice.error").inner_text()

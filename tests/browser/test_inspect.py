@@ -179,6 +179,7 @@ def test_the_most_suspicious_frame_says_what_looks_wrong_and_weights_change_the_
     tab.eventually(lambda: row.get_attribute("data-frame") == str(worst), "the usual weights do not come back")
 
 
+@pytest.mark.own_tab
 @pytest.mark.parametrize("other", ["split-and-merge", "hough"])
 def test_another_method_is_compared_explained_and_asked_what_would_change_it(new_tab, hallway, other):
     tab = new_tab(f"#mode=inspect&frame=20&score=gap&method={other}&beam=300")

@@ -16,6 +16,9 @@ def learn(new_tab, sample: str, **places):
     more = "".join(f"&{name}={value}" for name, value in places.items())
     tab = new_tab(f"#mode=learn&recording={sample}{more}")
     tab.eventually(lambda: tab.page.locator(".code-line").count() > 30, "no pseudocode")
+    leave = tab.page.get_by_role("button", name="Back to the list of lessons")
+    if leave.is_visible():
+        leave.click()
     return tab
 
 
@@ -23,6 +26,7 @@ def text_of(tab, selector: str) -> str:
     return tab.page.locator(selector).text_content() or ""
 
 
+@pytest.mark.own_tab
 @pytest.mark.parametrize("level", ["phase", "line"])
 def test_a_level_steps_by_whole_stretches_both_ways(new_tab, level):
     starts = trace(open_recording(data_folder("sample_scans") / "laboratory.npz")[0]).starts(level)
@@ -65,6 +69,7 @@ def test_jumps_lead_to_the_next_of_their_kind_and_end_with_the_last(new_tab):
         assert all(tab.page.locator(f"#stepper [data-jump={jump}]").is_disabled() for jump in kinds)
 
 
+@pytest.mark.own_tab
 def test_the_trail_draws_every_fit_of_the_growing_line_up_to_the_step(new_tab):
     tab = learn(new_tab, "lesson:1_perfect_corner", step=0)
     fits = tab.page.locator(".overlay-trail line")
@@ -91,6 +96,7 @@ def test_nothing_is_animated_with_reduced_motion(new_tab):
     assert tab.page.evaluate("document.getAnimations().length") == 0
 
 
+@pytest.mark.own_tab
 def test_a_loop_plays_between_its_ends(new_tab):
     tab = learn(new_tab, "lesson:1_perfect_corner", step=10)
     tab.page.get_by_role("button", name="Start the loop here").click()
@@ -289,8 +295,8 @@ def test_words_fit_and_controls_have_names_on_a_small_screen(new_tab):
 
 def to_the_task(new_tab, lesson: str):
     """Open a lesson and go to its task."""
-    tab = new_tab(f"?lesson={lesson}")
-    tab.eventually(lambda: tab.page.locator(".lesson-title").is_visible(), "the lesson does not open")
+    tab = learn(new_tab, "sample:hallway")
+    tab.page.locator(f"[data-lesson='{lesson}']").click()
     while tab.page.get_by_role("button", name="Hint").is_hidden():
         tab.until("true")
         tab.page.locator(".lesson-foot .primary").click()

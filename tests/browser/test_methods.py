@@ -70,6 +70,7 @@ def test_a_replay_of_another_method_goes_from_its_first_decision_to_its_last(new
     tab.until(f"s.step === {len(trace) - 1}")
 
 
+@pytest.mark.own_tab
 def test_a_link_to_an_unknown_method_says_so(new_tab):
     tab = new_tab("#method=guessing")
     tab.page.get_by_text("guessing").wait_for()

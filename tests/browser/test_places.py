@@ -6,6 +6,7 @@ import re
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 from lineseg import open_recording
 
@@ -170,6 +171,7 @@ def test_two_tabs_do_not_disturb_each_other(new_tab):
     assert one.state["frame"] == 0
 
 
+@pytest.mark.own_tab
 def test_a_duplicated_tab_gets_a_session_of_its_own(new_tab):
     one = new_tab()
     with one.page.expect_popup() as popup:
@@ -180,6 +182,7 @@ def test_a_duplicated_tab_gets_a_session_of_its_own(new_tab):
     assert one.page.evaluate(source) != twin.page.evaluate(source)
 
 
+@pytest.mark.own_tab
 def test_a_reload_restores_the_view(tab):
     tab.page.keyboard.press("ArrowRight")
     tab.type_value("epsilon", "0.05")

@@ -14,6 +14,7 @@ def test_dragging_epsilon_changes_the_segments_before_the_button_is_released(tab
     assert tab.state["segments"] == during["segments"]
 
 
+@pytest.mark.own_tab
 def test_one_drag_is_one_step_of_undo(tab):
     before = tab.state
     tab.drag("epsilon", by=-120)

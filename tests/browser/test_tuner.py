@@ -20,6 +20,8 @@ from lineseg import open_recording, save_npz
 SAMPLES = Path(__file__).parents[2] / "sample_scans"
 # Kernels may have to be compiled first, and the work is done behind everything else.
 PATIENCE_MS = 120_000
+# Trials, maps and curves of one test are not those of another.
+pytestmark = pytest.mark.own_tab
 
 
 @pytest.fixture(scope="module")
