@@ -89,8 +89,11 @@ def _table(
     source: Source, rows: Iterable[Row], dialect: Dialect, names: list[Name] | None, roles: Roles | None
 ) -> NDArray[np.float64]:
     """(rows, columns): the numbers of all rows, NaN for other words in columns that are not needed."""
-    table: list[list[float]] = []
     width = 0 if names is None else len(names)
+    rows = list(rows)
+    if (whole := _plain_table(rows, dialect, width)) is not None:
+        return whole
+    table: list[list[float]] = []
     for row in rows:
         cells = dialect.cells(row.text)
         width = width or len(cells)
@@ -112,6 +115,15 @@ def _table(
         source.notes.nothing_left()
         raise ValueError(f"{source.name} has column names, but no line of numbers below them.")
     return np.array(table)
+
+
+def _plain_table(rows: list[Row], dialect: Dialect, width: int) -> NDArray[np.float64] | None:
+    """(rows, columns): the numbers of rows that have nothing else, all at once; None if they have."""
+    width = width or (dialect.width(rows[0].text) if rows else 0)
+    if not width or any(dialect.width(row.text) != width for row in rows):
+        return None
+    values = dialect.numbers(b"\n".join(row.text for row in rows))
+    return None if values is None or len(values) != len(rows) * width else values.reshape(len(rows), width)
 
 
 def _guessed(source: Source, table: NDArray[np.float64]) -> Roles:

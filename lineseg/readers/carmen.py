@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import NamedTuple
 
 import numpy as np
@@ -16,6 +17,7 @@ WORDS = (
     b"FLASER", b"RLASER", b"ROBOTLASER1", b"ROBOTLASER2", b"RAWLASER1", b"RAWLASER2", b"RAWLASER3", b"RAWLASER4",
     b"LASER_READING", b"PARAM", b"ODOM", b"SYNC", b"TRUEPOS", b"NEFF", b"VERTEX2", b"EDGE2",
 )  # fmt: skip
+ANY_LINE = re.compile(rb"^[ \t]*(?:" + b"|".join(WORDS) + rb")\s", re.MULTILINE)
 # The words before the stamp, after the ranges (and for the last two, the remissions).
 TAILS = {"FLASER": 6, "RLASER": 6, "LASER_READING": 3, "ROBOTLASER": 11, "RAWLASER": 0}
 LASERS = {name.encode(): name for name in ("FLASER", "RLASER", "LASER_READING")}
@@ -45,8 +47,9 @@ class CarmenLog(Reader):
 
     @staticmethod
     def recognises(head: bytes) -> bool:
-        return b"\0" not in head and any(line.split(None, 1)[:1] and line.split(None, 1)[0] in WORDS
-                                         for line in head.splitlines())  # fmt: skip
+        # A table of numbers is long, and passed over at once.
+        words = not re.match(rb"\s*[-+.\d]", head)
+        return words and b"\0" not in head and ANY_LINE.search(head) is not None
 
     @staticmethod
     def read(source: Source) -> Recording:

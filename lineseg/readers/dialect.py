@@ -69,6 +69,12 @@ class Dialect:
             cells = [cell.strip() for cell in text.split(self.separator)]
         return cells[:-1] if cells and not cells[-1] else cells
 
+    def width(self, text: bytes) -> int:
+        """The number of cells of a line."""
+        if b'"' in text or self.separator == b" ":
+            return len(self.cells(text))
+        return text.count(self.separator) + (not text.rstrip().endswith(self.separator))
+
     def numbers(self, text: bytes) -> Floats | None:
         """All numbers of a line, NaN for empty cells; None if one of its words is not a number."""
         if b'"' not in text and (self.separator == b" " or not self._has_gaps(text)):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from ..scan import Floats, Recording
 from .account import Notes
@@ -17,24 +18,48 @@ CODES = (655.35, 655.34, 655.33, 65.535, 65.534, 65.533, 32.767, 16.383, 8.191, 
 OFTEN = 0.01
 # A greatest value so many times as large as the next is no reading.
 ALONE, FEW = 3.0, 100
-MOST_SAMPLED = 8_000
+MOST_SAMPLED = 2_000
+GOLDEN = 0.6180339887498949
+
+
+def sampled_at(count: int) -> NDArray[np.int64]:
+    """The indices of `count` values, or of MOST_SAMPLED of them: evenly spread, but not at even steps.
+
+    Even steps might meet the same beam of every scan.
+    """
+    if count <= MOST_SAMPLED:
+        return np.arange(count)
+    return (np.arange(MOST_SAMPLED) * GOLDEN % 1.0 * count).astype(np.int64)
 
 
 def sampled(values: Floats) -> Floats:
-    """The values, or about MOST_SAMPLED of them, evenly spread."""
-    return values[:: max(1, len(values) // MOST_SAMPLED)]
+    """The values, or MOST_SAMPLED of them, evenly spread."""
+    return values if len(values) <= MOST_SAMPLED else values[sampled_at(len(values))]
 
 
-def unit_of(ranges: Floats) -> Unit:
-    """Metres, unless most ranges are too large for them: then millimetres, or centimetres if these are too small."""
-    finite = sampled(ranges)
-    finite = finite[np.isfinite(finite) & (finite > 0)]
-    if not finite.size:
+def rising(ranges: Floats) -> Floats:
+    """A sample of the ranges that are finite and above 0, sorted."""
+    found = sampled(ranges)
+    return np.sort(found[(found > 0) & (found < np.inf)])
+
+
+def middle_of(rising: Floats) -> float:
+    """The median of sorted values, 0 if there are none."""
+    count = len(rising)
+    return float(rising[(count - 1) // 2] + rising[count // 2]) / 2 if count else 0.0
+
+
+def unit_of(rising: Floats) -> Unit:
+    """The unit of sorted ranges above 0: metres, unless most ranges are too large for them.
+
+    Then millimetres, or centimetres if these would be too small.
+    """
+    if not rising.size:
         return "m"
-    middle = float(np.median(finite))
-    if middle <= FAR and not (np.percentile(finite, 90) > 100 and (finite == np.floor(finite)).all()):
+    middle, high = middle_of(rising), float(rising[9 * (len(rising) - 1) // 10])
+    if middle <= FAR and not (high > 100 and (rising == np.floor(rising)).all()):
         return "m"
-    whole_cm = middle < 1e3 * NEAR and NEAR <= 0.01 * middle <= FAR and float(finite.max()) < 6000
+    whole_cm = middle < 1e3 * NEAR and NEAR <= 0.01 * middle <= FAR and float(rising[-1]) < 6000
     return "cm" if whole_cm else "mm"
 
 
@@ -42,11 +67,10 @@ def guess_unit(recording: Recording, reading: Reading, notes: Notes) -> Unit:
     """The unit of the ranges: as wanted, as the file says, or guessed."""
     if reading.unit or "unit" not in notes.unstated:
         return reading.unit or notes.found.get("unit", "m")
-    unit = unit_of(recording.ranges)
-    finite = recording.ranges[np.isfinite(recording.ranges) & (recording.ranges > 0)]
-    middle = float(np.median(sampled(finite))) if finite.size else 0.0
+    ranges = rising(recording.ranges)
+    unit = unit_of(ranges)
     other = next(each for each in ("mm", "m", "cm") if each != unit)
-    why = f"no unit is stated, and the median of the ranges is {middle:.4g}"
+    why = f"no unit is stated, and the median of the ranges is {middle_of(ranges):.4g}"
     notes.guess("unit", UNIT_NAMES[unit], why, unit=other)
     return unit
 

@@ -26,7 +26,7 @@ def one_laser(recording: Recording, reading: Reading, notes: Notes) -> Recording
 def _without_stumps(recording: Recording, notes: Notes) -> Recording:
     """Without the few scans that have next to no beams, if the others have many."""
     lengths = np.diff(recording.offsets)
-    usual = int(np.median(lengths)) if len(lengths) else 0
+    usual = int(np.sort(lengths)[len(lengths) // 2]) if len(lengths) else 0
     stumps = lengths < STUMP * usual
     if usual < MANY_BEAMS or not stumps.any() or stumps.mean() > FEW_STUMPS:
         return recording

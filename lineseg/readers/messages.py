@@ -21,6 +21,7 @@ from .stamping import stamp_unit
 MOST_DEPTH = 6
 LIST_KEYS = ("ranges", "distances", "range", "distance")
 LEAST_BEAMS = 8
+ECHO_LINES = (re.compile(rb"^\s*header:\s*$", re.MULTILINE), re.compile(rb"^\s*(?:angle_min|ranges):", re.MULTILINE))
 
 Table = list[list[float]]
 
@@ -73,8 +74,7 @@ class EchoYaml(Reader):
 
     @staticmethod
     def recognises(head: bytes) -> bool:
-        lines = [line.strip() for line in head.splitlines()]
-        return any(line.startswith((b"angle_min:", b"ranges:")) for line in lines) and b"header:" in lines
+        return b"header:" in head and all(line.search(head) for line in ECHO_LINES)
 
     @staticmethod
     def read(source: Source) -> Recording:

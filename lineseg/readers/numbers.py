@@ -27,7 +27,7 @@ def leading_numbers(text: bytes, count: int) -> tuple[Floats, int]:
     """
     values = np.empty(count)
     found, end = _plain_decimals(np.frombuffer(text, np.uint8), values, EXACT_POWERS)
-    if found < count:  # there are other words, such as nan, 1e-3 or 17 digits
+    if found < count:  # there are other words, such as 1e-3 or 17 digits
         for match in WORD.finditer(text, end):
             try:
                 values[found] = float(match[0])
@@ -59,9 +59,19 @@ def _is_separator(byte):
     return byte == 32 or 9 <= byte <= 13 or byte == 44 or byte == 59
 
 
+@kernel
+def _no_number(first, second, third):
+    """inf, or NaN, from three small letters that say so; 0 from others."""
+    if first == 105 and second == 110 and third == 102:
+        return np.inf
+    return np.nan if first == 110 and second == 97 and third == 110 else 0.0
+
+
 @entry_kernel
 def _plain_decimals(text, values, powers):
-    """Fill `values` from the start of `text` while words look like -12.34; returns their number and where they end.
+    """Fill `values` from the start of `text` while words look like -12.34, inf or nan.
+
+    Returns their number and where they end.
 
     Digits are collected as an integer and divided once by a power of ten. Both are exact, so the quotient is rounded
     correctly, like that of `float`.
@@ -87,11 +97,15 @@ def _plain_decimals(text, values, powers):
             else:
                 break
             at += 1
-        if digits == 0 or digits > MOST_DIGITS:
+        value = 0.0
+        if digits == 0 and not point and at + 3 <= size:
+            value = _no_number(text[at] | 32, text[at + 1] | 32, text[at + 2] | 32)
+            at += 3
+        if (digits == 0 and value == 0.0) or digits > MOST_DIGITS:
             break
         if at < size and not _is_separator(text[at]):
             break
-        value = number / powers[decimals]
+        value = number / powers[decimals] if digits else value
         values[found] = -value if negative else value
         found += 1
         end = at

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..scan import Floats, Recording
 from .account import Notice
-from .guessing import MOST_SAMPLED, UNIT_NAMES, sampled, unit_of
+from .guessing import UNIT_NAMES, middle_of, rising, sampled_at, unit_of
 from .reading import Reading
 
 MOST_RANGE, LEAST_MEDIAN = 500.0, 0.05
@@ -24,9 +24,9 @@ def noticed(recording: Recording, reading: Reading, recorded: bool, odd: Oddness
     odd: what is wrong with its stamps.
     """
     yield from _about_angles(recording, reading)
-    size = list(_about_size(recording, reading))
-    yield from size
     ranges, inside = _sample(recording)
+    size = list(_about_size(rising(ranges), reading))
+    yield from size
     if not any("unit" in notice.change for notice in size):
         yield from _about_limits(recording, reading, ranges, inside)
     yield from _about_recurring(recording, ranges[inside])
@@ -35,9 +35,9 @@ def noticed(recording: Recording, reading: Reading, recorded: bool, odd: Oddness
 
 def _sample(recording: Recording) -> tuple[Floats, Any]:
     """Some of the ranges, and which of them are within the limits."""
-    step = max(1, len(recording.ranges) // MOST_SAMPLED)
-    ranges = recording.ranges[::step]
-    frame = np.searchsorted(recording.offsets, np.arange(0, len(recording.ranges), step), side="right") - 1
+    beams = sampled_at(len(recording.ranges))
+    ranges = recording.ranges[beams]
+    frame = np.searchsorted(recording.offsets, beams, side="right") - 1
     inside = (ranges > 0) & (ranges >= recording.range_min[frame]) & (ranges < recording.range_max[frame])
     return ranges, inside & np.isfinite(ranges)
 
@@ -49,8 +49,8 @@ def _about_angles(recording: Recording, reading: Reading) -> Iterator[Notice]:
     if recording.bearings is not None:
         inner = [abs(scan.bearings[-1] - scan.bearings[0]) for scan in recording if len(scan)]
         views = np.rad2deg(np.array(inner or [0.0]))
-    view = float(np.median(views))
-    if view > 360.0 + 1.5 * float(np.rad2deg(np.median(steps))) + 0.5:
+    view = middle_of(np.sort(views))
+    if view > 360.0 + 1.5 * float(np.rad2deg(middle_of(np.sort(steps)))) + 0.5:
         change = _in_degrees(recording, reading, float(np.deg2rad(view)))
         question = "Are the angles in degrees?" if change else "Check angle_increment."
         if "angle_increment" in change:
@@ -70,15 +70,14 @@ def _in_degrees(recording: Recording, reading: Reading, view: float) -> dict[str
     return {"angle_unit": "deg"}
 
 
-def _about_size(recording: Recording, reading: Reading) -> Iterator[Notice]:
-    finite = sampled(recording.ranges)
-    finite = finite[np.isfinite(finite) & (finite > 0)]
-    if not finite.size:
+def _about_size(ranges: Floats, reading: Reading) -> Iterator[Notice]:
+    """ranges: above 0, sorted."""
+    if not ranges.size:
         yield Notice("no ranges", "No beam has a range above 0.")
         return
-    middle = float(np.median(finite))
-    far = float(np.mean(finite > MOST_RANGE))
-    likely = unit_of(finite) if reading.unit == "m" else "m"
+    middle = middle_of(ranges)
+    far = 1 - float(np.searchsorted(ranges, MOST_RANGE, "right")) / len(ranges)
+    likely = unit_of(ranges) if reading.unit == "m" else "m"
     if far > RECURS or likely != "m":
         question = f"Are they in {UNIT_NAMES[likely]}?" if likely != "m" else "Check the unit, or what means no return."
         share = f"{far:.0%} of all ranges are above {MOST_RANGE:g} m (the median is {middle:.4g} m)"
@@ -96,7 +95,7 @@ def _about_limits(recording: Recording, reading: Reading, ranges: Floats, inside
     """More than half of the beams outside the limits; codes at the top do not count, because they are no readings."""
     there = np.isfinite(ranges) & (ranges > 0)
     count = max(len(ranges), 1)
-    low, high = float(np.median(recording.range_min)), float(np.median(recording.range_max))
+    low, high = (middle_of(np.sort(limits)) for limits in (recording.range_min, recording.range_max))
     below = np.count_nonzero(there & (ranges < low)) / count
     beyond = ranges[there & (ranges >= high)]
     above = len(beyond) / count if len(np.unique(np.round(beyond[:5000], 3))) > 20 else 0.0
@@ -116,8 +115,9 @@ def _about_recurring(recording: Recording, valid: Floats) -> Iterator[Notice]:
     """One value, or a narrow ring below the greatest, that recurs in more than a tenth of all beams."""
     if len(valid) < 100:
         return
-    rounded = np.round(valid.astype(np.float64), 3)
-    values, counts = np.unique(rounded, return_counts=True)
+    rounded = np.sort(np.round(valid.astype(np.float64), 3))
+    starts = np.concatenate(([0], np.flatnonzero(rounded[1:] != rounded[:-1]) + 1))
+    values, counts = rounded[starts], np.diff(starts, append=len(rounded))
     most = int(np.argmax(counts))
     share = counts[most] / len(valid)
     if share > RECURS and len(values) > 1:
@@ -130,7 +130,7 @@ def _about_recurring(recording: Recording, valid: Floats) -> Iterator[Notice]:
         return
     top = float(values[-1])
     ring = valid > 0.99 * top
-    limit = float(np.median(recording.range_max))
+    limit = middle_of(np.sort(recording.range_max))
     lonely = np.count_nonzero((valid <= 0.99 * top) & (valid > 0.95 * top)) < 0.05 * np.count_nonzero(ring)
     if ring.mean() > RECURS and lonely and (not np.isfinite(limit) or top > 0.95 * limit):
         low = float(np.floor(1000 * valid[ring].min()) / 1000)

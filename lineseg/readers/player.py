@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import islice
+
 import numpy as np
 
 from ..scan import Recording, Topic
@@ -22,8 +24,9 @@ class PlayerLog(Reader):
     def recognises(head: bytes) -> bool:
         if head.lstrip().startswith(b"## Player version"):
             return True
-        words = [line.split() for line in head.splitlines() if line.strip() and not line.startswith(b"#")]
-        return bool(words) and all(len(each) > 3 and each[3] in (b"laser", b"sync") for each in words[:5])
+        lines = (line for line in head.splitlines() if line.strip() and not line.startswith(b"#"))
+        words = [line.split(None, 4) for line in islice(lines, 5)]
+        return bool(words) and all(len(each) > 3 and each[3] in (b"laser", b"sync") for each in words)
 
     @staticmethod
     def read(source: Source) -> Recording:

@@ -118,9 +118,10 @@ def _is_header(dialect: Dialect, cells: list[bytes]) -> bool:
 
 def _angles_after_name(dialect: Dialect, cells: list[bytes]) -> bytes | None:
     """A row of numbers below a name of the first column, such as the angles of the beams; None if it is another row."""
+    if len(cells) <= MANY_ROWS or dialect.number(cells[0]) is not None:
+        return None
     rest = [dialect.number(cell) for cell in cells[1:]]
-    named = len(rest) >= MANY_ROWS and dialect.number(cells[0]) is None and None not in rest
-    return dialect.separator.join([b"nan", *cells[1:]]) if named else None
+    return None if None in rest else dialect.separator.join([b"nan", *cells[1:]])
 
 
 def _names(dialect: Dialect, head: list[Row], cells: list[bytes]) -> list[Name]:
@@ -173,8 +174,7 @@ def _read_numbers(
         return _read_columns(source, reading, rows, dialect, columns_of(reading.columns))
     if names is not None:
         return read_beams(source, reading, rows, dialect, names)
-    widths = [len(dialect.cells(row.text)) for row in head]
-    width = max(widths)
+    width = max(dialect.width(row.text) for row in head)
     few = width == 2 or (2 < width < FEW_COLUMNS and len(head) >= MANY_ROWS)
     if few and reading.skip_columns is None and reading.angle_increment is None:
         return read_beams(source, reading, rows, dialect, None)
