@@ -11,6 +11,9 @@ import numpy as np
 
 from ..scan import Floats
 
+ROS1_HEADER = struct.Struct("<IIII")
+CDR_HEADER, NUMBERS = ({order: struct.Struct(order + form) for order in "<>"} for form in ("iII", "7fI"))
+FLOATS = {order: np.dtype(f"{order}f4") for order in "<>"}
 TYPES = ("sensor_msgs/LaserScan", "sensor_msgs/msg/LaserScan")
 
 
@@ -34,25 +37,23 @@ class LaserScan(NamedTuple):
 
 def decode_ros1(data: bytes) -> LaserScan:
     """The serialisation of ROS 1: little-endian, packed."""
-    _, seconds, nanoseconds, length = struct.unpack_from("<IIII", data)
+    _, seconds, nanoseconds, length = ROS1_HEADER.unpack_from(data)
     return _decode(data, seconds, nanoseconds, 16, length, 16 + length, "<")
 
 
 def decode_cdr(data: bytes) -> LaserScan:
     """The serialisation of ROS 2: four bytes that state the byte order, then CDR with aligned numbers."""
     order = "<" if data[1] & 1 else ">"
-    seconds, nanoseconds, length = struct.unpack_from(f"{order}iII", data, 4)
+    seconds, nanoseconds, length = CDR_HEADER[order].unpack_from(data, 4)
     aligned = 4 + (12 + length + 3) // 4 * 4
     return _decode(data, seconds, nanoseconds, 16, max(length - 1, 0), aligned, order)
 
 
 def _decode(data: bytes, seconds: int, nanoseconds: int, at: int, length: int, numbers: int, order: str) -> LaserScan:
-    angle_min, angle_max, increment, _, _, range_min, range_max, count = struct.unpack_from(
-        f"{order}7fI", data, numbers
-    )
+    angle_min, angle_max, increment, _, _, range_min, range_max, count = NUMBERS[order].unpack_from(data, numbers)
     if numbers + 32 + 4 * count > len(data):
         raise ValueError(f"a LaserScan announces {count} ranges, but its message has {len(data)} bytes")
-    ranges = np.frombuffer(data, f"{order}f4", count, numbers + 32).astype(np.float32)
+    ranges = np.frombuffer(data, FLOATS[order], count, numbers + 32).astype(np.float32, copy=False)
     frame_id = data[at : at + length].decode("utf-8", "replace")
     return _checked(seconds, nanoseconds, frame_id, angle_min, angle_max, increment, range_min, range_max, ranges)
 

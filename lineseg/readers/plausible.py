@@ -37,9 +37,13 @@ def _sample(recording: Recording) -> tuple[Floats, Any]:
     """Some of the ranges, and which of them are within the limits."""
     beams = sampled_at(len(recording.ranges))
     ranges = recording.ranges[beams]
-    frame = np.searchsorted(recording.offsets, beams, side="right") - 1
-    inside = (ranges > 0) & (ranges >= recording.range_min[frame]) & (ranges < recording.range_max[frame])
-    return ranges, inside & np.isfinite(ranges)
+    low, high = recording.range_min, recording.range_max
+    if (low == low[0]).all() and (high == high[0]).all():
+        low, high = low[0], high[0]
+    else:
+        frame = np.searchsorted(recording.offsets, beams, side="right") - 1
+        low, high = low[frame], high[frame]
+    return ranges, (ranges > 0) & (ranges >= low) & (ranges < high) & (ranges < np.inf)
 
 
 def _about_angles(recording: Recording, reading: Reading) -> Iterator[Notice]:
