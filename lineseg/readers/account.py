@@ -92,7 +92,8 @@ class Notes:
 
     unstated: fields of the Reading that the file does not give, so that they are to be guessed.
     found: fields of the Reading as the file gives them. stamps: where they come from, "" if there are none.
-    recorded: when a bag's recorder received each scan [s]. kind: the name of the format for the line, if another.
+    recorded: when a bag's recorder received each scan [s]. publishers: a number for each scan, None
+    if there is one. kind: the name of the format for the line, if another.
     radians: whether bearings were converted to radians already. lasers: as in `Account`.
     """
 
@@ -102,6 +103,7 @@ class Notes:
         self.stamps = ""
         self.kind = ""
         self.recorded: Any = None
+        self.publishers: Any = None
         self.radians = False
         self.lasers: dict[str, tuple[str, ...]] = {}
         self.guesses: list[Guess] = []

@@ -92,9 +92,13 @@ def collect(
     topics: tuple[Topic, ...],
     format: str,
 ) -> Recording:
-    """A Recording from (decoder, recording time in nanoseconds, bytes); messages that cannot be read are skipped."""
+    """A Recording from (decoder, recording time in nanoseconds, bytes); messages that cannot be read are skipped.
+
+    Each publisher has a decoder of its own.
+    """
     sweeps = Sweeps()
     recorded: list[float] = []
+    publishers: list[int] = []
     for done, (decode, nanoseconds, data) in enumerate(messages):
         if done % 64 == 0:
             source.progress(done, total)
@@ -104,6 +108,7 @@ def collect(
             source.notes.skip(f"{source.name}: message {done} of {topic}", f"it cannot be read, {error}")
             continue
         recorded.append(1e-9 * nanoseconds)
+        publishers.append(id(decode))
         sweeps.add(
             scan.ranges, scan.angle_min, scan.angle_increment, scan.range_min, scan.range_max, scan.stamp, scan.frame_id
         )  # fmt: skip
@@ -114,11 +119,12 @@ def collect(
         way = f"choose one of {others}" if others else "no other topic of scans has any, so record it again"
         raise ValueError(f"{source.name}: the topic {topic} has no messages; {way}.")
     recording = sweeps.recording(source, topic=topic, topics=topics, format=format)
-    times = np.array(recorded)
+    times, senders = np.array(recorded), np.array(publishers)
     if (np.diff(times) < 0).any():
         order = np.argsort(times, kind="stable")
-        recording, times = recording.only(order), times[order]
+        recording, times, senders = recording.only(order), times[order], senders[order]
     source.notes.recorded = times
+    source.notes.publishers = senders if len(set(publishers)) > 1 else None
     source.notes.stamps = "the messages" if recording.stamps.any() else "the recorder"
     return recording
 

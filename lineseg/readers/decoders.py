@@ -39,7 +39,7 @@ def is_laser(type: str, encoding: str = "cdr", schema: bytes = b"") -> bool:
 def decoder_of(type: str, encoding: str, schema: bytes, echo: int) -> Decoder:
     """The decoder of a channel. Raises ValueError for an encoding that cannot be read.
 
-    echo: which of the echoes of a MultiEchoLaserScan to take.
+    echo: which of the echoes of a MultiEchoLaserScan to take. Each call returns another object.
     """
     if encoding == "json":
         return lambda data: decode_foxglove(_object(data))
@@ -51,7 +51,7 @@ def decoder_of(type: str, encoding: str, schema: bytes, echo: int) -> Decoder:
         return partial(decode_multi_echo, encoding=encoding, echo=echo)
     if type in FOXGLOVE:
         return partial(decode_foxglove_binary, encoding=encoding)
-    return decode_ros1 if encoding == "ros1" else lambda data: decode_cdr(unpacked(data))
+    return partial(decode_ros1) if encoding == "ros1" else lambda data: decode_cdr(unpacked(data))
 
 
 def unpacked(data: bytes) -> bytes:

@@ -15,9 +15,9 @@ UNIT_NAMES = {"m": "metres", "cm": "centimetres", "mm": "millimetres"}
 NEAR, FAR = 0.35, 60.0
 # What drivers write for "no return": the greatest numbers of 16, 15, 14, 13 and 12 bits in millimetres or centimetres.
 CODES = (655.35, 655.34, 655.33, 65.535, 65.534, 65.533, 32.767, 16.383, 8.191, 4.095)
-OFTEN = 0.01
+OFTEN, FEW = 0.002, 3
 # A greatest value so many times as large as the next is no reading.
-ALONE, FEW = 3.0, 100
+ALONE, ENOUGH = 3.0, 100
 MOST_SAMPLED = 2_000
 GOLDEN = 0.6180339887498949
 
@@ -89,10 +89,10 @@ def no_return_codes(recording: Recording, reading: Reading, notes: Notes) -> tup
     limit = float(np.max(recording.range_max, initial=0.0))
     greatest = float(finite.max(initial=0.0))
     code = next((each for each in CODES if abs(greatest - each) < 5e-4), None)
-    if code is None and "range_max" in notes.unstated and len(finite) >= FEW:
+    if code is None and "range_max" in notes.unstated and len(finite) >= ENOUGH:
         others = float(finite[finite < greatest].max(initial=0.0))
         code = greatest if greatest > ALONE * others > 0 else None
-    if code is None or code >= limit or np.count_nonzero(np.abs(finite - code) < 5e-4) < max(2, OFTEN * len(ranges)):
+    if code is None or code >= limit or np.count_nonzero(np.abs(finite - code) < 5e-4) < max(FEW, OFTEN * len(ranges)):
         return ()
     why = "it is the greatest number that fits, and recurs" if code in CODES else "it recurs, far beyond all others"
     notes.guess("no_return", f"{code:g} m means no return", why, no_return="none")

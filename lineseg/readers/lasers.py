@@ -59,8 +59,10 @@ def _one_frame_id(recording: Recording, reading: Reading, notes: Notes) -> Recor
 
 
 def _one_geometry(recording: Recording, reading: Reading, notes: Notes) -> Recording:
-    """Scans of the geometry that is wanted, if two or more alternate."""
-    kinds = _geometries(recording)
+    """Scans of the geometry that is wanted, if two or more alternate; or of the publisher, if only these alternate."""
+    kinds, what = _geometries(recording), "geometries"
+    if not kinds.any() and notes.publishers is not None:
+        kinds, what = _publishers(notes.publishers), "publishers"
     wanted = reading.geometry
     count = int(kinds.max(initial=0)) + 1
     if wanted is not None and wanted >= count:
@@ -72,7 +74,7 @@ def _one_geometry(recording: Recording, reading: Reading, notes: Notes) -> Recor
         shares = ", ".join(_described(recording, kinds == kind, kind) for kind in range(count))
         notes.notice(
             "several lasers",
-            f"Scans of {count} geometries alternate: {shares}. Geometry 0 is shown; show another?",
+            f"Scans of {count} {what} alternate: {shares}. Number 0 is shown; show another?",
             geometry=1,
         )
     return _kept(recording, kinds == (wanted or 0), notes)
@@ -99,6 +101,15 @@ def _geometries(recording: Recording) -> np.ndarray:
     return kinds if steady and alternate and len(leaders) > 1 else np.zeros(frames, np.int64)
 
 
+def _publishers(senders: np.ndarray) -> np.ndarray:
+    """(frames,) the number of each scan's publisher, in the order of appearance; all 0 unless they alternate."""
+    names = list(dict.fromkeys(senders.tolist()))
+    kinds = np.array([names.index(sender) for sender in senders.tolist()])
+    counts = np.bincount(kinds)
+    alternate = np.count_nonzero(np.diff(kinds)) >= counts.min() >= FEW_SCANS
+    return kinds if alternate else np.zeros(len(kinds), np.int64)
+
+
 def _equal(recording: Recording) -> bool:
     return bool(np.ptp(recording.angle_min) < 1e-3 and np.ptp(recording.angle_increment) < 1e-6)
 
@@ -112,4 +123,6 @@ def _kept(recording: Recording, these: np.ndarray, notes: Notes) -> Recording:
     frames = np.flatnonzero(these)
     if notes.recorded is not None:
         notes.recorded = notes.recorded[frames]
+    if notes.publishers is not None:
+        notes.publishers = notes.publishers[frames]
     return recording.only(frames)

@@ -97,6 +97,11 @@ def _about_size(ranges: Floats, reading: Reading) -> Iterator[Notice]:
 
 def _about_limits(recording: Recording, reading: Reading, ranges: Floats, inside: Any) -> Iterator[Notice]:
     """More than half of the beams outside the limits; codes at the top do not count, because they are no readings."""
+    lowest, highest = float(recording.range_min[0]), float(recording.range_max[0])
+    if lowest > highest:
+        text = f"range_min = {lowest:g} m is above range_max = {highest:g} m. Are they swapped?"
+        yield Notice("limits", text, {"range_min": round(highest, 4), "range_max": round(lowest, 4)})
+        return
     there = np.isfinite(ranges) & (ranges > 0)
     count = max(len(ranges), 1)
     low, high = (middle_of(np.sort(limits)) for limits in (recording.range_min, recording.range_max))

@@ -102,5 +102,6 @@ def _without_index(source: Source, why: str) -> Recording:
     if not any(notice.kind == "breaks off" for notice in source.notes.notices):
         tell_cut(source, "ROS bag", why, hint)
     total = sum(stream.messages for stream in chosen)
-    rows = [(stream.decoder(source), *row) for stream in chosen for row in found[stream.handle]]
+    decoders = [(stream.decoder(source), found[stream.handle]) for stream in chosen]
+    rows = [(decoder, *row) for decoder, messages in decoders for row in messages]
     return collect(source, sorted(rows, key=lambda row: row[1]), total, topic, topics, Ros1Bag.format)

@@ -8,42 +8,13 @@ import struct
 import numpy as np
 import pytest
 import zstandard
+from bags import SCAN, STORES, TEXT, encoded, message
 from rosbags.rosbag1 import Writer as Writer1
 from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin
 from rosbags.rosbag2 import Writer as Writer2
-from rosbags.typesys import Stores, get_typestore
 
 from lineseg.readers import Cancelled, open_recording
 from lineseg.readers.laser_scan import decode_cdr, decode_ros1
-
-SCAN, TEXT = "sensor_msgs/msg/LaserScan", "std_msgs/msg/String"
-STORES = {1: get_typestore(Stores.ROS1_NOETIC), 2: get_typestore(Stores.ROS2_HUMBLE)}
-
-
-def message(
-    version, ranges, stamp=12.5, frame_id="laser", angle_min=-1.5, increment=0.01, angle_max=0.0, limits=(0.1, 30.0)
-):
-    types = STORES[version].types
-    seconds = int(stamp)
-    time = types["builtin_interfaces/msg/Time"](sec=seconds, nanosec=round((stamp - seconds) * 1e9))
-    sequence = {"seq": 0} if version == 1 else {}
-    return types[SCAN](
-        header=types["std_msgs/msg/Header"](stamp=time, frame_id=frame_id, **sequence),
-        angle_min=angle_min,
-        angle_max=angle_max,
-        angle_increment=increment,
-        time_increment=0.0,
-        scan_time=0.025,
-        range_min=limits[0],
-        range_max=limits[1],
-        ranges=np.asarray(ranges, np.float32),
-        intensities=np.full(len(ranges), 7, np.float32),
-    )
-
-
-def encoded(version, scan):
-    store = STORES[version]
-    return bytes(store.serialize_ros1(scan, SCAN) if version == 1 else store.serialize_cdr(scan, SCAN))
 
 
 def bag1(path, *publishers, text=(), stamps=(12.5, 12.6, 12.7)):
@@ -100,11 +71,17 @@ def test_a_truncated_message_is_refused():
         decode_ros1(data[:200])
 
 
-def test_two_publishers_on_one_topic_are_one_recording_in_the_order_of_time(tmp_path):
-    recording = open_recording(bag1(tmp_path / "two.bag", ("/scan", [1.0, 2.0]), ("/scan", [3.0, 4.0])))
-    assert (len(recording), recording.beams) == (6, (2, 2))
+def test_a_driver_that_was_started_anew_goes_on_with_the_same_recording(tmp_path):
+    with Writer1(tmp_path / "two.bag") as bag:
+        for driver in range(2):
+            topic = bag.add_connection("/scan", SCAN, typestore=STORES[1], callerid=f"/driver_{driver}")
+            for number in range(3):
+                stamp = 1.0 + 3 * driver + number
+                bag.write(topic, int(1e9 * stamp), encoded(1, message(1, [1.0, 2.0 + driver], stamp)))
+    recording = open_recording(tmp_path / "two.bag")
+    assert recording.stamps.tolist() == [1, 2, 3, 4, 5, 6]
     assert [topic.name for topic in recording.topics] == ["/scan"]
-    assert np.all(np.diff(recording.stamps) >= 0)
+    assert not recording.account.notices
 
 
 def test_two_lasers_on_one_topic_are_never_mixed(tmp_path):
