@@ -120,7 +120,7 @@ def _table(
 def _plain_table(rows: list[Row], dialect: Dialect, width: int) -> NDArray[np.float64] | None:
     """(rows, columns): the numbers of rows that have nothing else, all at once; None if they have."""
     width = width or (dialect.width(rows[0].text) if rows else 0)
-    if not width or any(dialect.width(row.text) != width or b'"' in row.text for row in rows):
+    if not rows or any(dialect.width(row.text) != width or b'"' in row.text for row in rows):
         return None
     values = dialect.numbers(b"\n".join(row.text for row in rows))
     return None if values is None or len(values) != len(rows) * width else values.reshape(len(rows), width)

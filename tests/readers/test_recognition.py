@@ -1,10 +1,14 @@
 """Which reader opens a file, and the error if none does."""
 
 import gzip
+from contextlib import ExitStack
+from pathlib import Path
 
 import pytest
 
-from lineseg.readers import READERS, open_recording
+from lineseg.readers import READERS, format_of, open_recording
+from lineseg.readers.account import Notes
+from lineseg.readers.wrapping import unwrapped
 
 FLASER = b"FLASER 3 1.0 2.0 3.0 0 0 0 0 0 0 1.0 x 1.0\n"
 
@@ -65,3 +69,40 @@ def test_a_missing_file_is_named(tmp_path):
 def test_no_two_formats_claim_a_suffix():
     suffixes = [suffix for reader in READERS for suffix in reader.suffixes]
     assert len(suffixes) == len(set(suffixes))
+
+
+MAGIC = {
+    "ROS 1 bag": b"#ROSBAG V2.0\n",
+    "ROS 2 bag": b"SQLite format 3\0",
+    "MCAP": b"\x89MCAP0\r\n",
+    "failure pack": b"PK\x03\x04" + b"\0" * 26 + b"lineseg.json",
+    "NPZ": b"PK\x03\x04" + b"\0" * 22 + b"\x0a\0\0\0ranges.npy",
+    "NPY": b"\x93NUMPY\x01\0",
+    "CARMEN log": b"# " + b"x" * 80 + b"\nODOM 0 0 0 0 0 0 1 h 1\n",
+    "Player log": b"## Player version 3.0.2\n",
+    "JSON": b'{"ranges": [',
+    "echo": b"header:\n  stamp:\n    sec: 1\nangle_min: -1.5\n",
+    "text": b"angle,distance\n",
+}
+
+
+def bytes_read():
+    """How many bytes this process has read so far, by the count of the system."""
+    return int(Path("/proc/self/io").read_text().split()[1])
+
+
+@pytest.mark.skipif(not Path("/proc/self/io").exists(), reason="the system does not count bytes that are read")
+@pytest.mark.parametrize("format", [reader.format for reader in READERS])
+def test_recognising_a_format_reads_little_of_a_large_file(tmp_path, format):
+    path = tmp_path / "large.bin"
+    with path.open("wb") as file:
+        file.write(MAGIC[format] + b"1.0, 2.0\n" * 10_000)
+        file.truncate(1 << 30)  # what is not written takes no space
+    found = []
+    for _ in range(2):  # the first imports what it needs
+        before = bytes_read()
+        with ExitStack() as stack:
+            found.append(format_of(unwrapped(path, stack, Notes(), lambda done, total: None)))
+        spent = bytes_read() - before
+    assert found == [format] * 2
+    assert 0 < spent < 1 << 20
