@@ -45,6 +45,8 @@ FRAMES = 300
 ROUGH_FRAMES = 30
 ROUGH_STRIDE = 3
 ROUGH_TRUSTED = 0.4
+# Quantiles of the values at which the search for their scale starts.
+STARTS = (0.2, 0.5, 0.8)
 # Width of the cells in which values are counted: a twentieth of the scale.
 GRAIN = 0.05
 # What deviates by more [m] is not a wall.
@@ -164,29 +166,39 @@ def _by_range(ranges: Floats, departures: Floats) -> tuple[Floats, Floats, Float
     return edges, sigma, walls, np.array([len(part) for part in parts])
 
 
-def _scale(values: Floats, dof: float) -> tuple[float, float]:
-    """The scale of those values (n,) > 0 that lie on walls, and their share.
+def _scale(values: Floats, dof: float, least: float = 0.0) -> tuple[float, float]:
+    """The scale of those values (n,) > 0 that lie on walls, not below `least`, and their share.
 
     A value on a wall is scale·√(χ²/dof) with `dof` degrees of freedom; another may have any size above the scale, each
-    order of magnitude as likely as the next.
+    order of magnitude as likely as the next. The likelihood has several maxima; the highest of those found counts.
     """
-    logs = np.log(values)
-    log_scale, share, top = float(np.quantile(logs, 0.2)), 0.5, float(logs.max())
-    places = np.linspace(float(logs.min()), top, max(math.ceil((top - float(logs.min())) / GRAIN), 1) + 1)
+    logs, lowest = np.log(values), math.log(least) if least else -math.inf
+    starts = np.maximum(np.quantile(logs, STARTS), lowest)
+    places = np.linspace(float(logs.min()), top := float(logs.max()), max(math.ceil(np.ptp(logs) / GRAIN), 1) + 1)
     counts, _ = np.histogram(logs, places)
-    logs = (places[:-1] + places[1:]) / 2
-    half = dof / 2
+    cells = (places[:-1] + places[1:]) / 2
+    _, log_scale, share = max(_mixture(cells, counts, dof, top, lowest, start) for start in starts.tolist())
+    return math.exp(log_scale), share
+
+
+def _mixture(
+    logs: Floats, counts: NDArray[np.int64], dof: float, top: float, lowest: float, log_scale: float
+) -> tuple[float, float, float]:
+    """(log-likelihood, log of the scale, share on walls) of counted logarithms, from one start of the search."""
+    share, half, likelihood = 0.5, dof / 2, -math.inf
     constant = math.log(2) + half * math.log(half) - math.lgamma(half)
     for _ in range(100):
         x = logs - log_scale
         on_wall = share * np.exp(constant + 2 * half * x - half * np.exp(2 * x))
         elsewhere = (1 - share) * np.where(x > 0, 1 / max(top - log_scale, 1.0), 1e-9)
+        likelihood = float(counts @ np.log(on_wall + elsewhere))
         weight = counts * on_wall / (on_wall + elsewhere)
         share = float(weight.sum() / counts.sum())
-        before, log_scale = log_scale, 0.5 * math.log(float(weight @ np.exp(2 * logs)) / float(weight.sum()))
+        mean = float(weight @ np.exp(2 * logs)) / float(weight.sum())
+        before, log_scale = log_scale, max(0.5 * math.log(mean), lowest)
         if abs(log_scale - before) < 1e-4:
             break
-    return math.exp(log_scale), share
+    return likelihood, log_scale, share
 
 
 def _law(edges: Floats, sigma: Floats, windows: NDArray[np.int64]) -> tuple[float, float]:
@@ -218,23 +230,25 @@ def _rough(recording: Recording, length: float, base: float, growth: float) -> f
         used = departures_over(ranges, rays, length, ROUGH_STRIDE, out)
         found.append(out[:, :used])
     ranges, values = np.hstack(found) if found else np.empty((2, 0))
-    values = np.abs(values)[values != 0.0]
-    if len(values) < LEAST:
+    if np.count_nonzero(values) < LEAST:
         return math.nan
-    scale, share = _scale(values, 1.0)
-    white = float(np.median(np.hypot(base, growth * ranges)))
-    return math.sqrt(max(scale**2 - white**2, 0.0)) if share >= ROUGH_TRUSTED else math.nan
+    white = np.hypot(base, growth * ranges)[values != 0.0]
+    # A wall deviates by its white noise at the least: without this bound, the fit may end at a few values near 0.
+    scale, share = _scale(np.abs(values[values != 0.0]) / white, 1.0, least=1.0)
+    return float(np.median(white)) * math.sqrt(scale**2 - 1.0) if share >= ROUGH_TRUSTED else math.nan
 
 
 def _credible(rough: Floats) -> Floats:
     """(lengths,) limited to what a wall can do: its deviation grows with length, at most in proportion.
 
-    Anything that grows faster is clutter within the white noise of a wall; so is what shows over one length only.
+    Anything that grows faster is clutter within the white noise of a wall. So is everything if what lies some length
+    apart deviates more than walls do, or if only one length shows a deviation.
     """
     kept = rough.copy()
-    for k in range(len(kept)):
-        most = MOST_ROUGH if k == 0 else kept[k - 1] * LENGTHS[k] / LENGTHS[k - 1]
-        kept[k] = min(kept[k], most) if math.isfinite(most) and kept[k] <= MOST_ROUGH else math.nan
+    if np.nanmax(rough, initial=0.0) > MOST_ROUGH:
+        return np.full_like(rough, math.nan)
+    for k in range(1, len(kept)):
+        kept[k] = min(kept[k], kept[k - 1] * LENGTHS[k] / LENGTHS[k - 1])
     return kept if np.isfinite(kept).sum() > 1 else np.full_like(kept, math.nan)
 
 
