@@ -3,7 +3,7 @@
 The noise of the recording bounds ε from both sides. Between these bounds the search looks for steadiness. If ε is too
 small, walls break at noisy points, and a larger ε gives other lines. If it is too large, a wall takes in what stands
 before it, and again a larger ε gives other lines. In between, the lines stay the same. So the lines at ε are scored
-as if the lines at 1.6 ε were the truth. The best ε is proposed; among nearly equal ones, what the noise suggests.
+as if the lines at a larger ε were the truth. The best ε is proposed; among nearly equal ones, what the noise suggests.
 """
 
 from __future__ import annotations
@@ -28,21 +28,20 @@ T = TypeVar("T", bound=Thresholds)
 TRUTH = Objective("truth")
 FRAMES = 24
 LEAST_FRAMES = 4
-# Factor from one value to the next; lines are compared two steps apart.
-STEP = 1.6**0.5
+# The factor from one value of ε to the next; lines are compared APART values apart.
+STEP, APART = 1.6**0.25, 2
 # Bounds of ε: this many times the white noise, and this many times the total scatter.
-LOWEST, HIGHEST = 2.5, 4.5
-# The choice from noise alone, as a multiple of √(white noise · total scatter); and how much steadier the lines must be
-# at a value that differs from it by a factor of e.
-USUAL, PULL = 3.2, 0.1
-# Steadiness that the present values may lack before others are proposed; the second if they are within one step of
-# these, where lines differ by chance.
-AS_GOOD, AS_GOOD_NEARBY = 0.01, 0.05
+LOWEST, HIGHEST = 2.5, 4.2
+# The choice from noise alone is USUAL · scatter^SHARE · white^(1 − SHARE), because the total scatter is less certain
+# than the white noise. At a value that differs from it by a factor of e, lines must be steadier by PULL.
+USUAL, SHARE, PULL = 2.8, 0.7, 0.15
+# Agreement with the lines at a smaller and a larger ε that the present values may lack before others are proposed.
+AS_GOOD = 0.005
 # Below this ε [m] walls break, however good the laser: plaster, skirting boards and doors are no straighter.
 LEAST_EPSILON = 0.02
-# The threshold by which ε grows with the range, and how many times as large as the constant part of the scatter its
-# growing part must be at the farthest points to count: an ε that grows where noise does not makes walls swallow doors.
-GROWTH, COUNTS = "epsilon_growth", 0.7
+# The growing part of the noise counts if it is this many times as large at the farthest points as the constant part of
+# the scatter: an ε that grows where noise does not makes walls swallow doors.
+COUNTS = 0.7
 # Above this ε [m], walls and what stands before them become one line.
 MOST_EPSILON = 0.5
 
@@ -55,7 +54,7 @@ class Proposal:
     they differ. fitting: those that fit best, also if the present ones are as good; None if nothing can be proposed.
     scatter: standard deviation of points from their walls [m]. pieces: number of segments into which a wall breaks at
     the present values, on average. tried: (k,) values of ε, or of the method's counterpart [m]; steady: (k,) score of
-    the lines there, with the lines at 1.6 times that value as the truth, 0 to 1.
+    the lines there, with the lines at 1.26 times that value as the truth, 0 to 1.
     text: what is proposed, or why nothing can be; "" if the present values are as good.
     """
 
@@ -75,15 +74,18 @@ def propose(
     params: Thresholds | None = None,
     method: str = "region-growing",
     wanted: Callable[[], bool] = lambda: True,
+    known: RangeNoise | None = None,
 ) -> Proposal:
     """Thresholds of a method that fit this laser, compared with the present ones.
 
-    Only thresholds that depend on the noise change (see `Knob.scatter`), and none that is 0, which means "off". ε stops
-    growing with the range if the noise does not.
-    Raises Cancelled as soon as `wanted` returns False.
+    Only thresholds that depend on the noise change (see `Knob.scatter`), and none that is 0, which means "off". ε grows
+    with the range if the noise does, but less steeply (`Knob.growth`), which keeps far doors apart from their walls.
+    known: the noise of the recording, if it has been estimated before. Raises Cancelled as soon as `wanted` returns
+    False.
     """
     extractor = EXTRACTORS[method]
-    search = _Search(recording, params if params is not None else extractor.params_type(), extractor.extract)
+    present, found = params if params is not None else extractor.params_type(), known or noise(recording)
+    search = _Search(recording, found, present, extractor.extract)
     why = search.why_not()
     if why:
         return search.nothing(why)
@@ -105,7 +107,7 @@ def scaled(params: Thresholds, scale: float) -> Thresholds:
 
 def rescaled(params: T, factor: float) -> T:
     """`params` with every threshold that depends on the noise multiplied by a factor."""
-    following = ((name, knob) for name, _, knob in params.knobs() if knob.scatter or name == GROWTH)
+    following = ((name, knob) for name, _, knob in params.knobs() if knob.scatter or knob.growth)
     return params.but(
         **{name: float(np.clip(factor * getattr(params, name), knob.least, knob.most)) for name, knob in following}
     )
@@ -119,22 +121,25 @@ def _rounded(value: float) -> float:
 class _Search:
     """One method on some scans of a recording, at a series of values of ε."""
 
-    def __init__(self, recording: Recording, present: Thresholds, extract: Callable[[Scan, Any], Extraction]) -> None:
-        self.present, self._extract = present, extract
-        self.noise = noise(recording)
+    def __init__(
+        self, recording: Recording, known: RangeNoise, present: Thresholds, extract: Callable[[Scan, Any], Extraction]
+    ) -> None:
+        self.noise, self.present, self._extract = known, present, extract
         frames = np.flatnonzero(np.diff(recording.offsets) > 0)
         spread = np.linspace(0, len(frames) - 1, min(len(frames), FRAMES)).round().astype(int) if len(frames) else []
         self._scans = [scan for scan in (recording[int(frames[k])] for k in spread) if scan.valid.any()]
         self._lines: list[list[Extraction]] = []
         ranges = np.concatenate([scan.ranges[scan.valid] for scan in self._scans]) if self._scans else np.empty(0)
-        self._white = float(self.noise.at(float(np.median(ranges)))) if len(ranges) else math.nan
+        self._middle, far = np.percentile(ranges, (50, 95)).tolist() if len(ranges) else (math.nan, math.nan)
+        self._white = float(self.noise.at(self._middle))
         self.scatter = math.hypot(self._white, self.noise.roughness)
-        self._far = float(np.percentile(ranges, 95)) if len(ranges) else math.nan
+        constant = math.hypot(self.noise.base, self.noise.roughness)
+        self._growth = self.noise.growth if self.noise.growth * far >= COUNTS * constant else 0.0
         self.scales = np.empty(0)
         if math.isfinite(self._white) and self._white > 0:
             lowest = max(LOWEST * self._white, LEAST_EPSILON)
             steps = math.floor(math.log(HIGHEST * self.scatter / lowest) / math.log(STEP))
-            self.scales = lowest * STEP ** np.arange(max(steps, 0) + 3)
+            self.scales = lowest * STEP ** np.arange(-APART, max(steps, APART) + 1 + APART)
 
     def why_not(self) -> str:
         """Why nothing can be proposed, in a sentence; "" if something can."""
@@ -149,49 +154,69 @@ class _Search:
         return ""
 
     def fitting(self, scale: float) -> Thresholds:
-        """The present thresholds for an ε of `scale` [m]; it grows with the range only if the noise does."""
-        params, constant = scaled(self.present, scale), math.hypot(self.noise.base, self.noise.roughness)
-        if self.noise.growth * self._far < COUNTS * constant and params.numbers().get(GROWTH):
-            return params.but(**{GROWTH: 0.0})
-        return params
+        """The present thresholds for an ε of `scale` [m] at the median range; it grows only if the noise does."""
+        params, rises = self.present, {}
+        for name, _, knob in params.knobs():
+            if knob.growth and getattr(params, name):
+                rise = knob.growth * scale * self._growth / self.scatter
+                scale = math.sqrt(scale**2 - (rise * self._middle) ** 2)
+                rises[name] = min(max(_rounded(rise), getattr(type(params)(), name)), knob.most) if rise else 0.0
+        return scaled(params, scale).but(**rises)
 
     def try_scale(self, scale: float) -> None:
-        params = self.fitting(scale)
-        self._lines.append([self._extract(scan, params) for scan in self._scans])
+        self._lines.append(self._extracted(self.fitting(scale)))
 
     def nothing(self, why: str) -> Proposal:
         return Proposal(self.present, False, None, self.noise, self.scatter, math.nan, np.empty(0), np.empty(0), why)
 
     def judged(self) -> Proposal:
-        count = len(self.scales) - 2
-        steady = np.array([_agreement(self._lines[k], self._lines[k + 2]) for k in range(count)])
+        places = range(APART, len(self.scales) - APART)
+        tried = self.scales[APART:-APART]
+        steady = np.array([self._agrees(self._lines[k], k + APART) for k in places])
         if not steady.max() > 0.0:
             return self.nothing("No ε that fits this noise gives steady lines.")
-        usual = USUAL * math.sqrt(self._white * self.scatter)
-        best = int(np.argmax(steady - PULL * np.abs(np.log(self.scales[:count] / usual))))
-        if self.scales[best] > MOST_EPSILON:
+        usual = USUAL * self.scatter**SHARE * self._white ** (1 - SHARE)
+        best = int(np.argmax(steady - PULL * np.abs(np.log(tried / usual))))
+        if tried[best] > MOST_EPSILON:
             return self.nothing(
                 f"Points scatter by {1e3 * self.scatter:.0f} mm here. That is too much: lines would have to take in "
                 f"points more than {MOST_EPSILON:g} m away."
             )
-        proposed, judges = self.fitting(self.scales[best]), self._lines[best + 1]
-        present = [self._extract(scan, self.present) for scan in self._scans]
-        lacking = _agreement(self._lines[best], judges) - _agreement(present, judges)
-        pieces = _pieces(present, self._lines[best])
-        found = replace(self.nothing(""), fitting=proposed, pieces=pieces, tried=self.scales[:count], steady=steady)
-        name, _ = _leading(proposed)
-        apart = abs(math.log(getattr(proposed, name) / getattr(self.present, name)))
-        if lacking <= (AS_GOOD if apart > math.log(STEP) else AS_GOOD_NEARBY):
-            return found
-        return replace(found, params=proposed, changed=True, text=self._text(proposed, pieces))
+        # Half-way to the next value: the lines are as steady from this one on.
+        proposed = self.fitting(tried[best] * math.sqrt(STEP))
+        found, present = self._extracted(proposed), self._extracted(self.present)
+        around = (places[best] - APART, places[best] + APART)
+        lacking = np.mean([self._agrees(found, k) - self._agrees(present, k) for k in around])
+        pieces = _pieces(present, found)
+        answer = replace(self.nothing(""), fitting=proposed, pieces=pieces, tried=tried, steady=steady)
+        if lacking <= AS_GOOD:
+            return answer
+        return replace(answer, params=proposed, changed=True, text=self._text(proposed, pieces))
+
+    def _extracted(self, params: Thresholds) -> list[Extraction]:
+        return [self._extract(scan, params) for scan in self._scans]
+
+    def _agrees(self, found: list[Extraction], k: int) -> float:
+        """Agreement of lines with those at one of the scales."""
+        return _agreement(found, self._lines[k])
 
     def _text(self, proposed: Thresholds, pieces: float) -> str:
         name, knob = _leading(proposed)
         value, before = getattr(proposed, name), getattr(self.present, name)
-        told = f"Points scatter by {1e3 * self.scatter:.0f} mm here. {knob.symbol} = {value:g} fits"
+        told = f"Points scatter by {1e3 * self.scatter:.0f} mm here."
         if value > before and pieces >= 1.1:
-            return f"{told}; at {before:g} a wall breaks into {pieces:.1f} pieces on average."
-        return f"{told} better than {before:g}."
+            broken = f"at {before:g} a wall breaks into {pieces:.1f} pieces on average"
+            return f"{told} {knob.symbol} = {value:g} fits; {broken}."
+        if abs(math.log(value / before)) > APART * math.log(STEP):
+            return f"{told} {knob.symbol} = {value:g} fits better than {before:g}."
+        new = [f"{knob.symbol} = {value:g}" for knob, value in _changes(self.present, proposed)]
+        return f"{told} {', '.join(new)} {'fits' if len(new) == 1 else 'fit'} a little better than the present values."
+
+
+def _changes(present: Thresholds, proposed: Thresholds) -> list[tuple[Knob, float]]:
+    """The thresholds that are proposed anew, with their values."""
+    values = ((name, knob, getattr(proposed, name)) for name, _, knob in proposed.knobs())
+    return [(knob, value) for name, knob, value in values if value != getattr(present, name)]
 
 
 def _leading(params: Thresholds) -> tuple[str, Knob]:
