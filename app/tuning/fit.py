@@ -4,27 +4,33 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
 
 from lineseg import Recording, Thresholds
-from lineseg.noise import RangeNoise
+from lineseg.noise import RangeNoise, noise
 from lineseg.tuning.proposal import Proposal, propose
 
 from ..told.answers import Fitted, Noise
 
+# As long as a recording is open; every change of a threshold asks again.
+_noises: WeakKeyDictionary[Recording, RangeNoise] = WeakKeyDictionary()
+
 
 def fit(recording: Recording, params: Thresholds, method: str, stop: NDArray[np.bool_]) -> Iterator[Fitted]:
     """Yield one answer. stop: (1,) bool, set it to end the work with `Cancelled`."""
-    found = propose(recording, params, method, lambda: not stop[0])
+    known = _noises.get(recording) or noise(recording)
+    _noises[recording] = known
+    found = propose(recording, params, method, lambda: not stop[0], known)
     yield {
         "method": method,
         "fits": _changes(params, found),
         "better": found.changed,
         "text": found.text,
         "scatter": _number(found.scatter),
-        "noise": _noise(found.noise),
+        "noise": _told(known),
     }
 
 
@@ -38,16 +44,16 @@ def _changes(params: Thresholds, found: Proposal) -> dict[str, int | float]:
     return {name: values[name] for name in dict.fromkeys([*follows, *(n for n in values if values[n] != present[n])])}
 
 
-def _noise(noise: RangeNoise) -> Noise | None:
-    if not noise.known:
+def _told(found: RangeNoise) -> Noise | None:
+    if not found.known:
         return None
     return {
-        "edges": [round(edge, 3) for edge in noise.edges.tolist()],
-        "sigma": [_number(sigma) for sigma in noise.sigma.tolist()],
-        "base": float(f"{noise.base:.4g}"),
-        "growth": float(f"{noise.growth:.4g}"),
-        "rough": float(f"{noise.roughness:.4g}"),
-        "roughOver": float(noise.lengths[np.nanargmax(noise.rough)]) if noise.roughness else 0.0,
+        "edges": [round(edge, 3) for edge in found.edges.tolist()],
+        "sigma": [_number(sigma) for sigma in found.sigma.tolist()],
+        "base": float(f"{found.base:.4g}"),
+        "growth": float(f"{found.growth:.4g}"),
+        "rough": float(f"{found.roughness:.4g}"),
+        "roughOver": float(found.lengths[np.nanargmax(found.rough)]) if found.roughness else 0.0,
     }
 
 

@@ -12,7 +12,7 @@ import { createNoisePicture, reachOf, sigmaAt } from "./noise_picture.js";
 /** @typedef {import("../wire.js").Knob} Knob */
 /** @typedef {import("../wire.js").Params} Params */
 /** @typedef {import("../wire.js").State} State */
-/** onFits: the values that fit, by threshold. @typedef {{ask: () => void, stop: () => void, onParams: (params: Params) => void, onFits: (fits: Params) => void}} Handlers */
+/** onFits: the values that fit, by threshold, and whether they are better than the present ones. @typedef {{ask: () => void, stop: () => void, onParams: (params: Params) => void, onFits: (fits: Params, better: boolean) => void}} Handlers */
 
 const PAUSE_MS = 250;
 
@@ -78,6 +78,7 @@ export class Fit {
     this.#use.hidden = !better;
     this.element.classList.toggle("better", better);
     this.#frame.hidden = Boolean(this.#answer && !(noise && first));
+    this.#handlers.onFits(fits ?? {}, better);
     this.#draw();
   }
 
@@ -129,7 +130,6 @@ export class Fit {
 
   #forget() {
     this.#answer = null;
-    this.#handlers.onFits({});
     this.#show();
   }
 
@@ -137,7 +137,6 @@ export class Fit {
   receive(answer) {
     if (answer.stopped || (answer.done && !answer.message)) return;
     this.#answer = answer;
-    this.#handlers.onFits(answer.fits ?? {});
     this.#show();
   }
 

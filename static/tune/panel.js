@@ -83,9 +83,9 @@ class Panel {
     this.#thresholds.setMarks(changes);
   }
 
-  /** Ticks on the sliders. @param {import("../wire.js").Params} fits the values that fit the laser */
-  setFits(fits) {
-    this.#thresholds.setFits(fits);
+  /** Ticks on the sliders. @param {import("../wire.js").Params} fits the values that fit the laser @param {boolean} better than the present ones */
+  setFits(fits, better) {
+    this.#thresholds.setFits(fits, better);
   }
 
   /** Shows why the server refused thresholds. @param {string} why */

@@ -166,8 +166,10 @@ export class Threshold {
     this.#mark.setAttribute("aria-label", change.text);
   }
 
-  /** Shows a tick at the value that fits the laser. @param {number | undefined} value */
-  setFit(value) {
+  /** Shows a tick at the value that fits the laser, a faint one if the present values are as good. @param {number | undefined} value @param {boolean} better */
+  setFit(value, better) {
+    this.#tick.classList.toggle("offered", better);
+    if (value === this.#fits) return;
     this.#fits = value;
     this.#span(reaching(this.#knob, value ?? this.#value));
     this.#tick.style.setProperty("--place", String(placeOf(this.#knob, value ?? 0)));

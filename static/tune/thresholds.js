@@ -122,9 +122,9 @@ export class Thresholds {
     for (const [name, row] of this.#rows) row.setMark(changes.find((change) => change.name === name));
   }
 
-  /** Ticks on the sliders. @param {Params} fits the values that fit the laser */
-  setFits(fits) {
-    for (const [name, row] of this.#rows) row.setFit(fits[name]);
+  /** Ticks on the sliders. @param {Params} fits the values that fit the laser @param {boolean} better than the present ones */
+  setFits(fits, better) {
+    for (const [name, row] of this.#rows) row.setFit(fits[name], better);
   }
 
   /** Shows why the server refused thresholds: at the field that it names, or else above all fields. @param {string} why */

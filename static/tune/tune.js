@@ -16,7 +16,7 @@ export function createTune(page, places, text, { pages, explanation }) {
   const tuner = createTuner(text.tuning, {
     session: () => page.session.id,
     onParams: (params) => page.change({ params }),
-    onFits: (fits) => panel.setFits(fits),
+    onFits: (fits, better) => panel.setFits(fits, better),
     row: (name) => panel.row(name),
   });
   const panel = mountPanel(

@@ -11,7 +11,7 @@ import { Workbench } from "./workbench.js";
 /** @typedef {import("../wire.js").State} State */
 /** @typedef {import("../wire.js").Answer} Answer */
 /** Of a threshold; knob: with the range of its slider. @typedef {{element: HTMLElement, knob: import("../wire.js").Knob}} Row */
-/** @typedef {{session: () => string | null, onParams: (params: Params) => void, onFits: (fits: Params) => void, row: (name: string) => Row | null}} Handlers */
+/** @typedef {{session: () => string | null, onParams: (params: Params) => void, onFits: (fits: Params, better: boolean) => void, row: (name: string) => Row | null}} Handlers */
 
 // Pauses while a slider is being dragged are shorter than this.
 const PAUSE_MS = 120;
