@@ -78,8 +78,12 @@ export class Fit {
     this.#use.hidden = !better;
     this.element.classList.toggle("better", better);
     this.#frame.hidden = Boolean(this.#answer && !(noise && first));
-    this.#handlers.onFits(fits ?? {}, better);
     this.#draw();
+  }
+
+  #changed() {
+    this.#show();
+    this.#handlers.onFits(this.#answer?.fits ?? {}, this.#better);
   }
 
   #draw() {
@@ -105,7 +109,7 @@ export class Fit {
   /** @param {Params} params */
   setParams(params) {
     this.#params = params;
-    this.#show();
+    this.#changed();
   }
 
   /** Asks again if something else is shown, but not while a slider moves. @param {State} state */
@@ -130,14 +134,14 @@ export class Fit {
 
   #forget() {
     this.#answer = null;
-    this.#show();
+    this.#changed();
   }
 
   /** @param {Answer} answer */
   receive(answer) {
     if (answer.stopped || (answer.done && !answer.message)) return;
     this.#answer = answer;
-    this.#show();
+    this.#changed();
   }
 
   get current() {
