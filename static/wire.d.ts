@@ -741,8 +741,8 @@ export interface Truth {
  * A recording under a Reading that someone tries. job: of the wish.
  *
  * message: why it cannot be read in this way, and `named`: the fields that it names. choices: values to choose
- * from, by field, which the file has. scans: the points of the first scans [m]. whole: whether all of the file was
- * read.
+ * from, by field, which the file has. lines: the first of a text file. scans: the points of the first scans [m].
+ * whole: whether all of the file was read.
  */
 export interface Previewed {
   job: number;
@@ -750,6 +750,7 @@ export interface Previewed {
   named: string[];
   format: string;
   choices: Record<string, string[]>;
+  lines: string[];
   account: Account | null;
   scans: [number, number][][];
   whole: boolean;

@@ -19,7 +19,7 @@ from ..bounds import Count, Message, ReadingValues, RecordingId, sentence
 from ..frame.state import account_told
 from ..newest import Newest
 from ..shelf.library import Library
-from ..shelf.preview import named_in, preview
+from ..shelf.preview import first_lines, for_the_page, named_in, preview
 from ..told.answers import Previewed
 from ..view import reread
 
@@ -74,6 +74,7 @@ def previewed(library: Library, wish: Try, wanted: Callable[[], bool]) -> Previe
         "named": [],
         "format": recording.format,
         "choices": _choices(recording),
+        "lines": _lines(library, wish),
         "account": account_told(recording.account) if recording.account is not None else None,
         "scans": seen.points(),
         "whole": seen.whole,
@@ -85,6 +86,12 @@ def _choices(recording: Recording) -> dict[str, list[str]]:
     return {"topic": [topic.name for topic in recording.topics], **{name: list(each) for name, each in lasers.items()}}
 
 
+def _lines(library: Library, wish: Try) -> list[str]:
+    with contextlib.suppress(ValueError, OSError):
+        return first_lines(library.path(wish.recording))
+    return []
+
+
 def refused(library: Library, wish: Try, message: str) -> Previewed:
     """The answer that says why a recording cannot be read in this way."""
     format = ""
@@ -92,10 +99,11 @@ def refused(library: Library, wish: Try, message: str) -> Previewed:
         format = format_of(library.path(wish.recording))
     return {
         "job": wish.job,
-        "message": message,
+        "message": for_the_page(message),
         "named": named_in(message),
         "format": format,
         "choices": {},
+        "lines": _lines(library, wish),
         "account": None,
         "scans": [],
         "whole": True,

@@ -25,7 +25,7 @@ from ..scene.portless import Door
 from ..scene.viser_scene import ViserScene
 from ..shelf.label_files import LabelFiles
 from ..shelf.library import Library
-from ..shelf.preview import named_in
+from ..shelf.preview import for_the_page, named_in
 from ..told.drawn import DrawnState, Timings
 from ..told.messages import Drawn, Failure, Loading, Refused, Traced
 from ..view import View
@@ -382,7 +382,8 @@ class Session:
             message = f"loading {self._library.label(view.recording)} was cancelled"
         if message is not None:
             refused = None if cancelled else self._refused(view, message)
-            self._tell(Failure(where="recording", message=message, rev=request.rev, refused=refused))
+            told = message if refused is None else for_the_page(message)
+            self._tell(Failure(where="recording", message=told, rev=request.rev, refused=refused))
         self._survey()
 
     def _refused(self, view: View, message: str) -> Refused | None:

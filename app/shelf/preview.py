@@ -18,8 +18,11 @@ from lineseg.unfinished import temporary_folder
 from .library import Library
 
 MOST_SCANS, MOST_POINTS = 4, 800
+MOST_LINES, LONGEST_LINE = 5, 160
+HEAD_BYTES = 1 << 14
 # Of a longer text only this much is read, so that a field can be tried out while typing.
 MOST_TEXT = 1 << 20
+FLAG = re.compile(r"(?<![\w`-])(flag )?--([a-z][a-z-]+)")
 NAMED = re.compile(r"--([a-z][a-z-]+)|\b([a-z]+(?:_[a-z]+)+)\b")
 
 
@@ -52,6 +55,40 @@ def named_in(sentence: str) -> list[str]:
     """The fields of a Reading that a sentence names, as in "give angle_increment" or "--unit mm"."""
     words = ((flag or name).replace("-", "_") for flag, name in NAMED.findall(sentence))
     return list(dict.fromkeys(word for word in words if word in Reading.declared()))
+
+
+def for_the_page(sentence: str) -> str:
+    """A sentence that names fields of a Reading as the page does, not as flags of the command line."""
+
+    def field(found: re.Match[str]) -> str:
+        declared = Reading.declared().get(found[2].replace("-", "_"))
+        return found[0] if declared is None else f"{'' if found[1] else 'the '}field “{declared.label}”"
+
+    return FLAG.sub(field, sentence)
+
+
+def first_lines(path: Path) -> list[str]:
+    """The first lines of a text file, cut if they are long; none of other files."""
+    if not path.is_file():
+        return []
+    with path.open("rb") as file:
+        head = file.read(HEAD_BYTES)
+    wide = head.startswith((b"\xff\xfe", b"\xfe\xff"))
+    if b"\0" in head and not wide:
+        return []
+    text = head.decode("utf-16", errors="replace") if wide else _decoded(head)
+    lines = [line if len(line) <= LONGEST_LINE else f"{line[:LONGEST_LINE]}…" for line in text.splitlines()]
+    return [
+        "".join(char if char.isprintable() or char == "\t" else "�" for char in line) for line in lines[:MOST_LINES]
+    ]
+
+
+def _decoded(head: bytes) -> str:
+    try:
+        # The end may be in the middle of a character, but also of a line that is not shown.
+        return head.rpartition(b"\n")[0].decode("utf-8-sig") if len(head) == HEAD_BYTES else head.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        return head.decode("latin-1")
 
 
 def _points(xy: np.ndarray[Any, Any]) -> list[tuple[float, float]]:

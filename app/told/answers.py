@@ -53,7 +53,8 @@ class Previewed(TypedDict):
     """A recording under a Reading that someone tries. job: of the wish.
 
     message: why it cannot be read in this way, and `named`: the fields that it names. choices: values to choose from,
-    by field, which the file has. scans: the points of the first scans [m]. whole: whether all of the file was read.
+    by field, which the file has. lines: the first of a text file. scans: the points of the first scans [m]. whole:
+    whether all of the file was read.
     """
 
     job: int
@@ -61,6 +62,7 @@ class Previewed(TypedDict):
     named: list[str]
     format: str
     choices: dict[str, list[str]]
+    lines: list[str]
     account: Account | None
     scans: list[list[Point]]
     whole: bool

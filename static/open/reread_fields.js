@@ -13,6 +13,12 @@ import { tooltip } from "../widgets/tooltip.js";
 const CHOOSING = ["topic", "frame_id", "geometry"];
 const GROUPS = /** @type {const} */ (["numbers", "left out", "scans"]);
 
+/** A value as it can be typed; angles in degrees. @param {Entry} entry @param {string | number} value */
+function wordsOf({ unit }, value) {
+  const angle = unit === "rad" && typeof value === "number";
+  return angle ? `${+((value * 180) / Math.PI).toFixed(6)}°` : String(value);
+}
+
 /** A field with a control for its value. @param {Entry} entry @param {Text} text @param {() => void} onInput */
 function createRow(entry, text, onInput) {
   const choosing = CHOOSING.includes(entry.name);
@@ -22,9 +28,11 @@ function createRow(entry, text, onInput) {
     ? h("select", { ...common, class: "reread-input select" })
     : h("input", { ...common, type: "text", autocomplete: "off", spellcheck: false });
   const label = h("span", { class: "reread-label" }, entry.label);
-  const element = h("label", { class: "reread-row" }, label, input, h("span", { class: "muted" }, entry.unit));
-  element.dataset.field = entry.name;
   const help = entry.unit === "rad" ? `${entry.help}. ${text.degrees}` : entry.help;
+  const unit = h("span", { class: "muted" }, entry.unit);
+  const hint = h("span", { class: "reread-help hint", "aria-hidden": "true" }, help);
+  const element = h("label", { class: "reread-row" }, label, input, unit, hint);
+  element.dataset.field = entry.name;
   tooltip(label, help);
   input.setAttribute("aria-description", help);
 
@@ -48,7 +56,7 @@ function createRow(entry, text, onInput) {
     },
     /** @param {string | number | null | undefined} value */
     set(value) {
-      const words = value === null || value === undefined ? "" : String(value);
+      const words = value === null || value === undefined ? "" : wordsOf(entry, value);
       if (listed && words && ![...input.children].some((option) => option.textContent === words))
         input.append(h("option", { value: words }, words));
       input.value = words;
@@ -58,7 +66,7 @@ function createRow(entry, text, onInput) {
       const used = account?.used[entry.name];
       const choices = choosing ? (offered[entry.name] ?? []) : entry.choices;
       if (listed) offer(choices, used === undefined ? text.unset : text.found(String(used)));
-      else Reflect.set(input, "placeholder", used === undefined ? entry.form : String(used));
+      else Reflect.set(input, "placeholder", used === undefined ? entry.form : wordsOf(entry, used));
       const fits = !entry.only.length || !format || entry.only.includes(format);
       element.hidden = input.value === "" && (!fits || (choosing && choices.length < 2));
       element.classList.toggle("named", named.includes(entry.name));

@@ -20,6 +20,7 @@ const BUSY_MS = 250;
 function createFindings(text, entries, onChange) {
   const line = h("p", { class: "reread-line" });
   const error = h("p", { class: "panel-error", role: "alert", hidden: true });
+  const head = h("pre", { class: "reread-head", "aria-label": text.firstLines });
   const list = h("ul", { class: "reread-findings" });
 
   /** @param {string} words @param {Reading} change */
@@ -34,9 +35,11 @@ function createFindings(text, entries, onChange) {
   }
 
   return {
-    elements: [line, error, list],
+    elements: [line, error, head, list],
     /** @param {Previewed} seen */
-    show({ message, account, whole }) {
+    show({ message, account, whole, lines }) {
+      setText(head, lines.join("\n"));
+      head.hidden = lines.length === 0;
       setText(error, message ?? "");
       error.hidden = message === null;
       setText(line, account?.line ?? "");
@@ -106,7 +109,8 @@ export function openPanel(entries, text, { recording, label, topic, reading, nam
     const count = now.scans.length;
     const words = now.scans.some(({ length }) => length) ? text.points(count) : text.noPoints;
     setText(caption, now.message === null ? words : "");
-    plan.draw(now.scans, now.account?.line ?? "");
+    plan.element.hidden = caption.hidden = now.message !== null;
+    if (now.message === null) plan.draw(now.scans, now.account?.line ?? "");
     apply.disabled = now.message !== null;
     if (first && marked.length) fields.focus(marked);
   }

@@ -21,6 +21,7 @@ export const readingText = {
   reading: "Reading…",
   beginning: "The beginning of the file is shown; all of it is read when you apply.",
   points: (/** @type {number} */ n) => (n === 1 ? "The first scan from above" : `The first ${n} scans from above`),
+  firstLines: "The first lines of the file",
   noPoints: "No beam has a return.",
   guessedValue: (/** @type {string} */ field, /** @type {string} */ value) =>
     field === "columns" ? `columns ${value.replaceAll(",", " ")}` : value,
