@@ -99,3 +99,15 @@ def test_each_kind_of_file_opens_in_the_page_and_its_advice_leads_to_the_room(ne
         walls = [segment for segment in state["segments"] if segment["length"] >= 1.5]
         assert (state["frames"], len(walls)) == (kind.scans, kind.walls), kind.files
         assert not tab.page.locator(".notice.error").is_visible(), kind.files
+
+    # Lasers that share a topic are a list.
+    drop(tab, sorted(CASES.glob("layers_on_one_topic/bag/*")))
+    tab.until("s.frameId === 'world_1_0'")
+    tab.page.get_by_role("button", name="Change…").click()
+    panel = tab.page.get_by_role("dialog")
+    lasers = panel.locator("[data-field=frame_id] select")
+    panel.get_by_text("as found: world_1_0").wait_for(state="attached")
+    assert lasers.locator("option").all_inner_texts()[1:] == ["world_1_0", "world_1_1", "world_1_2"]
+    lasers.select_option("world_1_2")
+    panel.get_by_role("button", name="Apply").click()
+    tab.until("s.frameId === 'world_1_2'")

@@ -55,6 +55,7 @@ def test_the_sentence_of_an_error_leads_to_the_panel_where_its_advice_is_followe
     apply = panel.get_by_role("button", name="Apply")
     panel.locator("[data-field=angle_increment].named").wait_for()
     assert apply.is_disabled()
+    assert panel.get_by_label("The first lines of the file").inner_text().startswith(rows[0][:40])
     panel.locator("[data-field=angle_min] input").fill("-60°")
     panel.locator("[data-field=angle_increment] input").fill("1.25°")
     panel.get_by_text(re.compile("4 scans × 97 beams.*−60…60°")).wait_for()

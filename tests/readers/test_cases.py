@@ -3,10 +3,12 @@
 The cases lie beside the real recordings, in `cases`; each folder is one kind.
 """
 
+from contextlib import suppress
+
 import numpy as np
 import pytest
 
-from lineseg import Reading, extract, open_recording
+from lineseg import Reading, Recording, extract, open_recording
 
 FULL, HALF, WIDE = (360, (5.9, 5.9, 3.9, 3.9)), (181, (3.9, 3.4, 3.4)), (241, (4.9, 4.2, 3.9))
 BAG = (541, (6.0, 5.0, 4.0))
@@ -114,6 +116,24 @@ def test_what_cannot_be_is_noticed_and_the_advice_mends_it(cases, file, kind, ch
     assert len(walls(mended)) == len(lengths)
     assert walls(mended) == pytest.approx(lengths, abs=0.15)
     assert kind not in [each.kind for each in mended.account.notices]
+
+
+def test_no_guess_offers_what_is_there_already(cases):
+    for file, *_ in OPEN:
+        recording = open_recording(cases / file)
+        for guess in recording.account.guesses:
+            with suppress(ValueError):
+                other = open_recording(cases / file, Reading(**guess.change)) if guess.change else None
+                assert other is None or not alike(recording, other), (file, guess)
+
+
+def alike(one: Recording, other: Recording) -> bool:
+    """Whether two recordings have the same points, limits and stamps."""
+    if len(one) != len(other) or one.ranges.shape != other.ranges.shape:
+        return False
+    names = ("ranges", "range_max", "stamps")
+    same = all(np.array_equal(getattr(one, name), getattr(other, name), equal_nan=True) for name in names)
+    return same and np.allclose(one[0].bearings, other[0].bearings)
 
 
 def test_the_angle_row_of_a_matrix_is_no_scan_and_its_first_column_is_time(cases):
