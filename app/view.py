@@ -45,7 +45,7 @@ STRIP_SCORES = {**SCORES, SUSPICION.name: SUSPICION, DIFFERENCE.name: DIFFERENCE
 
 @dataclass(frozen=True)
 class Layers:
-    """What is drawn; `replay` is the geometry of the decision on the screen."""
+    """What is drawn; `replay` is the geometry of the decision on the screen, `ghosts` the missed lines in Inspect."""
 
     points: bool = True
     invalid: bool = False
@@ -59,6 +59,7 @@ class Layers:
     laser: bool = True
     grid: bool = True
     replay: bool = True
+    ghosts: bool = True
 
     def but(self, /, **values: bool) -> Self:
         """A copy with some layers switched. Raises ValueError, listing the known names, for an unknown one."""

@@ -31,6 +31,7 @@ class Theme:
     matched: Colour
     missed: Colour
     false: Colour
+    ghost: Colour
 
 
 LIGHT = Theme(
@@ -38,14 +39,14 @@ LIGHT = Theme(
     grid=(232, 234, 237), axis=(205, 208, 213), truth=(170, 170, 60), laser=(20, 22, 26),
     accepted=(0, 136, 85), refused=(204, 51, 17), candidate=(238, 51, 119),
     pinned=(208, 213, 221), changed=(178, 102, 210),
-    matched=(0, 119, 187), missed=(20, 22, 26), false=(238, 119, 51),
+    matched=(0, 119, 187), missed=(20, 22, 26), false=(238, 119, 51), ghost=(110, 70, 215),
 )  # fmt: skip
 DARK = Theme(
     point=(128, 134, 142), invalid=(92, 98, 107), strong=(245, 246, 248), faint=(120, 126, 134),
     grid=(56, 60, 67), axis=(92, 98, 107), truth=(150, 150, 60), laser=(235, 237, 240),
     accepted=(60, 200, 140), refused=(255, 110, 80), candidate=(255, 110, 170),
     pinned=(70, 76, 86), changed=(150, 88, 190),
-    matched=(51, 160, 238), missed=(245, 246, 248), false=(255, 140, 70),
+    matched=(51, 160, 238), missed=(245, 246, 248), false=(255, 140, 70), ghost=(170, 140, 255),
 )  # fmt: skip
 
 

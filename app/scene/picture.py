@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from lineseg import Recording, Scan, Segment, difference
 from lineseg.survey.difference import KEPT
+from lineseg.survey.remark import Ghost
 
 from ..frame.findings import Findings
 from ..frame.geometry import Bounds, voids
@@ -24,6 +25,7 @@ from .shapes import Lines, Points, dashed, joined, lines_between, points_at
 DASH = 0.10
 FALSE_DASH = 0.04
 MISSED_DASH = 0.20
+GHOST_DASH = 0.25
 NORMAL = 0.3
 FAR = 100.0
 # Bounds and themes whose grid is kept.
@@ -46,10 +48,12 @@ def picture(
     bounds: Bounds,
     pinned: Findings | None = None,
     judged: Judged | None = None,
+    ghosts: Sequence[Ghost] = (),
 ) -> Picture:
     """The picture of a View, whose frame and step must be within the recording and the trace.
 
-    pinned: the result of `view.against` in this frame; judged: its comparison with the truth.
+    pinned: the result of `view.against` in this frame; judged: its comparison with the truth;
+    ghosts: lines that the frame probably misses.
     """
     theme = DARK if view.dark else LIGHT
     state = state_at(found, view.step)
@@ -59,6 +63,9 @@ def picture(
         lines["pinned"] = pinned_lines(pinned, found, theme)
     if judged is not None and view.layers.verdicts and view.step is None:
         lines = {name: drawn for name, drawn in lines.items() if name != "segments"} | verdicts(found, judged, theme)
+    if ghosts:
+        ends = np.array(ghosts).reshape(-1, 2, 2)
+        lines["ghosts"] = dashed(ends[:, 0], ends[:, 1], GHOST_DASH, theme.ghost)
     if view.step is not None and view.layers.replay:
         of_decision = decision_geometry(found, view.step, theme)
         points |= of_decision[0]

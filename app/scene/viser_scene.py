@@ -40,6 +40,7 @@ LINES = {
     "dropped": 1.5,
     "segments": 3.0,
     "missed": 7.0,
+    "ghosts": 8.0,
     "matched": 3.0,
     "false": 5.0,
     "normals": 1.5,
@@ -53,8 +54,8 @@ LINES = {
 # Higher nodes hide lower ones; seen from the plan camera, 20 mm of height makes no visible difference.
 LEVEL = 0.02
 HEIGHTS = {name: LEVEL * level for level, name in enumerate([
-    "grid", "pinned", "invalid", "truth", "laser", "ray", "selected ray", "dropped", "band", "missed", "points",
-    "segments", "matched", "false", "normals", "growing", "seeds", "endpoints", "window", "predicted",
+    "grid", "pinned", "invalid", "truth", "laser", "ray", "selected ray", "dropped", "band", "missed", "ghosts",
+    "points", "segments", "matched", "false", "normals", "growing", "seeds", "endpoints", "window", "predicted",
     "candidate", "selected",
 ])}  # fmt: skip
 

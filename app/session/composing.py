@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 
 from lineseg import Recording
+from lineseg.survey.disputes import lines_missed
 
 from ..frame.clock import Clock
 from ..frame.findings import Findings, findings_in
@@ -50,6 +51,7 @@ class Composer:
             lambda recording, frame, method, params: findings_in(self._scan(recording, frame), method, params)
         )
         self._judged = lru_cache(maxsize=FRAMES_KEPT)(judged)
+        self._ghosts = lru_cache(maxsize=FRAMES_KEPT)(lines_missed)
         self._clock = lru_cache(maxsize=4)(Clock.of)
         self._bounds = lru_cache(maxsize=4)(bounds_of)
         self._live_bounds: tuple[str, int, Bounds] = ("", 0, (0.0, 0.0, 0.0, 0.0))
@@ -66,7 +68,8 @@ class Composer:
         reference = Reference.of(view.reference, recording, known)
         said = reference.said.of(view.frame) if reference.said is not None else None
         judgement = self._judged(found, said) if inspected else None
-        drawing = picture(view, recording, found, bounds, pinned, judgement)
+        ghosts = self._ghosts(recording, frame, view.params) if _shows_ghosts(view, recording) else ()
+        drawing = picture(view, recording, found, bounds, pinned, judgement, ghosts)
         label = self._library.label(view.recording)
         clock = self._clock(recording)
         state = state_of(view, recording, label, found, bounds, reference, clock.at(frame), pinned, judgement)
@@ -83,6 +86,13 @@ class Composer:
                 wider = united(bounds, wider)
             self._live_bounds = (view.recording, recording.total, wider)
         return self._live_bounds[2]
+
+
+def _shows_ghosts(view: View, recording: Recording) -> bool:
+    """Whether lines that the frame probably misses are drawn: where their sentences are read, and not while growing."""
+    if isinstance(recording, LiveRecording) or view.step is not None:
+        return False
+    return view.mode == "inspect" and view.layers.ghosts
 
 
 def _inside(view: View, recording: Recording) -> View:

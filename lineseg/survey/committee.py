@@ -226,7 +226,7 @@ def scatter_in(piece):
     """The scatter of a piece whose points lie evenly along it."""
     dx, dy, share = piece.x2 - piece.x1, piece.y2 - piece.y1, piece.points / 12.0
     x, y = 0.5 * (piece.x1 + piece.x2), 0.5 * (piece.y1 + piece.y2)
-    return Scatter(x, y, np.int64(piece.points), share * (dx * dx - dy * dy), 2.0 * share * dx * dy)
+    return Scatter(x, y, int(np.int64(piece.points)), share * (dx * dx - dy * dy), 2.0 * share * dx * dy)
 
 
 @kernel

@@ -7,13 +7,13 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ..extractors import EXTRACTORS, method_of
+from ..extractors import EXTRACTORS, extract, method_of
 from ..knobs import Thresholds
 from ..params import Params
-from ..scan import Scan
+from ..scan import Recording, Scan
 from ..truth import demands_of
 from ..tuning.proposal import scaled
-from .committee import CONFIRMING
+from .committee import CONFIRMING, judges_of, walls_of
 from .difference import length_of, shared_beams
 from .remark import Ghost, Remark
 
@@ -60,6 +60,16 @@ def disputes(
         without = [name for name, spans in others.items() if not _matches(span, spans, beams)]
         text = f"{_who(without)} no line like segment {k} ({rows[k]['length']:.1f} m, beams {span[0]}–{span[1]})"
         yield Remark("disputed", text, *span, votes / len(walls))
+
+
+def lines_missed(recording: Recording, frame: int, params: Thresholds | None = None) -> tuple[Ghost, ...]:
+    """The lines of a frame that at least half of the judges find and the method does not, as `why` says."""
+    params = Params() if params is None else params
+    scan = recording[frame]
+    own = [(segment.first, segment.last) for segment in extract(scan, params).segments]
+    alone, wanted = recording.only(np.array([frame])), demands_of(params)
+    found = [_enough(walls_of(alone, judge, threads=1).rows, wanted) for judge in judges_of(recording)]
+    return tuple(_ghost(wall) for wall, _ in _missed(found, own, len(scan)))
 
 
 def _span(row: np.void) -> Span:

@@ -112,6 +112,10 @@ export const pageText = {
     normals: { label: "Normals", help: "Unit normal of each line" },
     dropped: { label: "Dropped lines", help: "Candidates that were too short or had too few points" },
     truth: { label: "Truth", help: "True walls, if the recording contains them" },
+    ghosts: {
+      label: "Missed lines",
+      help: "In Inspect: lines that this frame probably misses, found by extractions at the ε that fits the laser",
+    },
     replay: { label: "Replay geometry", help: "The window, line, ε band and candidate of the current decision" },
     laser: { label: "Laser", help: "Position and direction of the laser" },
     grid: { label: "Grid", help: "Squares of equal size; the scale bar shows how large they are" },

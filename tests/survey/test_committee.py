@@ -9,6 +9,7 @@ from scenes import room, wall_ahead
 from lineseg import Cancelled, Params, Recording, Scan, extract, survey, why, with_disputes
 from lineseg.simulate.worlds import WORLDS
 from lineseg.survey.committee import committee_of, judges_of
+from lineseg.survey.disputes import lines_missed
 from lineseg.truth import agreement
 
 
@@ -103,3 +104,10 @@ def test_few_frames_are_judged_near_the_default(frames):
 def test_it_needs_scores(flat):
     with pytest.raises(ValueError, match="has no scores"):
         with_disputes(flat, survey(flat, scores=False))
+
+
+def test_the_lines_missed_are_those_that_why_draws_as_ghosts():
+    recording = WORLDS["office"].recording("office", 20)
+    ghosts = lines_missed(recording, 8)
+    assert ghosts
+    assert set(ghosts) == {ghost for each in why(recording, 8) if each.score == "disputed" for ghost in each.ghosts}

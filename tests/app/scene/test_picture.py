@@ -118,6 +118,15 @@ def test_a_layer_that_is_off_is_absent_and_the_others_stay(corners, layer):
     assert without == {name: part for name, part in everything.items() if name != layer}
 
 
+def test_missed_lines_are_dashed_ghosts_in_their_own_place(corners):
+    found, ghost = findings(corners, 0, "region-growing", Params()), (1.0, 2.0, 1.0, 5.0)
+    dashes = picture(View(), corners, found, bounds_of(corners), ghosts=[ghost]).lines["ghosts"].xyz
+    assert len(dashes) > 5
+    assert (dashes[..., 0] == 1.0).all()
+    assert (dashes[..., 1].min(), dashes[..., 1].max() <= 5.0) == (2.0, True)
+    assert "ghosts" not in draw(View(), corners).lines
+
+
 def test_a_scan_without_points_has_a_picture():
     empty = wall_ahead(lost=range(180))
     drawing = draw(View(), Recording.from_scans([empty]))
