@@ -24,6 +24,7 @@ from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
 from fastapi.responses import JSONResponse, Response
 from starlette.exceptions import HTTPException
+from starlette.requests import ClientDisconnect
 from starlette.staticfiles import StaticFiles
 from starlette.types import Scope
 
@@ -125,6 +126,7 @@ def create_app(settings: Settings) -> FastAPI:
     app.add_middleware(Guard, host=settings.host, token=settings.token, names=settings.names)
     app.add_exception_handler(HTTPException, _sentence)
     app.add_exception_handler(RequestValidationError, _complaint)
+    app.add_exception_handler(ClientDisconnect, _gone)
     app.add_exception_handler(Exception, _mistake)
     add_api(app, library, sessions)
     add_export(app, library, sessions)
@@ -194,12 +196,12 @@ def server_of(app: FastAPI, ready: Callable[[], None] = lambda: None) -> Server:
 
 def listen(host: str, port: int) -> socket.socket:
     """A listening socket; port 0 picks a free port."""
+    if not 0 <= port <= LARGEST_PORT:
+        raise ValueError(f"--port is {port}; give one from 1 to {LARGEST_PORT}, or 0 for a free one")
     try:
         family = socket.getaddrinfo(host or None, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE)[0][0]
     except OSError:
         raise OSError(f"host is {host!r}, which is not an address of this machine; try 127.0.0.1") from None
-    if not 0 <= port <= LARGEST_PORT:
-        raise ValueError(f"--port is {port}; give one from 1 to {LARGEST_PORT}, or 0 for a free one")
     # With an explicit protocol, asyncio turns off Nagle's algorithm, which would delay a second message by 40 ms.
     listener = socket.socket(family, socket.SOCK_STREAM, socket.IPPROTO_TCP)
     try:
@@ -273,6 +275,11 @@ async def _sentence(request: Request, error: Exception) -> Response:
 async def _mistake(request: Request, error: Exception) -> Response:
     """What nobody expected; the server also logs it."""
     return JSONResponse({"message": mistake(error)}, status_code=500)
+
+
+async def _gone(request: Request, error: Exception) -> Response:
+    """Whoever left before the end of a request hears nothing of this, and it is no mistake."""
+    return JSONResponse({"message": "the request breaks off"}, status_code=400)
 
 
 async def _complaint(request: Request, error: Exception) -> Response:

@@ -7,6 +7,7 @@ import contextlib
 import gc
 import os
 import shutil
+import socket
 import sqlite3
 import threading
 import time
@@ -124,6 +125,25 @@ def test_a_message_that_is_not_text_gets_a_sentence(page: Page):
     assert page.drawn(1)["state"]["frame"] == 1
 
 
+ODD = [
+    (r'{"type": "view", "rev": 1, "patch": {"topic": "\ud800"}}', "hex escape"),
+    (r'{"type": "link", "rev": 1, "patch": {"\udfff": 1}}', "hex escape"),
+    ('{"type": "follow", "id": "ß"}', "is gone"),
+    ('{"type": "c\\nel"}', "input tag 'c el'"),
+    ('{"type": "view", "rev": 1, "patch": {"frame": 1' + 5000 * "0" + "}}", "number out of range"),
+    (60_000 * "[", "recursion limit"),
+]
+
+
+@pytest.mark.parametrize(("text", "sentence"), ODD, ids=[text[:40] for text, _ in ODD])
+def test_an_odd_message_gets_one_line_and_the_tab_goes_on(page: Page, text: str, sentence: str):
+    page.hello(session="é", follow="\N{SNOWMAN}")
+    page._socket.send(text)
+    message = page.heard("error", lambda error: sentence in error["message"])["message"]
+    assert "\n" not in message
+    assert page.drawn_or_told(page.ask(frame=1))["frame"] == 1
+
+
 TOPICS = "CREATE TABLE topics(id INTEGER, name TEXT, type TEXT, serialization_format TEXT)"
 SCANS = "INSERT INTO topics VALUES (1, '/scan', 'sensor_msgs/msg/LaserScan', 'cdr')"
 NUMBERS = "WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n)"
@@ -191,3 +211,13 @@ def test_tabs_that_are_gone_leave_nothing(tmp_path: Path):
             time.sleep(0.1)
             # The server does this too, once, and may have done it while something still referred to the tab.
             gc.collect()
+
+
+def test_whoever_leaves_in_the_middle_of_a_request_leaves_no_mistake_in_the_log(server: Address, caplog):
+    head = f"POST /api/params HTTP/1.1\r\nHost: 127.0.0.1:{server.port}\r\nContent-Length: 99\r\n\r\nhalf"
+    with socket.create_connection(("127.0.0.1", server.port)) as caller:
+        caller.sendall(head.encode())
+        time.sleep(0.2)
+    time.sleep(0.2)
+    assert server.get("/api/lessons").status_code == 200
+    assert [record.message for record in caplog.records if record.levelname == "ERROR"] == []

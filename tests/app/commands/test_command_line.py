@@ -265,9 +265,11 @@ def test_a_file_alone_is_viewed_until_ctrl_c(hall, tmp_path, arguments):
         (("ws://",), "'ws://' is not the address of a robot; give one like ws://robot:9090"),
         (("view", "ws://robot:99999"), "not the address of a robot"),
         (("ws://robot:9090", "--keep", "0"), "--keep is 0; allowed: 1 to 20000 scans"),
+        (("view", "--port", "99999"), "--port is 99999; give one from 1 to 65535"),
+        (("view", "--port", "-1"), "--port is -1; give one from 1 to 65535"),
     ],
 )
-def test_an_unreachable_robot_is_named(run, arguments, sentence):
+def test_an_address_that_cannot_be_is_named(run, arguments, sentence):
     code, _, error = run(*arguments, "--no-browser")
     assert code == 2
     assert sentence in error

@@ -1,0 +1,34 @@
+"""Work of many tabs takes turns."""
+
+import threading
+import time
+from itertools import pairwise
+
+import pytest
+from lineseg_app.session.turns import Turns
+
+
+def test_one_thread_works_at_a_time_and_each_turn_is_followed_by_a_rest():
+    turns, spans = Turns(0.25), []
+
+    def work() -> None:
+        with turns.turn():
+            begun = time.monotonic()
+            time.sleep(0.01)
+            spans.append((begun, time.monotonic()))
+
+    threads = [threading.Thread(target=work) for _ in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    spans.sort()
+    for (begun, ended), (following, _) in pairwise(spans):
+        assert following - ended >= 2.9 * (ended - begun)
+
+
+def test_a_turn_that_fails_ends():
+    turns = Turns(0.9)
+    for _ in range(2):
+        with pytest.raises(ZeroDivisionError), turns.turn():
+            raise ZeroDivisionError
