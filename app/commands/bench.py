@@ -8,25 +8,25 @@ from pathlib import Path
 
 from tyro.conf import OmitArgPrefixes, Positional
 
-from .flag_types import Switch, Unset
+from .flag_types import File, Switch
 from .progress import open_with_progress
 from .reading import ReadingFlags, reading_of
 from .thresholds import Flags, changed
 
 
 def bench(
-    file: Positional[Unset[Path]] = None,
+    file: Positional[File[Path]] = None,
     *,
-    thresholds: OmitArgPrefixes[Flags],  # type: ignore[valid-type]
-    how: OmitArgPrefixes[ReadingFlags],  # type: ignore[valid-type]
+    threshold: OmitArgPrefixes[Flags],  # type: ignore[valid-type]
+    reading: OmitArgPrefixes[ReadingFlags],  # type: ignore[valid-type]
     json: Switch = False,
 ) -> None:
     """Time the extraction and compare it with the minimum work of the method.
 
     Args:
         file: recording to use (default: the samples).
-        thresholds: thresholds of region growing.
-        how: how to read the file.
+        threshold: thresholds of region growing.
+        reading: how to read the file.
         json: write JSON instead of a table.
     """
     from lineseg import Params
@@ -36,12 +36,12 @@ def bench(
 
     from ..places import data_folder
 
-    params = changed(Params(), thresholds)
+    params = changed(Params(), threshold)
     samples = data_folder("sample_scans")
     files = [samples / "hallway.npz", samples / "laboratory.npz"] if file is None else [file]
     reports = []
     for path in files:
-        recording = open_with_progress(path, reading_of(how))
+        recording = open_with_progress(path, reading_of(reading))
         timings = measure(recording, params)
         facts = {"file": recording.name, "frames": len(recording), "beams": recording.beams, "cores": cores()}
         reports.append(facts | {"params": params.numbers(), "timings": [asdict(timing) for timing in timings]})

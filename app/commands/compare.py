@@ -23,10 +23,10 @@ SAMPLES = ("hallway", "laboratory")
 
 
 def compare(
-    files: Positional[Several[str]] = (),
+    files: Positional[Annotated[Several[str], arg(metavar="[FILE ...]")]] = (),
     *,
-    how: OmitArgPrefixes[ReadingFlags],  # type: ignore[valid-type]
-    methods: Several[str] = (),
+    reading: OmitArgPrefixes[ReadingFlags],  # type: ignore[valid-type]
+    methods: Annotated[Several[str], arg(metavar="NAME ...")] = (),
     budget: int = 150,
     most_frames: int = 60,
     out: Annotated[Unset[Path], arg(aliases=["-o"])] = None,
@@ -42,7 +42,7 @@ def compare(
         files: recordings, or names of samples and simulated worlds (default: all samples and worlds).
         methods: names of methods (default: all).
         budget: number of settings to try for each method, without and with truth; 0 runs the defaults only.
-        how: how to read the files.
+        reading: how to read the files.
         most_frames: number of frames to use from each recording; half of them are for tuning.
         out: file to write, .md, .csv or .json (default: Markdown on standard output).
         figures: folder for two pictures of each recording: the times of all frames, and one frame with every method.
@@ -57,7 +57,7 @@ def compare(
         raise FileNotFoundError(f"{out}: the folder {out.parent} does not exist.")
     if figures is not None and not figures.is_dir():
         raise FileNotFoundError(f"{figures}: there is no such folder; create it first.")
-    recordings = [_recording(name, reading_of(how)) for name in files or (*SAMPLES, *WORLDS)]
+    recordings = [_recording(name, reading_of(reading)) for name in files or (*SAMPLES, *WORLDS)]
     comparisons = [Comparison(recording, methods or None, budget, most_frames) for recording in recordings]
     _run(comparisons)
     rows = [row for comparison in comparisons for row in comparison.rows]

@@ -15,16 +15,17 @@ from lineseg.scan import Recording
 from lineseg.writers import SEGMENT_WRITERS, write_segments
 
 from ..made import about_of
-from .flag_types import Several, Switch, Unset
+from .flag_types import Files, Switch, Unset
 from .progress import counted, open_with_progress
 from .reading import ReadingFlags, each_file, files_of, reading_of
-from .thresholds import Choice, suggested
+from .thresholds import Choice, Flags, suggested
 
 
 def extract(
-    files: Positional[Several[str]],
-    choice: OmitArgPrefixes[Choice],
-    how: OmitArgPrefixes[ReadingFlags],  # type: ignore[valid-type]
+    files: Positional[Files[str]],
+    method: OmitArgPrefixes[Choice],
+    threshold: OmitArgPrefixes[Flags],  # type: ignore[valid-type]
+    reading: OmitArgPrefixes[ReadingFlags],  # type: ignore[valid-type]
     *,
     out: Annotated[Unset[Path], arg(aliases=["-o"])] = None,
     range_noise: Unset[float] = None,
@@ -35,24 +36,26 @@ def extract(
 
     Args:
         files: recordings to read; * and ? stand for several.
-        choice: method and thresholds (default: from --params, else the method's defaults).
-        how: how to read the files.
-        out: file to write, .jsonl, .csv or .geojson; for several recordings a folder, where each gets a .jsonl file
-            (default: JSON lines on standard output). A .csv file gets a .csv.json beside it that says how it was made.
+        method: the method, and where its thresholds come from (default: the method's defaults).
+        threshold: thresholds of region growing; they override --params.
+        reading: how to read the files.
+        out: file to write, .jsonl, .csv or .geojson; for several recordings a folder, where each gets a .jsonl file.
+            Without it, JSON lines go to standard output. A .csv file gets a .csv.json beside it, with the reading
+            and the thresholds.
         range_noise: standard deviation of a range [m]; adds (rho, theta) and their covariance to each segment.
         bearing_noise: standard deviation of a bearing [rad]; adds the covariance too.
         suggest: use thresholds that fit the noise of each recording, and print them.
     """
-    chosen, reading = choice.thresholds, reading_of(how)
+    chosen, how = method.thresholds(threshold), reading_of(reading)
     noise = None
     if range_noise is not None or bearing_noise is not None:
         noise = Noise(range_noise or 0.0, bearing_noise or 0.0)
     targets = _targets(files_of(files), out)
 
     def work(file: Path) -> None:
-        recording = open_with_progress(file, reading)
-        used = suggested(recording, chosen, choice.method) if suggest else chosen
-        _write(recording, choice.method, used, targets[file], noise)
+        recording = open_with_progress(file, how)
+        used = suggested(recording, chosen, method.name) if suggest else chosen
+        _write(recording, method.name, used, targets[file], noise)
 
     each_file(files, work)
 

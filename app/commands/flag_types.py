@@ -11,3 +11,6 @@ T = TypeVar("T")
 Unset = Annotated[T | None, arg(help_behavior_hint="")]
 Switch = Annotated[bool, arg(help_behavior_hint="")]
 Several = Annotated[tuple[T, ...], arg(help_behavior_hint="")]
+# Recordings, and one that need not be given.
+Files = Annotated[tuple[T, ...], arg(help_behavior_hint="", metavar="FILE ...")]
+File = Annotated[T | None, arg(help_behavior_hint="", metavar="[FILE]")]

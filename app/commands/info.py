@@ -12,24 +12,24 @@ from lineseg.noise import RangeNoise
 from lineseg.scan import Recording
 from lineseg.tuning.proposal import propose
 
-from .flag_types import Several
+from .flag_types import Files
 from .progress import open_with_progress
 from .reading import ReadingFlags, each_file, reading_of
 
 
-def info(files: Positional[Several[str]], how: OmitArgPrefixes[ReadingFlags]) -> None:  # type: ignore[valid-type]
+def info(files: Positional[Files[str]], reading: OmitArgPrefixes[ReadingFlags]) -> None:  # type: ignore[valid-type]
     """Describe recordings, and say what each file was taken for.
 
     Args:
         files: recordings to read; * and ? stand for several.
-        how: how to read the files.
+        reading: how to read the files.
     """
-    reading = reading_of(how)
+    how = reading_of(reading)
     told = 0
 
     def describe(file: Path) -> None:
         nonlocal told
-        recording = open_with_progress(file, reading, tell=False)
+        recording = open_with_progress(file, how, tell=False)
         if told:
             print()
         told += 1

@@ -15,18 +15,19 @@ from lineseg.knobs import Thresholds
 from lineseg.scan import Recording
 from lineseg.truth import Agreement
 
-from .flag_types import Several, Switch, Unset
+from .flag_types import Files, Switch, Unset
 from .progress import counted, open_with_progress
 from .reading import ReadingFlags, each_file, files_of, reading_of
-from .thresholds import Choice
+from .thresholds import Choice, Flags
 
 RATES = ("true_rate", "false_rate", "neutral_false_rate", "completeness")
 
 
 def score(
-    files: Positional[Several[str]],
-    choice: OmitArgPrefixes[Choice],
-    how: OmitArgPrefixes[ReadingFlags],  # type: ignore[valid-type]
+    files: Positional[Files[str]],
+    method: OmitArgPrefixes[Choice],
+    threshold: OmitArgPrefixes[Flags],  # type: ignore[valid-type]
+    reading: OmitArgPrefixes[ReadingFlags],  # type: ignore[valid-type]
     *,
     truth: Unset[Path] = None,
     json: Switch = False,
@@ -39,8 +40,9 @@ def score(
 
     Args:
         files: recordings to read; * and ? stand for several.
-        choice: method and thresholds (default: from --params, else the method's defaults).
-        how: how to read the files.
+        method: the method, and where its thresholds come from (default: the method's defaults).
+        threshold: thresholds of region growing; they override --params.
+        reading: how to read the files.
         truth: labels of one recording, .lineseg.json (default: the array `wall` of each recording).
         json: write JSON instead of a table, a line for each recording, with its total and each frame.
         csv: write CSV instead of a table, with a row for each frame.
@@ -50,28 +52,28 @@ def score(
     several = len(files_of(files)) > 1
     if truth is not None and several:
         raise ValueError("--truth has the labels of one recording; name one file.")
-    chosen, reading, method = choice.thresholds, reading_of(how), choice.method
+    chosen, how, name = method.thresholds(threshold), reading_of(reading), method.name
     totals: list[Agreement] = []
 
     def work(file: Path) -> None:
-        recording = open_with_progress(file, reading)
-        frames = _agreements(recording, chosen, method, truth)
+        recording = open_with_progress(file, how)
+        frames = _agreements(recording, chosen, name, truth)
         total = Agreement.of_all(frames.values())
         if csv:
             _write_csv(recording.name if several else None, frames, header=not totals)
         elif json:
-            report = {"file": recording.name, "reading": _used(recording), "method": method}
+            report = {"file": recording.name, "reading": _used(recording), "method": name}
             report |= {"params": chosen.numbers(), **_numbers(total)}
             print(dumps(report | {"frames": [{"frame": frame, **_numbers(each)} for frame, each in frames.items()]}))
         else:
-            _print_table(f"{recording.name}, {len(frames)} frames with true lines, {method}", total)
+            _print_table(f"{recording.name}, {len(frames)} frames with true lines, {name}", total)
         totals.append(total)
 
     try:
         each_file(files, work)
     finally:
         if len(totals) > 1 and not (csv or json):
-            _print_table(f"all {len(totals)} files, {method}", Agreement.of_all(totals))
+            _print_table(f"all {len(totals)} files, {name}", Agreement.of_all(totals))
 
 
 def _agreements(recording: Recording, params: Thresholds, method: str, truth: Path | None) -> dict[int, Agreement]:

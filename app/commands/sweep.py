@@ -8,35 +8,38 @@ from typing import Annotated, Any
 
 from tyro.conf import OmitArgPrefixes, Positional, arg
 
+from lineseg.knobs import Knob
 from lineseg.params import Params
 from lineseg.writers import read_params
 
-from .flag_types import Several, Unset
+from .flag_types import Files, Unset
 from .progress import progress_bar
 from .reading import ReadingFlags, files_of, reading_of
 
 
-def _axis_flag(symbol: str, unit: str, text: str) -> Any:
-    return Annotated[str | None, arg(help=f"{symbol}{f' [{unit}]' if unit else ''}: {text}", metavar="FROM:TO:COUNT")]
+def _axis_flag(knob: Knob, default: float) -> Any:
+    text = f"{knob.symbol}{f' [{knob.unit}]' if knob.unit else ''}: {knob.help}"
+    hint = f"(default: {default:g})"
+    return Annotated[str | None, arg(help=text, metavar="FROM:TO:COUNT", help_behavior_hint=hint)]
 
 
 Axes: type = make_dataclass(
     "Axes",
-    [(name, _axis_flag(knob.symbol, knob.unit, knob.help), None) for name, _, knob in Params.knobs()],
+    [(name, _axis_flag(knob, getattr(Params(), name)), None) for name, _, knob in Params.knobs()],
     frozen=True,
 )
 
 
 def sweep(
-    files: Positional[Several[Path]],
-    axes: OmitArgPrefixes[Axes],  # type: ignore[valid-type]
-    how: OmitArgPrefixes[ReadingFlags],  # type: ignore[valid-type]
+    files: Positional[Files[Path]],
+    threshold: OmitArgPrefixes[Axes],  # type: ignore[valid-type]
+    reading: OmitArgPrefixes[ReadingFlags],  # type: ignore[valid-type]
     *,
     out: Annotated[Path, arg(aliases=["-o"])],
     plot: Unset[Path] = None,
-    measure: Unset[str] = None,
+    measure: Annotated[Unset[str], arg(metavar="NAME")] = None,
     params: Unset[Path] = None,
-    scheduler: Unset[str] = None,
+    scheduler: Annotated[Unset[str], arg(metavar="ADDRESS")] = None,
 ) -> None:
     """Try every combination of threshold values on whole recordings: coverage, segments, and, with truth, TR and FR.
 
@@ -44,9 +47,9 @@ def sweep(
     run it again: finished work is kept in a file next to the table until the table is complete.
 
     Args:
-        files: recordings to read.
-        axes: values of the thresholds (default: from --params, else the defaults).
-        how: how to read the files.
+        files: recordings to read; * and ? stand for several.
+        threshold: values of the thresholds (default: from --params, else the defaults).
+        reading: how to read the files.
         out: table to write, .csv or .parquet, with a row for each file and setting.
         plot: picture to write, .png or .svg: curves for one threshold, or a map for the first two.
         measure: the measure that the map shows.
@@ -66,14 +69,14 @@ def sweep(
     check_table_path(out)
     if plot is not None:
         check_plot_path(plot)
-    given = {name: axis_values(text, name) for name, text in asdict(axes).items() if text is not None}
+    given = {name: axis_values(text, name) for name, text in asdict(threshold).items() if text is not None}
     base = Params() if params is None else read_params(params.read_text(encoding="utf-8-sig"))
     grid = Grid(base, given)
     journal = Journal(out.with_name(out.name + ".partial"))
     complete = False
     try:
         with pool(scheduler) as workers, progress_bar("sweep", "frame") as advance:
-            result = measure_all(files_of(files), grid, workers, reading_of(how), journal, advance)
+            result = measure_all(files_of(files), grid, workers, reading_of(reading), journal, advance)
         write_table(result, out)
         complete = True
     finally:

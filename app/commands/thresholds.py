@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import sys
-from dataclasses import asdict, dataclass, field, make_dataclass
+from dataclasses import asdict, dataclass, make_dataclass
 from pathlib import Path
 from typing import Annotated, Any, TypeVar
 
-from tyro.conf import OmitArgPrefixes, UseAppendAction, arg
+from tyro.conf import UseAppendAction, arg
 
 from lineseg import EXTRACTORS, Extractor, Knob, Params, Thresholds
 from lineseg.scan import Recording
@@ -38,30 +38,27 @@ Flags: type = make_dataclass(
 
 @dataclass(frozen=True)
 class Choice:
-    """The method and its thresholds: with their own flags for region growing, with --set for every method.
+    """The method, and its thresholds with --set or from a file; those of region growing have flags of their own.
 
     Args:
-        flags: thresholds of region growing.
-        method: region-growing, or another method listed in the README.
-        set: NAME=VALUE of a threshold of the method.
+        name: region-growing, or another method listed in the README.
+        set: a threshold of the method.
         params: ROS 1 launch file, ROS 2 YAML or JSON with thresholds; flags override it.
     """
 
-    flags: OmitArgPrefixes[Flags] = field(default_factory=Flags)  # type: ignore[valid-type]
-    method: str = "region-growing"
-    set: UseAppendAction[tuple[str, ...]] = ()
-    params: Unset[Path] = None
+    name: Annotated[str, arg(name="method", metavar="NAME")] = "region-growing"
+    set: Annotated[UseAppendAction[tuple[str, ...]], arg(metavar="NAME=VALUE")] = ()
+    params: Annotated[Unset[Path], arg(metavar="FILE")] = None
 
     @property
     def extractor(self) -> Extractor:
-        return extractor_of(self.method)
+        return extractor_of(self.name)
 
-    @property
-    def thresholds(self) -> Thresholds:
+    def thresholds(self, flags: Any) -> Thresholds:
         """The defaults, overridden by the file, overridden by the flags."""
         kind = self.extractor.params_type
         base = kind() if self.params is None else read_file(self.params, kind)
-        return changed(base, self.flags, **dict(map(_pair, self.set)))
+        return changed(base, flags, **dict(map(_pair, self.set)))
 
 
 def suggested(recording: Recording, present: Thresholds, method: str) -> Thresholds:

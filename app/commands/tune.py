@@ -11,18 +11,18 @@ from tyro.conf import OmitArgPrefixes, Positional, arg
 from lineseg.params import Params
 from lineseg.writers import params_text, read_params
 
-from .flag_types import Several, Unset
+from .flag_types import Files, Unset
 from .progress import progress_bar
 from .reading import ReadingFlags, files_of, reading_of
 
 
 def tune(
-    files: Positional[Several[Path]],
-    how: OmitArgPrefixes[ReadingFlags],  # type: ignore[valid-type]
+    files: Positional[Files[Path]],
+    reading: OmitArgPrefixes[ReadingFlags],  # type: ignore[valid-type]
     *,
     trials: int = 100,
     objective: Unset[Literal["truth", "label-free"]] = None,
-    thresholds: Unset[tuple[str, ...]] = None,
+    thresholds: Annotated[Unset[tuple[str, ...]], arg(metavar="NAME ...")] = None,
     split: Literal["frames", "files"] = "frames",
     most_frames: Unset[int] = None,
     recall: float = 1.0,
@@ -31,7 +31,7 @@ def tune(
     out: Annotated[Unset[Path], arg(aliases=["-o"])] = None,
     to: Literal["ros2", "ros1", "python", "flags"] = "ros2",
     params: Unset[Path] = None,
-    scheduler: Unset[str] = None,
+    scheduler: Annotated[Unset[str], arg(metavar="ADDRESS")] = None,
 ) -> None:
     """Search for thresholds with Optuna, and compare the best with the present ones and with the paper's defaults, on
     held-back frames.
@@ -40,8 +40,8 @@ def tune(
     continues them.
 
     Args:
-        files: recordings to read.
-        how: how to read the files.
+        files: recordings to read; * and ? stand for several.
+        reading: how to read the files.
         trials: number of settings to try in this call.
         objective: compare with the truth, or with lines that fit the noise of the laser (default: truth if all files
             have it).
@@ -68,7 +68,7 @@ def tune(
     base = Params() if params is None else read_params(params.read_text(encoding="utf-8-sig"))
     with pool(scheduler) as workers:
         blind = None if objective is None else objective == "label-free"
-        blocks = FileBlocks(files_of(files), workers, blind, split, reading_of(how), most_frames, base)
+        blocks = FileBlocks(files_of(files), workers, blind, split, reading_of(reading), most_frames, base)
         kind = objective or ("truth" if blocks.truth else "label-free")
         aim = Objective(kind, recall, completeness)
         tuning = Tuning(blocks, aim, study, thresholds, base)

@@ -5,39 +5,40 @@ from __future__ import annotations
 import contextlib
 import os
 from pathlib import Path
+from typing import Annotated
 
-from tyro.conf import OmitArgPrefixes, Positional
+from tyro.conf import OmitArgPrefixes, Positional, arg
 
-from .flag_types import Several, Switch, Unset
+from .flag_types import File, Several, Switch, Unset
 from .reading import ReadingFlags, reading_of
 
 MOST_KEPT = 20_000
 
 
 def view(
-    file: Positional[Unset[str]] = None,
+    file: Positional[File[str]] = None,
     *,
-    how: OmitArgPrefixes[ReadingFlags],  # type: ignore[valid-type]
+    reading: OmitArgPrefixes[ReadingFlags],  # type: ignore[valid-type]
     keep: int = 3000,
-    host: str = "127.0.0.1",
+    host: Annotated[str, arg(metavar="ADDRESS")] = "127.0.0.1",
     port: int = 8765,
-    token: Unset[str] = None,
+    token: Annotated[Unset[str], arg(metavar="TEXT")] = None,
     token_file: Unset[Path] = None,
     no_browser: Switch = False,
-    robot: Several[str] = (),
+    robot: Annotated[Several[str], arg(metavar="ADDRESS ...")] = (),
     rerun: Switch = False,
 ) -> None:
     """Show the page in the browser.
 
     Args:
         file: recording to open: a bag, MCAP, log, NPZ, JSON, CSV or other text, also compressed (default: a sample).
-            Or a robot to watch live: ws://robot:9090 (rosbridge), ws://robot:8765 (Foxglove).
-        how: how to read the file; of a robot, only the topic can be chosen.
+            Or, to watch a robot live, its address: ws://robot:9090 (rosbridge), ws://robot:8765 (Foxglove).
+        reading: how to read the file; of a robot, only the topic can be chosen.
         keep: number of a robot's scans to keep; older ones are dropped.
         host: address to listen on; any but the loopback requires a token.
         port: TCP port; 0 picks a free one.
-        token: password that browsers must send (default: the environment variable LINESEG_TOKEN, or a random one if
-            a token is required). Other users of this machine see it in the list of processes; prefer --token-file.
+        token: password that browsers must send (default: the environment variable LINESEG_TOKEN, or a random one where
+            the page needs one). Other users of this machine see it in the list of processes; prefer --token-file.
         token_file: file that holds the token.
         no_browser: do not open a browser.
         robot: addresses of rosbridge to which the page may send parameters, besides the robot that is watched.
@@ -49,14 +50,14 @@ def view(
     from ..server import Settings, serve
 
     files, robots = (), ()
-    reading = reading_of(how)
+    how = reading_of(reading)
     if file is not None and is_address(file):
-        if others := [name for name in reading.given() if name != "topic"]:
+        if others := [name for name in how.given() if name != "topic"]:
             raise ValueError(
                 f"{', '.join(others)} cannot be used with a robot, which says how its scans are to be read."
             )
-        robots = (Address(file, reading.topic),)
-        reading = Reading()
+        robots = (Address(file, how.topic),)
+        how = Reading()
     elif file is not None:
         path = Path(file)
         if not path.exists():
@@ -74,7 +75,7 @@ def view(
             watch = stack.enter_context(live_rerun()).show
         settings = Settings(
             files=files,
-            reading=reading,
+            reading=how,
             robots=robots,
             may_send=robot,
             keep=keep,

@@ -123,7 +123,9 @@ def _plain_table(rows: list[Row], dialect: Dialect, width: int) -> NDArray[np.fl
     if not rows or any(dialect.width(row.text) != width or b'"' in row.text for row in rows):
         return None
     values = dialect.numbers(b"\n".join(row.text for row in rows))
-    return None if values is None or len(values) != len(rows) * width else values.reshape(len(rows), width)
+    if values is None or len(values) != len(rows) * width:
+        return None
+    return np.asarray(values, np.float64).reshape(len(rows), width)
 
 
 def _guessed(source: Source, table: NDArray[np.float64]) -> Roles:

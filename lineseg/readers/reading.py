@@ -97,14 +97,14 @@ class Reading:
     frames: Annotated[
         str | None,
         ReadingField(
-            "frames", "FIRST:STOP, counted from 0, without STOP; either may be left out", "scans", form="frames",
+            "frames", "scans from FIRST to the one before STOP, counted from 0; either may be left out", "scans", form="frames",
             metavar="FIRST:STOP",
         ),
     ] = None  # fmt: skip
     seconds: Annotated[
         str | None,
         ReadingField(
-            "seconds", "FROM:TO, counted from the first scan; either may be left out", "scans", "s", "FROM:TO",
+            "seconds", "scans from FROM until TO, counted from the first scan; either may be left out", "scans", "s", "FROM:TO",
             form="span",
         ),
     ] = None  # fmt: skip
