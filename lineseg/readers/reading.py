@@ -97,15 +97,15 @@ class Reading:
     frames: Annotated[
         str | None,
         ReadingField(
-            "frames", "scans from FIRST to the one before STOP, counted from 0; either may be left out", "scans", form="frames",
-            metavar="FIRST:STOP",
+            "frames", "scans from FIRST to the one before STOP, counted from 0; either may be left out", "scans",
+            form="frames", metavar="FIRST:STOP",
         ),
     ] = None  # fmt: skip
     seconds: Annotated[
         str | None,
         ReadingField(
-            "seconds", "scans from FROM until TO, counted from the first scan; either may be left out", "scans", "s", "FROM:TO",
-            form="span",
+            "seconds", "scans from FROM until TO, counted from the first scan; either may be left out", "scans",
+            "s", "FROM:TO", form="span",
         ),
     ] = None  # fmt: skip
     every_scan: Annotated[
