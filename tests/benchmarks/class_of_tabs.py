@@ -37,7 +37,7 @@ class Server:
 
     def __init__(self, folder: str) -> None:
         command = [sys.executable, "-m", "lineseg_app", "view", "--no-browser", "--port", "0"]
-        environment = os.environ | {"XDG_DATA_HOME": folder}
+        environment = os.environ | {"XDG_DATA_HOME": folder, "TMPDIR": folder}
         self._process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment)
         assert self._process.stdout is not None
         line = next(line for line in self._process.stdout if "http://" in line)
@@ -82,7 +82,7 @@ async def pupil(address: str, seed: int, seconds: float, together: asyncio.Barri
                 sent[rev] = time.perf_counter()
                 epsilon = round(float(rng.uniform(0.01, 0.1)), 4)
                 await socket.send(json.dumps({"type": "view", "rev": rev, "patch": {"params": {"epsilon": epsilon}}}))
-            await asyncio.sleep(1.0)
+            await asyncio.sleep(min(1.0, seconds))
             await together.wait()
             await together.wait()
             await socket.send('{"type": "close"}')
