@@ -37,7 +37,8 @@ export function createWeights(text, onWeights) {
     element,
     /** @param {Score[]} next */
     setScores(next) {
-      scores = next.filter(({ name }) => !NO_PART.has(name));
+      const parts = next.filter(({ name }) => !NO_PART.has(name));
+      scores = [...parts.filter(({ weight }) => weight), ...parts.filter(({ weight }) => !weight)];
       inputs.clear();
       rows.replaceChildren(
         ...scores.map(({ name, label, help, weight }) => {

@@ -36,7 +36,7 @@ export const inspectText = {
   },
   weights: {
     title: "Weights",
-    help: "The suspicion of a frame is a weighted mean: it tells how far each score stands out from the recording and from the neighbouring frames. A greater weight makes a score count more; 0 leaves it out.",
+    help: "The suspicion of a frame is a sum. Disputed lines count by their number, other scores by how far they stand out from the recording and from nearby frames. A greater weight makes a score count more; 0 leaves it out.",
     reset: "Default weights",
   },
   nothingWrong: "nothing stands out",

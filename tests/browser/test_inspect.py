@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 
+import numpy as np
 import pytest
 from lineseg_app.places import data_folder
 
@@ -23,6 +24,7 @@ from lineseg import (
     with_stability,
     worst_first,
 )
+from lineseg.survey.disputes import lines_missed
 
 HALLWAY = data_folder("sample_scans") / "hallway.npz"
 
@@ -180,6 +182,27 @@ def test_the_most_suspicious_frame_says_what_looks_wrong_and_weights_change_the_
 
 
 @pytest.mark.own_tab
+def test_the_lines_that_a_sentence_says_are_missed_are_ghosts_in_the_scene(new_tab):
+    boards = open_recording(data_folder("sample_scans") / "room_of_boards.npz")
+    ghosts = lines_missed(boards, 5)
+    assert ghosts
+    ends = np.array(ghosts).reshape(-1, 2)
+    tab = new_tab("#mode=inspect&score=suspicion&recording=sample:room_of_boards&frame=5")
+    drawn = """() => {
+        const node = window.__viserMutable.nodeRefFromName["/ghosts"];
+        let found = null;
+        if (node?.visible) node.traverse((part) => (found = part.geometry?.attributes.instanceStart ?? found));
+        return found ? [...found.data.array] : [];
+    }"""
+    dashes = tab.eventually(lambda: tab.scene.evaluate(drawn), "no ghost is drawn")
+    points = np.array(dashes).reshape(-1, 3)[:, :2]
+    assert np.allclose((points.min(axis=0), points.max(axis=0)), (ends.min(axis=0), ends.max(axis=0)), atol=0.3)
+    row = tab.page.locator(".frames-row[data-frame='5'] .frames-words")
+    tab.eventually(lambda: "m line at beams" in row.inner_text(), "no sentence says what is missed")
+    tab.page.evaluate("() => { location.hash += '&layers=-ghosts' }")
+    tab.eventually(lambda: not tab.scene.evaluate(drawn), "the ghosts stay although their layer is off")
+
+
 @pytest.mark.parametrize("other", ["split-and-merge", "hough"])
 def test_another_method_is_compared_explained_and_asked_what_would_change_it(new_tab, hallway, other):
     tab = new_tab(f"#mode=inspect&frame=20&score=gap&method={other}&beam=300")
