@@ -14,6 +14,7 @@ from typing import IO, cast
 from ..unfinished import temporary_folder
 from .account import Notes
 from .bounded import expand, limit_of, zstd_file
+from .cut_zip import unpack_cut
 
 GZIP_MAGIC, ZSTD_MAGIC, ZIP_MAGIC = b"\x1f\x8b", b"\x28\xb5\x2f\xfd", b"PK\x03\x04"
 # UTF-32 first, because its mark begins like that of UTF-16.
@@ -25,6 +26,8 @@ PLAIN = frozenset(b"\t\r\n" + bytes(range(32, 127)))
 HEAD_BYTES = 1 << 13
 MOST_LAYERS = 4
 MOST_NAMED = 5
+# Texts beside a recording.
+ABOUT = ("readme", "license", "licence", "changelog")
 BAG_PARTS = (".db3", ".mcap", ".db3.zstd", ".mcap.zstd")
 # Offset of the name in the local header of a zip's first entry.
 NAME_AT = 30
@@ -116,45 +119,63 @@ def _unzipped(path: Path, name: str, stack: ExitStack, notes: Notes, progress: P
     try:
         archive = stack.enter_context(zipfile.ZipFile(path))
     except (zipfile.BadZipFile, OSError, NotImplementedError, ValueError) as error:
-        if path.suffix.lower() != ".zip":
-            return None
-        raise ValueError(f"{name}: a damaged zip file ({str(error).rstrip('.')}); fetch it again.") from None
+        return _cut(path, name, stack, notes, str(error).rstrip("."))
     entries = [entry for entry in archive.infolist() if not entry.is_dir() and not _is_hidden(entry.filename)]
     if any(entry.filename == "lineseg.json" for entry in entries):
         return None
-    parts = _chosen(entries, name)
+    parts = _chosen([entry.filename for entry in entries], name)
     folder = _target(path, stack, "bag")
     folder.mkdir()
     for entry in parts:
-        target = folder / PurePosixPath(entry.filename.replace("\\", "/")).name
+        target = folder / PurePosixPath(entry.replace("\\", "/")).name
         try:
             with archive.open(entry) as packed:
-                why = expand(packed, target, f"{entry.filename} in {name}", limit_of(path.stat().st_size))
+                why = expand(packed, target, f"{entry} in {name}", limit_of(path.stat().st_size))
         except (zipfile.BadZipFile, NotImplementedError, RuntimeError, OSError) as error:
-            raise ValueError(f"{name}: {entry.filename} cannot be unpacked ({str(error).rstrip('.')}).") from None
-        tell_break(why, target, f"{entry.filename} in {name}", "zip", notes)
+            raise ValueError(f"{name}: {entry} cannot be unpacked ({str(error).rstrip('.')}).") from None
+        tell_break(why, target, f"{entry} in {name}", "zip", notes)
     return folder if len(parts) > 1 else next(folder.iterdir())
 
 
+def _cut(path: Path, name: str, stack: ExitStack, notes: Notes, why: str) -> Path | None:
+    """The recording in a zip that breaks off, as far as it is there."""
+    folder = _target(path, stack, "bag")
+    folder.mkdir()
+    found = {part.name: part for part in unpack_cut(path, folder, name) if not _is_hidden(part.name)}
+    if any(entry.endswith(".npy") or entry == "lineseg.json" for entry in found) or path.suffix.lower() == ".npz":
+        return None
+    if not found:
+        raise ValueError(f"{name}: a damaged zip file ({why}); fetch it again.")
+    parts = [found[entry] for entry in _chosen(list(found), name)]
+    for part in parts:
+        tell_break(part.why, part.file, f"{part.name} in {name}", "zip", notes)
+    if len(parts) == 1:
+        return parts[0].file
+    for part in parts:
+        part.file.rename(folder / part.file.name)
+    return folder
+
+
 def _is_hidden(name: str) -> bool:
-    return any(part.startswith((".", "__MACOSX")) for part in PurePosixPath(name).parts)
+    path = PurePosixPath(name)
+    return path.stem.lower() in ABOUT or any(part.startswith((".", "__MACOSX")) for part in path.parts)
 
 
-def _chosen(entries: list[zipfile.ZipInfo], name: str) -> list[zipfile.ZipInfo]:
-    """The one recording among the entries: a file, or the parts of one bag."""
-    bags = [entry for entry in entries if entry.filename.lower().endswith(BAG_PARTS)]
-    folders = {str(PurePosixPath(entry.filename).parent) for entry in bags}
+def _chosen(entries: list[str], name: str) -> list[str]:
+    """The one recording among the names of entries: a file, or the parts of one bag."""
+    bags = [entry for entry in entries if entry.lower().endswith(BAG_PARTS)]
+    folders = {str(PurePosixPath(entry).parent) for entry in bags}
     if bags and len(folders) == 1:
-        about = [e for e in entries if PurePosixPath(e.filename).name == "metadata.yaml"]
-        return bags + [e for e in about if str(PurePosixPath(e.filename).parent) in folders]
+        about = [entry for entry in entries if PurePosixPath(entry).name == "metadata.yaml"]
+        return bags + [entry for entry in about if str(PurePosixPath(entry).parent) in folders]
     from . import READERS
 
     suffixes = (*(suffix for reader in READERS for suffix in reader.suffixes), ".gz", ".zst")
-    known = [entry for entry in entries if entry.filename.lower().endswith(suffixes)]
+    known = [entry for entry in entries if entry.lower().endswith(suffixes)]
     found = known if known else entries
     if len(found) == 1:
         return found
-    listed = ", ".join(entry.filename for entry in found[:MOST_NAMED])
+    listed = ", ".join(found[:MOST_NAMED])
     more = f" and {len(found) - MOST_NAMED} more" if len(found) > MOST_NAMED else ""
     what = f"has several files that may be recordings: {listed}{more}; unzip it and open one" if found else "is empty"
     raise ValueError(f"{name} {what}.")

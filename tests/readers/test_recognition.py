@@ -75,7 +75,7 @@ MAGIC = {
     "ROS 1 bag": b"#ROSBAG V2.0\n",
     "ROS 2 bag": b"SQLite format 3\0",
     "MCAP": b"\x89MCAP0\r\n",
-    "failure pack": b"PK\x03\x04" + b"\0" * 26 + b"lineseg.json",
+    "failure pack": b"PK\x03\x04" + b"\0" * 22 + b"\x0c\0\0\0lineseg.json",
     "NPZ": b"PK\x03\x04" + b"\0" * 22 + b"\x0a\0\0\0ranges.npy",
     "NPY": b"\x93NUMPY\x01\0",
     "CARMEN log": b"# " + b"x" * 80 + b"\nODOM 0 0 0 0 0 0 1 h 1\n",

@@ -4,6 +4,7 @@ import gzip
 import shutil
 import sqlite3
 import struct
+import zipfile
 
 import numpy as np
 import pytest
@@ -210,6 +211,19 @@ def test_what_can_be_unpacked_of_a_packed_bag_that_breaks_off_is_read_and_the_re
         assert 10 < len(recording) < 199
         assert np.array_equal(recording[0].ranges, ranges)
         assert [notice.kind for notice in recording.account.notices] == ["breaks off"] * 2
+
+
+@pytest.mark.parametrize("packing", [zipfile.ZIP_DEFLATED, zipfile.ZIP_STORED])
+def test_a_zip_that_breaks_off_is_read_up_to_there(tmp_path, packing):
+    bag1(tmp_path / "whole.bag", ("/scan", np.random.default_rng(0).uniform(1, 5, 1000)), stamps=np.arange(1.0, 40.0))
+    with zipfile.ZipFile(tmp_path / "run.zip", "w", packing) as archive:
+        archive.writestr("run/README.txt", "A bag.")
+        archive.write(tmp_path / "whole.bag", "run/whole.bag")
+    packed = (tmp_path / "run.zip").read_bytes()
+    (tmp_path / "cut.zip").write_bytes(packed[: len(packed) * 2 // 3])
+    recording = open_recording(tmp_path / "cut.zip")
+    assert 5 < len(recording) < 39
+    assert "breaks off" in [notice.kind for notice in recording.account.notices]
 
 
 @pytest.mark.parametrize("share", [0.05, 0.15])
