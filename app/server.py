@@ -35,6 +35,7 @@ from .body_limit import BodyLimit
 from .guard import Guard, is_loopback
 from .live.address import Address
 from .live.hub import Live
+from .memory import keep_together
 from .places import data_folder, user_folder
 from .routes.api import add_api
 from .routes.export import add_export
@@ -151,6 +152,7 @@ def serve(settings: Settings, announce: Callable[[str], None] = lambda address: 
 
     Raises OSError, with what to do, if the port is busy.
     """
+    keep_together()
     if not is_loopback(settings.host) and not settings.token:
         settings = replace(settings, token=secrets.token_urlsafe(16))
     listener = listen(settings.host, settings.port)

@@ -41,7 +41,7 @@ LIVE_EVERY = 1.0
 # Changes that follow each other faster belong to one drag, and a survey that takes long waits for its end [s].
 DRAG = 0.15
 # Quick surveys of all tabs together take this share of the time, so that many tabs can be dragged at once.
-QUICK = Turns(0.25)
+QUICK = Turns(0.1)
 
 log = logging.getLogger(__name__)
 
