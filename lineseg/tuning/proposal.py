@@ -32,9 +32,11 @@ LEAST_FRAMES = 4
 STEP, APART = 1.6**0.25, 2
 # Bounds of ε: this many times the white noise, and this many times the total scatter.
 LOWEST, HIGHEST = 2.5, 4.2
-# The choice from noise alone is USUAL · scatter^SHARE · white^(1 − SHARE), because the total scatter is less certain
-# than the white noise. At a value that differs from it by a factor of e, lines must be steadier by PULL.
-USUAL, SHARE, PULL = 2.8, 0.7, 0.15
+# The choice from noise alone: this many times the white noise, and so many times the deviation of walls from straight.
+# Clutter looks like the latter where the noise is large, so that it counts only beyond SURE times the white noise.
+WHITE, ROUGH, SURE = 2.8, 3.5, 1.5
+# At a value that differs from this choice by a factor of e, lines must be so much steadier.
+PULL = 0.15
 # Agreement with the lines at a smaller and a larger ε that the present values may lack before others are proposed.
 AS_GOOD = 0.005
 # Below this ε [m] walls break, however good the laser: plaster, skirting boards and doors are no straighter.
@@ -175,7 +177,8 @@ class _Search:
         steady = np.array([self._agrees(self._lines[k], k + APART) for k in places])
         if not steady.max() > 0.0:
             return self.nothing("No ε that fits this noise gives steady lines.")
-        usual = USUAL * self.scatter**SHARE * self._white ** (1 - SHARE)
+        sure = math.sqrt(max(self.noise.roughness**2 - (SURE * self._white) ** 2, 0.0))
+        usual = math.hypot(WHITE * self._white, ROUGH * sure)
         best = int(np.argmax(steady - PULL * np.abs(np.log(tried / usual))))
         if tried[best] > MOST_EPSILON:
             return self.nothing(
