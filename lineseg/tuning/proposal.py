@@ -39,8 +39,9 @@ WHITE, ROUGH, SURE = 2.8, 3.5, 1.5
 PULL = 0.15
 # Agreement with the lines at a smaller and a larger ε that the present values may lack before others are proposed.
 AS_GOOD = 0.005
-# Below this ε [m] walls break, however good the laser: plaster, skirting boards and doors are no straighter.
-LEAST_EPSILON = 0.02
+# Below the first ε [m] walls break, however good the laser: plaster, skirting boards and doors are no straighter. For
+# such a laser the second is usual, and the third is tried at least.
+LEAST_EPSILON, FINE_EPSILON, TRIED_EPSILON = 0.02, 0.025, 0.04
 # The growing part of the noise counts if it is this many times as large at the farthest points as the constant part of
 # the scatter: an ε that grows where noise does not makes walls swallow doors.
 COUNTS = 0.7
@@ -140,7 +141,8 @@ class _Search:
         self.scales = np.empty(0)
         if math.isfinite(self._white) and self._white > 0:
             lowest = max(LOWEST * self._white, LEAST_EPSILON)
-            steps = math.floor(math.log(HIGHEST * self.scatter / lowest) / math.log(STEP))
+            highest = max(HIGHEST * self.scatter, TRIED_EPSILON)
+            steps = math.floor(math.log(highest / lowest) / math.log(STEP))
             self.scales = lowest * STEP ** np.arange(-APART, max(steps, APART) + 1 + APART)
 
     def why_not(self) -> str:
@@ -178,7 +180,7 @@ class _Search:
         if not steady.max() > 0.0:
             return self.nothing("No ε that fits this noise gives steady lines.")
         sure = math.sqrt(max(self.noise.roughness**2 - (SURE * self._white) ** 2, 0.0))
-        usual = math.hypot(WHITE * self._white, ROUGH * sure)
+        usual = max(math.hypot(WHITE * self._white, ROUGH * sure), FINE_EPSILON)
         best = int(np.argmax(steady - PULL * np.abs(np.log(tried / usual))))
         if tried[best] > MOST_EPSILON:
             return self.nothing(
