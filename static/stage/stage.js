@@ -2,7 +2,7 @@
 // The scene: viser's page in a frame of the same origin. Its camera is set here; picking is the server's.
 import { h, setText } from "../widgets/dom.js";
 import { closePopovers } from "../widgets/menu.js";
-import { cameraIn, clip, lockPlan, NEAREST, PLAN_FOV_DEG, planOf, rad, unlock } from "./viser.js";
+import { cameraIn, hasContent, clip, lockPlan, NEAREST, PLAN_FOV_DEG, planOf, rad, unlock } from "./viser.js";
 
 /** @typedef {import("../wire.js").Box} Box */
 /** @typedef {import("./viser.js").Plan} Plan */
@@ -140,8 +140,10 @@ export class Stage {
     else this.#unlock();
   }
 
+  /** Shows the scene as soon as there is something in it. */
   #show() {
-    this.frame.classList.add("ready");
+    if (hasContent(this.frame)) this.frame.classList.add("ready");
+    else requestAnimationFrame(() => this.#show());
     this.#drawBar();
   }
 

@@ -20,6 +20,12 @@ export function cameraIn(frame) {
   return control && camera ? { control, camera, mutable } : null;
 }
 
+/** Whether viser has heard what to draw; before, it shows axes on white. @param {HTMLIFrameElement} frame */
+export function hasContent(frame) {
+  const tree = /** @type {any} */ (frame.contentWindow)?.__viserSceneTree;
+  return Boolean(tree?.getState()["/points"]);
+}
+
 /** The point it looks at from straight above; null if it looks from elsewhere. @param {Found} found @returns {Plan | null} */
 export function planOf({ control, camera }) {
   const up = toWorld(camera.up);
