@@ -32,7 +32,7 @@ from ..view import Against, View, all_weights
 from .turns import Turns
 
 # Scores that are computed only if they are shown, or in Inspect.
-DEEP = ("suspicion", "disputed", "blank", "unstable")
+DEEP = ("suspicion", "disputed", "lapsed", "blank", "unstable")
 # A quick survey of this many beams takes a few milliseconds on one core: too short to be worth stopping.
 GLANCE_BEAMS = 400_000
 LEAST_STRIDE = 4

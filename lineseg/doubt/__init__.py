@@ -98,8 +98,8 @@ SCORES = {
         Score(
             "gone", "interrupted lines", "m",
             "Total length of the segments that the previous and the next frame have and this one lacks, after "
-            "correcting for motion; of these, once it is known, only what is undisputed in the previous frame.",
-            "higher", least=0.5, weight=3.0,
+            "correcting for motion.",
+            "higher", least=0.3, weight=0.0,
         ),
         Score(
             "jump", "jump of the count", "",
@@ -123,6 +123,11 @@ SCORES = {
             "Lines missed or false, on average, if each of four careful extractions were the truth: they use 0.8 to "
             "1.6 times the ε that fits this laser, and join the pieces of a wall.",
             "higher", least=1.0, weight=1.0, counts=True,
+        ),
+        Score(
+            "lapsed", "undisputed lines interrupted", "m",
+            "Total length of the interrupted lines that three of the same four extractions find in the previous frame.",
+            "higher", least=0.5, weight=3.0,
         ),
         Score(
             "blank", "walls of a frame without lines", "",

@@ -137,7 +137,7 @@ def with_disputes(
     progress: Callable[[int, int], None] | None = None,
     threads: int | None = None,
 ) -> Survey:
-    """The survey with the scores "disputed" and "blank", and with "gone" as the committee confirms it; see `survey`.
+    """The survey with the scores "disputed", "lapsed" and "blank", by the committee of the recording; see `survey`.
 
     The first call for a recording takes about as long as four surveys, any later one milliseconds. Raises ValueError
     for a survey without scores, `Cancelled` when stopped.
@@ -152,7 +152,7 @@ def disputed(recording: Recording, base: Survey, committee: Committee, frames: N
     """The survey of some frames of what the committee knows, with the scores that it gives them.
 
     recording: these frames; frames: (len(recording),) their numbers for the committee. A survey of triples of
-    neighbouring frames has the right "gone" in the middle of each.
+    neighbouring frames has the right "lapsed" in the middle of each.
     """
     assert base.scores is not None
     frames, beams = np.asarray(frames, np.int64), np.diff(recording.offsets).astype(np.int64)
@@ -166,11 +166,11 @@ def disputed(recording: Recording, base: Survey, committee: Committee, frames: N
     scores, judges = base.scores.copy(), len(committee.walls)
     scores[:, COLUMN.disputed] = faults / judges
     scores[:, COLUMN.blank] = np.where(np.diff(base.offsets) == 0, seen / judges, 0.0)
-    gone = scores[:, COLUMN.gone].copy()
+    lapsed = scores[:, COLUMN.gone].copy()
     most = int(np.diff(base.offsets).max(initial=0))
     marks = np.empty((2, most), np.bool_)
-    confirm_gone(base.segments, base.offsets, views_of(recording), votes, CONFIRMING, np.empty(VOTES), marks, gone)
-    scores[:, COLUMN.gone] = gone
+    confirm_gone(base.segments, base.offsets, views_of(recording), votes, CONFIRMING, np.empty(VOTES), marks, lapsed)
+    scores[:, COLUMN.lapsed] = lapsed
     return replace(base, scores=scores)
 
 
@@ -287,15 +287,15 @@ def segment_of(wall, segments, beams):
 
 
 @entry_kernel
-def confirm_gone(segments, offsets, views, votes, confirming, memory, marks, gone):
-    """Leave in `gone` only the length of the segments that so many judges find in the previous frame [m]."""
+def confirm_gone(segments, offsets, views, votes, confirming, memory, marks, lapsed):
+    """Leave in `lapsed`, at first the score "gone", what so many judges find in the previous frame [m]."""
     for frame in range(1, len(offsets) - 2):
-        if gone[frame] > 0.0:
+        if lapsed[frame] > 0.0:
             here = segments[offsets[frame] : offsets[frame + 1]]
             before = segments[offsets[frame - 1] : offsets[frame]]
             behind = segments[offsets[frame + 1] : offsets[frame + 2]]
             mark_frame(before, here, behind, views[frame], memory, marks[0], marks[1])
-            gone[frame] = 0.0
+            lapsed[frame] = 0.0
             for i in range(len(before)):
                 if marks[1, i] and votes[offsets[frame - 1] + i] >= confirming:
-                    gone[frame] += before[i].length
+                    lapsed[frame] += before[i].length

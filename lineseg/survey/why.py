@@ -47,6 +47,7 @@ WITH_SENTENCE = frozenset(
         "jolt",
         "unstable",
         "disputed",
+        "lapsed",
         "blank",
     ]
 )
@@ -173,8 +174,6 @@ def _beside(scene: _Scene) -> Iterator[Remark]:
         text = f"segment {i}, {row['length']:.1f} m, appears only in this frame"
         yield Remark("brief", text, int(row["first"]), int(row["last"]))
     walls, beams_before = scene.walls(scene.frame - 1), len(scene.recording[scene.frame - 1])
-    for i in np.flatnonzero(gone):
-        gone[i] = confirmed(before[i], walls, scene.params, beams_before)
     traced = trace(scene.scan, scene.params) if gone.any() else None
     for row in before[gone]:
         ends = moved(row, to_here)
@@ -184,7 +183,8 @@ def _beside(scene: _Scene) -> Iterator[Remark]:
         because = f" – {reason}" if reason else ""
         text = f"a {row['length']:.1f} m line of both neighbouring frames is missing, {place}{because}"
         span = (int(beams[0]), int(beams[-1])) if len(beams) else (-1, -1)
-        yield Remark("gone", text, *span, ghosts=(ends,))
+        sure = confirmed(row, walls, scene.params, beams_before)
+        yield Remark("lapsed" if sure else "gone", text, *span, ghosts=(ends,))
     if scene.score("jump") > SCORES["jump"].least:
         counts = f"{len(before)} in the previous frame, {len(behind)} in the next"
         yield Remark("jump", f"{len(scene.rows)} segments here, {counts}")

@@ -126,7 +126,7 @@ def test_a_lasting_fault_counts_half():
 def test_unknown_scores_count_for_nothing():
     scores = column("jolt", np.arange(20.0))
     unknown = scores.copy()
-    unknown[:, [NAMES.index(name) for name in ("unstable", "disputed", "blank")]] = np.nan
+    unknown[:, [NAMES.index(name) for name in ("unstable", "disputed", "lapsed", "blank")]] = np.nan
     assert suspicion(unknown).tolist() == suspicion(scores).tolist()
 
 

@@ -25,7 +25,7 @@ def assert_agrees(recording, params=None, frames=None):
     result = survey(recording, params)
     assert len(result) == len(recording)
     assert result.scores.shape == (len(recording), len(SCORES))
-    later = np.isin(list(SCORES), ("unstable", "disputed", "blank"))
+    later = np.isin(list(SCORES), ("unstable", "disputed", "lapsed", "blank"))
     assert np.isfinite(result.scores[:, ~later]).all()
     assert np.isnan(result.scores[:, later]).all()
     for frame in range(len(recording)) if frames is None else frames:

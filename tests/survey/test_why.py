@@ -15,15 +15,15 @@ from lineseg.doubt import SCORES
 SAMPLES = Path(__file__).parents[2] / "sample_scans"
 
 EXPECTED = {
-    "split_wall": {"splits", "gone", "unstable", "misses", "coverage"},
-    "missed_wall": {"misses", "gone"},
+    "split_wall": {"splits", "gone", "lapsed", "unstable", "misses", "coverage"},
+    "missed_wall": {"misses", "gone", "lapsed"},
     "bridged_door": {"gap"},
     "noise_burst": {"coverage"},
     "shifted_sensor": {"jolt"},
     "dropped_sector": {"invalid"},
     "lost_beams": {"invalid"},
-    "ghost_wall": {"brief", "gone"},
-    "bent_wall": {"misses", "gone", "near"},
+    "ghost_wall": {"brief", "gone", "lapsed"},
+    "bent_wall": {"misses", "gone", "lapsed", "near"},
     "quantised": {"misses", "coverage"},
 }
 
@@ -53,7 +53,7 @@ def test_a_planted_failure_is_named(case, name):
 def test_the_most_doubtful_comes_first(case):
     recording, where, scores = case
     assert why(recording, where["shifted_sensor"], FAILING, scores)[0].score == "jolt"
-    assert why(recording, where["dropped_sector"], FAILING, scores)[0].score in ("invalid", "gone")
+    assert why(recording, where["dropped_sector"], FAILING, scores)[0].score in ("invalid", "lapsed")
 
 
 def test_a_score_without_a_sentence_of_its_own_is_told_by_label_and_value(case, monkeypatch):
@@ -87,14 +87,14 @@ def test_a_frame_without_a_return_is_handled():
     recording = Recording.from_scans([wall_ahead(), wall_ahead(), blind, wall_ahead(), wall_ahead()])
     said = {remark.score: remark.text for remark in why(recording, 2)}
     assert said["invalid"] == "100% of the beams have no return (nearby frames: 0%); the longest run is beams 0–179"
-    assert "is missing, beams 1–178 – most of its beams have no return" in said["gone"]
+    assert "is missing, beams 1–178 – most of its beams have no return" in said["lapsed"]
     assert why(Recording.from_scans([Scan(np.empty(0), np.empty(0))]), 0) == ()
 
 
 def test_a_line_that_is_missing_says_what_refused_it():
     rough = Scan(wall_ahead().ranges + np.where(np.arange(180) % 2, 0.05, -0.05), wall_ahead().bearings)
     recording = Recording.from_scans([wall_ahead(), wall_ahead(), rough, wall_ahead(), wall_ahead()])
-    (gone,) = (remark.text for remark in why(recording, 2) if remark.score == "gone")
+    (gone,) = (remark.text for remark in why(recording, 2) if remark.score == "lapsed")
     assert "m line of both neighbouring frames is missing, beams" in gone
     assert "seed refused by" in gone
 
@@ -104,7 +104,7 @@ def test_other_methods_have_the_same_scores(case, name):
     recording, where, _ = case
     params = EXTRACTORS[name].params_type()
     said = {remark.score for remark in why(recording, where["dropped_sector"], params)}
-    assert said & {"invalid", "gone", "coverage", "change"}
+    assert said & {"invalid", "gone", "lapsed", "coverage", "change"}
 
 
 def test_a_frame_that_is_not_there_is_refused():
