@@ -908,10 +908,26 @@ export interface Find {
 }
 
 /**
+ * A decision whose numbers texts can name. params: override those of the lesson, instead of those of the text.
+ *
+ * method: of this method, with its default thresholds.
+ */
+export interface Named {
+  kind: string;
+  check: string | null;
+  direction: 1 | -1 | null;
+  beam: number | null;
+  nth: number;
+  method: string | null;
+  params: Record<string, number> | null;
+}
+
+/**
  * One text and what the page shows with it: the decision found, or the whole result.
  *
- * params: override those of the lesson. method: shows the whole result of this method, with its default thresholds,
- * instead of region growing; it cannot be combined with find or params.
+ * near: beams whose points fill the stage; none: all of them. params: override those of the lesson. method: shows
+ * the whole result of this method, with its default thresholds, instead of region growing; it cannot be combined
+ * with find or params.
  */
 export interface Step {
   text: string;
@@ -919,19 +935,21 @@ export interface Step {
   find: Find | null;
   params: Record<string, number>;
   selected: number | null;
+  near: number[];
 }
 
 /**
  * Conditions that must all hold for the task to be done.
  *
- * lines: number of lines, [least, most]. together: pairs of beams in one line; apart: pairs in different lines;
- * inside, outside: beams in some line, in no line. changed: the only thresholds that may differ from the lesson's;
- * at least one must. at: kind of the shown decision. selected: beams, one of which must be selected. count: number
- * of such decisions, [least, most].
+ * lines: number of lines, [least, most]. together: pairs of beams in one line; either: pairs, one of which must be
+ * in one line; apart: pairs in different lines; inside, outside: beams in some line, in no line. changed: the only
+ * thresholds that may differ from the lesson's; at least one must. at: kind of the shown decision. selected: beams,
+ * one of which must be selected. count: number of such decisions, [least, most].
  */
 export interface Goal {
   lines: [number, number] | null;
   together: [number, number][];
+  either: [number, number][];
   apart: [number, number][];
   inside: number[];
   outside: number[];
@@ -950,7 +968,11 @@ export interface Task {
   params: Record<string, number>;
 }
 
-/** params: thresholds that differ from USUAL and the defaults; knobs: thresholds that the reader may change. */
+/**
+ * params: thresholds that differ from USUAL and the defaults; knobs: thresholds that the reader may change.
+ *
+ * Texts write numbers as placeholders (lesson_numbers.py); decisions: those that they name.
+ */
 export interface Lesson {
   title: string;
   about: string;
@@ -958,10 +980,12 @@ export interface Lesson {
   frame: number;
   params: Record<string, number>;
   knobs: string[];
+  decisions: Record<string, Named>;
   steps: Step[];
   task: Task;
 }
 
+/** accepted: of each threshold of the task, the least and the largest value that solves it. */
 export interface NamedLesson {
   title: string;
   about: string;
@@ -969,9 +993,11 @@ export interface NamedLesson {
   frame: number;
   params: Record<string, number>;
   knobs: string[];
+  decisions: Record<string, Named>;
   steps: Step[];
   task: Task;
   id: string;
+  accepted: Record<string, [number, number]>;
 }
 
 /** broken: one sentence for each file that is not a valid lesson. */

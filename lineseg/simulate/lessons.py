@@ -1,4 +1,4 @@
-"""Eight one-frame recordings. Each shows one thing about region growing with the thresholds of the paper."""
+"""Nine one-frame recordings. Each shows one thing about region growing with the thresholds of the paper."""
 
 from __future__ import annotations
 
@@ -96,5 +96,11 @@ LESSONS = (
         "A wall with a rough patch: growth stops at it, and starts anew behind it",
         _walls([(3.0, 2.0), (0.4, 2.0)], [(-0.2, 2.0), (-3.0, 2.0)]) + polyline([(0.4, 2.0), (-0.2, 2.0)], ROUGH),
         _fan(30, 150, sigma=0.006),
+    ),
+    Lesson(
+        "9_wide_corner",
+        "Two walls that differ by 15 degrees: their lines share points and are cut between them",
+        _shallow_corner(radians(15)),
+        _fan(35, 145, sigma=0.004),
     ),
 )

@@ -152,12 +152,21 @@ function predictedPoint({ beam, limit, value }, trace, line, text) {
 function fitted({ first, last }, trace, text) {
   const { n, x, y, xx, xy, yy, phi, line } = fit(trace, trace.span(first, last));
   const [a, b, c] = line;
+  const squares = trace.span(first, last).reduce((sum, beam) => sum + trace.distance(beam, line) ** 2, 0);
   return {
     title: text.fit(n),
     rows: [
       math(term("mean", "x̄"), "=", num(x), words(",  "), term("mean", "ȳ"), "=", num(y)),
       math("S_xx =", num(xx), words(",  "), "S_xy =", num(xy), words(",  "), "S_yy =", num(yy)),
-      math(words("tan 2φ"), "=", fraction("2 S_xy", "S_xx − S_yy"), "→ φ =", num((phi * 180) / Math.PI, 1), words("°")),
+      math(row("Σ", power(term("distance", "d"), "2")), "=", num(squares, 6), words(" m²")),
+      math(
+        words(text.solved),
+        "=",
+        fraction("2 S_xy", "S_xx − S_yy"),
+        "→ φ =",
+        num((phi * 180) / Math.PI, 1),
+        words("°"),
+      ),
       math(
         "(",
         term("normal", "a , b"),

@@ -4,7 +4,7 @@ import { h, setText } from "../widgets/dom.js";
 import { createCharts } from "./charts.js";
 import { fetchInto } from "./fetched.js";
 import { createFormulas } from "./formulas.js";
-import { boxAround } from "./geometry.js";
+import { boxAround, boxOf } from "./geometry.js";
 import { termAt } from "./hit.js";
 import { Ladder } from "./ladder.js";
 import { Lessons } from "./lessons.js";
@@ -98,7 +98,7 @@ class Learn {
       answers: this.#predict.buttons,
       extras: [views, this.#trail, this.#predict.toggle, this.#predict.score],
     });
-    this.#lessons = new Lessons(words, { onChange, onDraw, onGo });
+    this.#lessons = new Lessons(words, { onChange, onDraw, onGo, onFrame: (near, state) => this.#frame(near, state) });
     panel.setAttribute("aria-label", text.panel);
     const method = h("div", { class: "method" }, this.#other, this.#listingPlace, this.#formulas.element);
     panel.append(this.#lessons.element, method);
@@ -210,6 +210,13 @@ class Learn {
   zoom() {
     const event = this.#event;
     if (event && this.#trace) this.#view.fit(boxAround(this.#trace, event));
+  }
+
+  /** Fills the stage with these beams, or with the whole scan. @param {readonly number[]} near @param {State} state */
+  #frame(near, state) {
+    const points = near.map((beam) => this.#trace?.point(beam) ?? null).filter((point) => point !== null);
+    const box = points.length ? boxOf(points, 0) : (state.bounds ?? state.extent);
+    if (box) this.#view.fit(box);
   }
 
   /** @param {boolean} yes */

@@ -14,23 +14,12 @@ import { Reader } from "./reader.js";
 /** @typedef {import("../wire.js").Params} Params */
 /** @typedef {import("../view/store.js").Patch} Patch */
 /** @typedef {import("./trace.js").Trace} Trace */
-/** @typedef {import("./goals.js").Find} Find */
-/** @typedef {{text: string, find: Find | null, method: string | null, params: Params, selected: number | null}} LessonStep */
-/** @typedef {{text: string, hint: string, done: string, goal: import("./goals.js").Goal, params: Params}} Task */
-/**
- * @typedef {object} Lesson
- * @property {string} id
- * @property {string} title
- * @property {string} about
- * @property {string} recording
- * @property {number} frame
- * @property {Params} params
- * @property {string[]} knobs
- * @property {LessonStep[]} steps
- * @property {Task} task
- */
+/** @typedef {import("../wire.js").Find} Find */
+/** @typedef {import("../wire.js").Step} LessonStep */
+/** @typedef {import("../wire.js").NamedLesson} Lesson */
 /** @typedef {{lessons: Lesson[], broken: string[]}} Told */
-/** @typedef {{onChange: (patch: Patch, gesture?: string | null) => void, onGo: (step: number | null) => void, onDraw: () => void}} Handlers */
+/** @typedef {{onChange: (patch: Patch, gesture?: string | null) => void, onGo: (step: number | null) => void, onDraw: () => void,
+ *            onFrame: (near: readonly number[], state: State) => void}} Handlers onFrame: these beams, or all, are to fill the stage */
 
 // Every lesson is about this method; a step may show another for comparison.
 const METHOD = "region-growing";
@@ -209,19 +198,26 @@ export class Lessons {
     if (this.#pending && state.method === method && same(params, state.params)) {
       const target = this.#pending.find;
       this.#pending = null;
+      this.#handlers.onFrame(lesson.steps.at(this.#at)?.near ?? [], state);
       const index = target ? find(trace, target) : -1;
       this.#handlers.onGo(index >= 0 ? index : null);
     }
     if (!this.#pending && this.#at === lesson.steps.length && !this.#solved) this.#check(lesson, state, trace, params);
   }
 
-  /** Whether the task is done. @param {Lesson} lesson @param {State} state @param {Trace} trace @param {Params} start */
-  #check({ id, task }, state, trace, start) {
+  /** Whether the task is done; nothing is said before the first attempt. @param {Lesson} lesson @param {State} state @param {Trace} trace @param {Params} start */
+  #check({ id, task: { goal, done }, accepted }, state, trace, start) {
     const { lesson: text, goals } = this.#words.learn;
-    const lacks = missing(task.goal, state, trace, start, state.step, goals);
+    const lacks = missing({ goal, accepted }, state, trace, start, this.#knobs, goals);
     this.#solved = lacks.length === 0;
-    this.#reader.judge(this.#solved, this.#solved ? `${text.right} ${task.done}` : `${text.notYet} ${lacks[0]}`);
+    const untouched = state.step === null && state.selected === null && same(start, state.params);
+    if (!this.#solved && untouched) return this.#reader.judge(false, "");
+    this.#reader.judge(
+      this.#solved,
+      this.#solved ? `${text.right} ${done}` : [text.notYet, ...lacks.slice(0, 2)].join(" "),
+    );
     if (this.#solved) this.#list.markDone(id);
+    return undefined;
   }
 }
 

@@ -92,7 +92,7 @@ export class Steps {
   /** @param {number} by @param {boolean} playing */
   #move(by, playing) {
     if (!this.#count) return;
-    if (this.#at === null) return this.go(by > 0 ? 0 : this.#last);
+    if (this.#at === null) return this.go(by === Infinity || by === -1 ? this.#last : 0);
     const next = this.#course.moved ? this.#course.moved(this.#at, by, playing) : this.#at + by;
     if (next === null) return this.stop();
     return this.go(next);

@@ -70,7 +70,7 @@ export const learnText = {
     doneMark: "done",
   },
   goals: {
-    nothingChanged: "You have not changed a threshold yet.",
+    nothingChanged: "All thresholds still have the values that this lesson gave them.",
     wrongThreshold: "You changed a threshold that this task does not ask for. Undo that (Ctrl+Z).",
     onlyOne: "You changed more than one threshold; change only one.",
     lines: (/** @type {number} */ found, /** @type {[number, number]} */ [least, most]) =>
@@ -81,9 +81,26 @@ export const learnText = {
       `Beams ${one} and ${other} are not in two lines.`,
     inside: (/** @type {number} */ beam) => `Beam ${beam} is no longer in a line.`,
     outside: (/** @type {number} */ beam) => `Beam ${beam} is in a line.`,
-    at: "This is not the decision that the task asks for.",
+    either: (/** @type {readonly [number, number][]} */ pairs) =>
+      `Neither ${pairs.map(([one, other]) => `beams ${one} and ${other}`).join(" nor ")} are in one line.`,
+    tooSmall: (/** @type {string} */ symbol) => `${symbol} is too small.`,
+    tooLarge: (/** @type {string} */ symbol) => `${symbol} is too large.`,
+    useless: (/** @type {string} */ symbol) => `${symbol} alone cannot do it.`,
+    noDecision: "Step to a decision first.",
+    otherKind: (/** @type {string} */ kind, /** @type {string} */ wanted) =>
+      `This decision is “${kind}”; look for “${wanted}”.`,
+    otherCheck: (/** @type {string} */ symbol, /** @type {string} */ wanted) =>
+      `Here ${symbol} decided, not ${wanted}.`,
+    otherWay: (/** @type {number} */ direction) => `Here the line grew ${direction > 0 ? "forward" : "backward"}.`,
+    another: (/** @type {string} */ kind) => `This is “${kind}”, but of another line or point.`,
+    later: "The right one comes later.",
+    earlier: "The right one comes earlier.",
+    bothWays: "There are right ones before and after this one.",
     selectOne: "Select a point first.",
     notThis: (/** @type {number} */ beam) => `Beam ${beam} is not the answer.`,
+    higher: "The right one has a higher number.",
+    lower: "The right one has a lower number.",
+    between: "There are right ones with lower and with higher numbers.",
     count: (/** @type {number} */ n, /** @type {string} */ kind) => `“${kind}” occurs ${n} times.`,
   },
   formulas: {
@@ -106,7 +123,8 @@ export const learnText = {
     }),
     toLine: "Distance from a point to the line (Eqs. 1, 3)",
     predicted: "Distance to the predicted point (Eqs. 4–6)",
-    fit: (/** @type {number} */ n) => `The line through ${n} points (Eq. 2)`,
+    fit: (/** @type {number} */ n) => `The line through ${n} points with the smallest Σd² (Eq. 2)`,
+    solved: "solved by  tan 2φ",
     accepted: "Enough points, and long enough?",
     angle: "Angle between the two lines",
     spread: "RMS distance of all points from one common line",

@@ -300,7 +300,8 @@ def to_the_task(new_tab, lesson: str):
     while tab.page.get_by_role("button", name="Hint").is_hidden():
         tab.until("true")
         tab.page.locator(".lesson-foot .primary").click()
-    says(tab, "Not yet.")
+    tab.until("s.step === null && s.selected === null")
+    assert text_of(tab, ".lesson-verdict") == ""
     return tab
 
 
@@ -329,29 +330,71 @@ def value(name: str, number: float):
     return type_it
 
 
+def press(*keys: str):
+    def press_them(tab) -> None:
+        for key in keys:
+            tab.page.keyboard.press(key)
+
+    return press_them
+
+
+# For each lesson: wrong answers with what is said of them, and a right one.
 TASKS = {
-    "01_seed": (lambda tab: jump(tab, "refusal", 3), lambda tab: jump(tab, "refusal", 2)),
-    "02_delta": (value("epsilon", 0.05), lambda tab: (value("epsilon", 0.03)(tab), value("delta", 0.2)(tab))),
-    "03_growth": (lambda tab: jump(tab, "refusal"), lambda tab: run_to(tab, 102)),
-    "04_collinear": (value("epsilon", 0.1), value("epsilon", 0.02)),
-    "05_corner": (lambda tab: run_to(tab, 60), lambda tab: run_to(tab, 87)),
-    "06_endpoints": (lambda tab: jump(tab, "line"), lambda tab: tab.page.keyboard.press("End")),
-    "07_epsilon": (value("epsilon", 0.08), value("epsilon", 0.15)),
-    "08_how_much": (value("min_points", 5), lambda tab: (value("min_points", 10)(tab), value("min_length", 0.1)(tab))),
-    "09_shallow": (value("epsilon", 0.1), lambda tab: (value("epsilon", 0.03)(tab), value("merge_angle", 0.05)(tab))),
-    "10_curve": (value("min_length", 3.6), value("min_length", 2.0)),
-    "11_doorway": (value("max_dropout", 20), value("max_dropout", 30)),
-    "12_split_and_merge": (lambda tab: run_to(tab, 60), lambda tab: run_to(tab, 36)),
+    "01_seed": (
+        [(lambda tab: jump(tab, "refusal", 3), "Here ε decided, not δ. The right one comes later.")],
+        lambda tab: jump(tab, "refusal", 2),
+    ),
+    "02_delta": (
+        [(value("epsilon", 0.05), "You changed a threshold"), (value("delta", 0.12), "δ is too small.")],
+        value("delta", 0.3),
+    ),
+    "03_growth": (
+        [(lambda tab: jump(tab, "refusal"), "This is “growth stopped”, but of another line or point. The right one")],
+        lambda tab: run_to(tab, 102),
+    ),
+    "04_collinear": (
+        [(value("merge_angle", 0.05), "α_merge is too large."), (value("epsilon", 0.1), "ε is too large.")],
+        value("epsilon", 0.02),
+    ),
+    "05_corner": (
+        [(lambda tab: run_to(tab, 60), "Beam 60 is not the answer. The right one has a lower number.")],
+        lambda tab: run_to(tab, 56),
+    ),
+    "06_endpoints": (
+        [(press("End"), "This is “endpoints”, but of another line or point. The right one comes earlier.")],
+        press("ArrowLeft"),
+    ),
+    "07_epsilon": ([(value("epsilon", 0.08), "ε is too small.")], value("epsilon", 0.15)),
+    "08_how_much": (
+        [(value("min_points", 5), "P_min alone cannot do it."), (value("min_length", 0.5), "L_min is too large.")],
+        value("min_length", 0.1),
+    ),
+    "09_shallow": ([(value("merge_angle", 0.08), "α_merge is too large.")], value("merge_rms", 1.2)),
+    "10_curve": (
+        [(value("min_length", 3.6), "L_min is too large."), (value("min_length", 0.7), "L_min is too small.")],
+        value("min_length", 2.0),
+    ),
+    "11_doorway": ([(value("max_dropout", 20), "D_max is too small.")], value("max_dropout", 30)),
+    "12_split_and_merge": (
+        [(lambda tab: run_to(tab, 60), "Beam 60 is not the answer. There are right ones with lower and")],
+        lambda tab: run_to(tab, 36),
+    ),
 }
 
 
 @pytest.mark.parametrize("lesson", TASKS)
-def test_a_task_refuses_the_wrong_answer_and_takes_the_right_one(new_tab, lesson):
-    wrong, right = TASKS[lesson]
+def test_a_task_says_on_which_side_a_wrong_answer_is_and_takes_the_right_one(new_tab, lesson):
+    wrongs, right = TASKS[lesson]
     tab = to_the_task(new_tab, lesson)
-    wrong(tab)
-    tab.until("true")
-    says(tab, "Not yet.")
+    begun = tab.state["params"]
+    for wrong, why in wrongs:
+        wrong(tab)
+        tab.until("true")
+        says(tab, f"Not yet. {why}".replace("_", ""))
+        for name, number in begun.items():
+            if tab.state["params"][name] != number:
+                value(name, number)(tab)
+                tab.until(f"s.params.{name} === {number}")
     right(tab)
     says(tab, "Done.")
 

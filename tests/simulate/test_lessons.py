@@ -23,9 +23,9 @@ def walls_of(scan, found):
     return [set(scan.wall[found.labels == index].tolist()) for index in range(len(found.segments))]
 
 
-def test_there_are_eight_lessons_of_one_frame():
+def test_there_are_nine_lessons_of_one_frame():
     assert sorted(path.stem for path in FOLDER.glob("*.npz")) == [each.name for each in LESSONS]
-    assert len(LESSONS) == 8
+    assert len(LESSONS) == 9
     assert all(len(each.recording()) == 1 for each in LESSONS)
 
 

@@ -223,4 +223,4 @@ def test_samples_come_first_and_lessons_in_their_order(tmp_path: Path):
         assert labels[:2] == [("Samples", "Hallway (simulated)"), ("Samples", "Laboratory (simulated)")]
         lessons = [label for group, label in labels if group == "Lessons"]
         assert lessons[0] == "1 perfect corner"
-        assert len(lessons) == 8
+        assert len(lessons) == 9

@@ -5,30 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from lineseg_app.places import data_folder
-from lineseg_app.shelf.lessons import Find, NamedLesson, lesson_files, read_lessons
+from lineseg_app.shelf.lesson_numbers import found
+from lineseg_app.shelf.lessons import NamedLesson, lesson_files, read_lessons, scan_of
 from live import Address
 
-from lineseg import Params, Scan, Trace, open_recording, trace
+from lineseg import Params, trace
 
 LESSONS = read_lessons(lesson_files())
-
-
-def scan_of(lesson: NamedLesson) -> Scan:
-    kind, _, name = lesson.recording.partition(":")
-    folder = data_folder("sample_scans") / ("lessons" if kind == "lesson" else "")
-    return open_recording(folder / f"{name}.npz")[lesson.frame]
-
-
-def matches(traced: Trace, find: Find) -> list[int]:
-    return [
-        decision.index
-        for decision in traced
-        if decision.kind == find.kind
-        and find.check in (None, decision.check)
-        and find.direction in (None, decision.direction)
-        and find.beam in (None, decision.beam)
-    ]
 
 
 def test_every_file_is_a_lesson():
@@ -43,8 +26,8 @@ def test_every_decision_that_a_lesson_shows_exists(lesson: NamedLesson):
     for step in lesson.steps:
         params = base.but(**step.params)
         if step.find is not None:
-            found = matches(trace(scan, params), step.find)
-            assert -len(found) <= step.find.nth < len(found), step.text
+            matching = found(trace(scan, params), step.find)
+            assert -len(matching) <= step.find.nth < len(matching), step.text
         assert step.selected is None or step.selected < len(scan)
 
 
@@ -63,6 +46,22 @@ def test_a_file_that_is_not_a_lesson_is_named_with_its_error(tmp_path: Path):
     assert [lesson.id for lesson in told.lessons] == [good.stem]
     assert [why.split(":")[0] for why in told.broken] == ["bad.json", "worse.json"]
     assert "abuot" in told.broken[0] or "about" in told.broken[0]
+
+
+@pytest.mark.parametrize(
+    ("written", "complaint"),
+    [
+        ("{epsilom}", "step 1: {epsilom} is not known; there is delta.beam, delta.count, beams"),
+        ("{beam}", "step 1: {beam} is not known"),
+        ("{delta.bean}", "step 1: {delta.bean} is not known"),
+        ("{epsilon:inch}", "step 1: {epsilon:inch} has no unit of mm, cm, deg"),
+    ],
+)
+def test_a_number_that_cannot_be_put_in_is_named_with_what_is_known(tmp_path: Path, written: str, complaint: str):
+    text = lesson_files()[0].read_text("utf-8").replace("{returns}", written)
+    (tmp_path / "mine.json").write_text(text, "utf-8")
+    (why,) = read_lessons([tmp_path / "mine.json"]).broken
+    assert why.startswith(f"mine.json: {complaint}")
 
 
 def test_the_server_offers_the_lessons_in_order(server: Address):
