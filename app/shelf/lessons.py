@@ -170,6 +170,7 @@ def _read(id: str, text: str) -> NamedLesson:
     lesson = Lesson.model_validate_json(text)
     lesson = lesson.model_copy(update={"params": USUAL | lesson.params})
     scan, task, usual = scan_of(lesson), lesson.task, Params().but(**lesson.params)
+    _check_beams(lesson, len(scan))
     steps = []
     for number, step in enumerate(lesson.steps, 1):
         params = usual.but(**step.params)
@@ -180,6 +181,18 @@ def _read(id: str, text: str) -> NamedLesson:
     words = {name: _filled(numbers, getattr(task, name), name) for name in ("text", "hint", "done")}
     lesson = lesson.model_copy(update={"steps": tuple(steps), "task": task.model_copy(update=words)})
     return NamedLesson(id=id, accepted=accepted(task.goal, scan, params), **lesson.model_dump())
+
+
+def _check_beams(lesson: Lesson, beams: int) -> None:
+    """Raises ValueError, naming the place, for a beam that the scan does not have."""
+    goal = lesson.task.goal
+    pairs = [beam for pair in (*goal.together, *goal.either, *goal.apart) for beam in pair]
+    places = {f"step {k}": [*step.near, step.selected or 0] for k, step in enumerate(lesson.steps, 1)}
+    places["goal"] = [*pairs, *goal.inside, *goal.outside, *goal.selected]
+    for place, named in places.items():
+        for beam in named:
+            if beam >= beams:
+                raise ValueError(f"{place}: there is no beam {beam}; {lesson.recording} has beams 0 to {beams - 1}")
 
 
 def _filled(numbers: Numbers, text: str, place: str) -> str:

@@ -64,6 +64,13 @@ def test_a_number_that_cannot_be_put_in_is_named_with_what_is_known(tmp_path: Pa
     assert why.startswith(f"mine.json: {complaint}")
 
 
+def test_a_beam_that_the_scan_does_not_have_is_named_with_its_place(tmp_path: Path):
+    text = lesson_files()[4].read_text("utf-8").replace('"selected": [\n        56', '"selected": [\n        111')
+    (tmp_path / "mine.json").write_text(text, "utf-8")
+    (why,) = read_lessons([tmp_path / "mine.json"]).broken
+    assert why == "mine.json: goal: there is no beam 111; lesson:9_wide_corner has beams 0 to 110"
+
+
 def test_the_server_offers_the_lessons_in_order(server: Address):
     told = server.get("/api/lessons").json()
     assert [lesson["id"] for lesson in told["lessons"]] == [file.stem for file in lesson_files()]
