@@ -11,7 +11,7 @@ def test_a_link_without_weights_gives_the_defaults(new_tab):
     tab = new_tab("#mode=inspect&recording=sample:hallway&weights=gap:4")
     assert tab.until("s.weights.gap === 4")["weights"]["gap"] == 4
     tab.page.evaluate("location.hash = '#mode=inspect&recording=sample:hallway&frame=3'")
-    assert tab.until("s.frame === 3")["weights"]["gap"] == 1
+    assert tab.until("s.frame === 3")["weights"]["gap"] == 0
     tab.page.wait_for_function("!location.hash.includes('weights')")
 
 
@@ -22,7 +22,7 @@ def test_weights_set_back_to_their_defaults_leave_the_link(new_tab):
     slider = tab.page.locator(".weights input").first
     assert slider.get_attribute("max") == "10"
     tab.page.get_by_role("button", name="Default weights").click()
-    tab.until("s.weights.gap === 1")
+    tab.until("s.weights.gap === 0")
     tab.page.wait_for_function("!location.hash.includes('weights')")
 
 

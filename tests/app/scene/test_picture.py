@@ -265,6 +265,6 @@ def test_every_method_is_drawn_and_told_in_plain_numbers_at_every_step(method):
         drawn = picture(view, recording, found, bounds)
         assert all(np.isfinite(lines.xyz).all() for lines in drawn.lines.values())
         json.dumps(
-            state_of(view, recording, "hallway", found, bounds, Reference.of("labels", recording, None)),
+            state_of(view, recording, "hallway", found, bounds, Reference.of("labels", recording, None), None),
             allow_nan=False,
         )
