@@ -33,6 +33,7 @@ export class Lessons {
   /** What is to be shown once the lesson's frame and thresholds are drawn. @type {{find: Find | null} | null} */
   #pending = null;
   #solved = false;
+  /** What was set before the lesson, to be given back when it is left. @type {Patch | null} */ #before = null;
   /** @type {Readonly<View> | null} */ #view = null;
   /** @type {Knob[]} */ #knobs = [];
   /** @type {Map<string, Threshold>} */ #sliders = new Map();
@@ -78,6 +79,7 @@ export class Lessons {
   open(id) {
     const chosen = this.#list.lessons.find((each) => each.id === id);
     if (!chosen) return this.#list.complain(this.#words.learn.lesson.unknown(id));
+    if (!this.#lesson && this.#view) this.#before = settingsOf(this.#view);
     this.#lesson = chosen;
     this.#list.element.hidden = true;
     this.#sliders = new Map(
@@ -103,8 +105,11 @@ export class Lessons {
   }
 
   #leave() {
+    // Whoever has gone elsewhere, by a link or the menu, stays there.
+    if (this.#before && this.#view?.recording === this.#lesson?.recording) this.#handlers.onChange(this.#before);
     this.#lesson = null;
     this.#pending = null;
+    this.#before = null;
     this.#reader.close();
     this.element.dataset.page = "";
     putInAddress(null);
@@ -227,6 +232,11 @@ function putInAddress(id) {
   if (id) url.searchParams.set("lesson", id);
   else url.searchParams.delete("lesson");
   history.replaceState(null, "", url);
+}
+
+/** What a lesson changes. @param {Readonly<View>} view @returns {Patch} */
+function settingsOf({ recording, frame, method, params, step, selected }) {
+  return { recording, frame, method, params, step, selected };
 }
 
 /** @param {Params} one @param {Params} other */

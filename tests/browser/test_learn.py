@@ -244,6 +244,16 @@ def test_a_lesson_continues_after_a_step_with_another_method(new_tab):
     assert text_of(tab, ".lesson-foot .muted") == "2 of 5"
 
 
+def test_leaving_a_lesson_gives_back_what_was_set_before_it(new_tab):
+    tab = learn(new_tab, "sample:hallway", step=7, epsilon=0.05)
+    tab.until("s.step === 7")
+    tab.page.locator("[data-lesson='12_split_and_merge']").click()
+    tab.until("s.method === 'split-and-merge' && s.recording === 'lesson:4_lost_end'")
+    tab.page.get_by_role("button", name="Back to the list of lessons").click()
+    tab.until("s.recording === 'sample:hallway' && s.method === 'region-growing' && s.step === 7")
+    assert tab.state["params"]["epsilon"] == 0.05
+
+
 def test_predictions_are_asked_before_the_decision_and_counted(new_tab):
     tab = learn(new_tab, "lesson:1_perfect_corner", step=0)
     tab.page.get_by_role("button", name="Predict").click()
