@@ -7,6 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import pytest
 from rrd import rows_of
 
 if TYPE_CHECKING:
@@ -59,12 +60,11 @@ def test_all_frames_are_exported_as_a_recording_that_rerun_reads(tab: Tab, tmp_p
     assert frames == list(range(tab.state["frames"]))
 
 
+@pytest.mark.own_tab
 def test_a_browser_that_cannot_draw_is_told_so_and_offered_the_download(new_tab: Callable[..., Tab]):
     tab = new_tab()
     assert tab.scene, "the scene itself must have its canvas before they are taken away"
-    tab.page.context.add_init_script(
-        "HTMLCanvasElement.prototype.getContext = () => null; delete Navigator.prototype.gpu;"
-    )
+    tab.page.add_init_script("HTMLCanvasElement.prototype.getContext = () => null; delete Navigator.prototype.gpu;")
     tab.page.get_by_role("button", name="Rerun", exact=True).click()
     tab.page.get_by_text("needs WebGL 2 or WebGPU").wait_for(timeout=LONG)
     assert tab.page.get_by_role("link", name="Download").get_attribute("href")
