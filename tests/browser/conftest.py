@@ -83,6 +83,7 @@ class Tab:
     def look_at(self, hash: str) -> Tab:
         """Open a link in this tab as it is, as a person does who clicks one."""
         if "follow=" in hash or hash.startswith("?"):
+            self.page.goto("about:blank")
             return self.open(hash)
         self.page.set_viewport_size(VIEWPORT)
         self.page.evaluate(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import cache
 
 import numpy as np
 import pytest
@@ -224,9 +225,12 @@ def test_another_method_is_compared_explained_and_asked_what_would_change_it(new
     )
     row = tab.page.locator(".frames-row").first
 
+    @cache
+    def first_remark(frame: int) -> str:
+        return why(hallway, frame, EXTRACTORS[other].params_type())[0].text
+
     def says_what_looks_wrong() -> bool:
-        remarks = why(hallway, int(row.get_attribute("data-frame")), EXTRACTORS[other].params_type())
-        return remarks[0].text in row.inner_text()
+        return first_remark(int(row.get_attribute("data-frame"))) in row.inner_text()
 
     tab.eventually(says_what_looks_wrong, "the worst frame does not say what looks wrong by this method")
     card.get_by_role("button", name="Back to A").click()
