@@ -207,6 +207,9 @@ class Strip:
             if scores is not None:
                 yield surveyed(subject, ranked(key, scores), stride)
             self._wait_for_end_of_drag(subject)
+        elif not isinstance(key.params, Params):
+            # Too slow to let other tabs wait for it.
+            end_turn()
         whole, committee = survey(recording, key.params, subject.stop), known_committee(recording)
         if committee is not None:
             whole = disputed(recording, whole, committee, np.arange(len(recording)))

@@ -7,9 +7,14 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 
+MOST_REST = 0.5
+
 
 class Turns:
-    """Threads work one at a time, and together for at most `share` of the time: each turn is followed by a rest."""
+    """Threads work one at a time, and together for about `share` of the time: each turn is followed by a rest.
+
+    No rest is longer than half a second, so that a single long turn does not make the others wait.
+    """
 
     def __init__(self, share: float) -> None:
         self._rest = 1 / share - 1
@@ -25,4 +30,4 @@ class Turns:
                 yield
             finally:
                 ended = time.monotonic()
-                self._free_at = ended + self._rest * (ended - begun)
+                self._free_at = ended + min(self._rest * (ended - begun), MOST_REST)

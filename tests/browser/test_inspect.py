@@ -232,6 +232,7 @@ def test_another_method_is_compared_explained_and_asked_what_would_change_it(new
     def says_what_looks_wrong() -> bool:
         return first_remark(int(row.get_attribute("data-frame"))) in row.inner_text()
 
-    tab.eventually(says_what_looks_wrong, "the worst frame does not say what looks wrong by this method")
+    # Other methods than region growing survey a recording for up to a minute on two cores.
+    tab.eventually(says_what_looks_wrong, "the worst frame does not say what looks wrong by this method", seconds=180)
     card.get_by_role("button", name="Back to A").click()
     tab.until("s.method === 'region-growing' && s.against === null")

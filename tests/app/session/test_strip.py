@@ -56,6 +56,9 @@ def whole(page: Page) -> dict:
 
 def assert_same(message: dict, recording: Recording, params: Params) -> None:
     expected = survey(recording, params)
+    # Another tab may have asked for the committee before.
+    if not np.isnan(message["scores"]["disputed"]).all():
+        expected = with_disputes(recording, expected)
     for name in SCORES:
         np.testing.assert_array_equal(message["scores"][name], expected.score(name), err_msg=name)
 
@@ -120,9 +123,12 @@ def test_the_committee_and_then_stability_are_computed_last_and_only_on_request(
     page.hello()
     assert np.isnan(whole(page)["scores"]["unstable"]).all()
     page.ask(score="unstable")
-    first, second, last = whole(page), whole(page), whole(page)
-    assert np.isnan(first["scores"]["disputed"]).all()
-    assert np.isnan(second["scores"]["unstable"]).all()
+    told = [whole(page)]
+    while np.isnan(told[-1]["scores"]["unstable"]).all():
+        told.append(whole(page))
+    *early, last = told
+    # The committee is known at once if another tab has asked for it before.
+    assert [bool(np.isnan(each["scores"]["disputed"]).all()) for each in early] in ([True, False], [False])
     recording = open_recording(recordings / "walls.npz")
     expected = with_stability(recording, with_disputes(recording, survey(recording)))
     for name in SCORES:

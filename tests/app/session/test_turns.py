@@ -3,9 +3,11 @@
 import threading
 import time
 from itertools import pairwise
+from types import SimpleNamespace
 
 import pytest
-from lineseg_app.session.turns import Turns
+from lineseg_app.session import turns as turns_module
+from lineseg_app.session.turns import MOST_REST, Turns
 
 
 def test_one_thread_works_at_a_time_and_each_turn_is_followed_by_a_rest():
@@ -32,3 +34,13 @@ def test_a_turn_that_fails_ends():
     for _ in range(2):
         with pytest.raises(ZeroDivisionError), turns.turn():
             raise ZeroDivisionError
+
+
+def test_a_long_turn_is_followed_by_a_short_rest(monkeypatch: pytest.MonkeyPatch):
+    turns, clock, slept = Turns(0.1), [0.0], []
+    monkeypatch.setattr(turns_module, "time", SimpleNamespace(monotonic=lambda: clock[0], sleep=slept.append))
+    with turns.turn():
+        clock[0] = 20.0
+    with turns.turn():
+        pass
+    assert slept == [0.0, MOST_REST]
