@@ -204,7 +204,7 @@ def test_the_lines_that_a_sentence_says_are_missed_are_ghosts_in_the_scene(new_t
     tab.eventually(lambda: not tab.scene.evaluate(drawn), "the ghosts stay although their layer is off")
 
 
-@pytest.mark.parametrize("other", ["split-and-merge", "hough"])
+@pytest.mark.parametrize("other", ["split-and-merge"])
 def test_another_method_is_compared_explained_and_asked_what_would_change_it(new_tab, hallway, other):
     tab = new_tab(f"#mode=inspect&frame=20&score=gap&method={other}&beam=300")
     tab.page.keyboard.press("b")
