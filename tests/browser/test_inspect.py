@@ -48,6 +48,7 @@ def scored(tab) -> dict:
     return tab.page.evaluate(script)
 
 
+@pytest.mark.own_tab
 def test_frames_are_listed_worst_first_filtered_and_walked_by_key(new_tab):
     tab = new_tab("#mode=inspect")
     values = scored(tab)["values"]
@@ -182,7 +183,6 @@ def test_the_most_suspicious_frame_says_what_looks_wrong_and_weights_change_the_
     tab.eventually(lambda: row.get_attribute("data-frame") == str(worst), "the usual weights do not come back")
 
 
-@pytest.mark.own_tab
 def test_the_lines_that_a_sentence_says_are_missed_are_ghosts_in_the_scene(new_tab):
     boards = open_recording(data_folder("sample_scans") / "room_of_boards.npz")
     ghosts = lines_missed(boards, 5)
@@ -204,7 +204,8 @@ def test_the_lines_that_a_sentence_says_are_missed_are_ghosts_in_the_scene(new_t
     tab.eventually(lambda: not tab.scene.evaluate(drawn), "the ghosts stay although their layer is off")
 
 
-@pytest.mark.parametrize("other", ["split-and-merge"])
+@pytest.mark.own_tab
+@pytest.mark.parametrize("other", ["split-and-merge", "hough"])
 def test_another_method_is_compared_explained_and_asked_what_would_change_it(new_tab, hallway, other):
     tab = new_tab(f"#mode=inspect&frame=20&score=gap&method={other}&beam=300")
     tab.page.keyboard.press("b")
@@ -232,7 +233,6 @@ def test_another_method_is_compared_explained_and_asked_what_would_change_it(new
     def says_what_looks_wrong() -> bool:
         return first_remark(int(row.get_attribute("data-frame"))) in row.inner_text()
 
-    # Other methods than region growing survey a recording for up to a minute on two cores.
-    tab.eventually(says_what_looks_wrong, "the worst frame does not say what looks wrong by this method", seconds=180)
+    tab.eventually(says_what_looks_wrong, "the worst frame does not say what looks wrong by this method")
     card.get_by_role("button", name="Back to A").click()
     tab.until("s.method === 'region-growing' && s.against === null")
