@@ -8,15 +8,12 @@ truth, divided by the best true score.
 
 from __future__ import annotations
 
-import os
 import sys
-from collections.abc import Iterator
-from pathlib import Path
 
 import numpy as np
+from recordings import recordings
 
-from lineseg import Params, Recording, open_recording
-from lineseg.simulate.worlds import WORLDS
+from lineseg import Params
 from lineseg.sweep import Batch, Totals
 from lineseg.sweep.axes import knob_of
 from lineseg.tuning import Objective, judges
@@ -24,7 +21,6 @@ from lineseg.tuning import Objective, judges
 PAIRS = 200
 FRAMES = 24
 CLEAR = 0.02
-ROOT = Path(__file__).parents[2]
 
 
 def random_settings(count: int) -> list[Params]:
@@ -39,17 +35,6 @@ def random_settings(count: int) -> list[Params]:
             values[name] = kind(np.exp(value) if knob.log else round(value))
         found.append(Params().but(**values))
     return found
-
-
-def recordings(files: list[str]) -> Iterator[Recording]:
-    for name in ("hallway", "laboratory"):
-        yield open_recording(ROOT / "sample_scans" / f"{name}.npz")
-    for name, drive in WORLDS.items():
-        yield drive.recording(name)
-    data = os.environ.get("LINESEG_DATA")
-    rooms = sorted((Path(data).parent / "truth").glob("*.npz")) if data else []
-    for file in (*rooms, *map(Path, files)):
-        yield open_recording(file)
 
 
 def scores(batch: Batch, settings: list[Params]) -> np.ndarray:

@@ -9,7 +9,6 @@ that tests/planted.py plants are among the 15 worst, on average over the seeds 1
 
 from __future__ import annotations
 
-import os
 import sys
 from collections.abc import Iterator
 from dataclasses import replace
@@ -19,6 +18,7 @@ import numpy as np
 
 sys.path.append(str(Path(__file__).parents[1]))
 from planted import FAILING, planted
+from recordings import ROOT, recordings
 
 from lineseg import Recording, agreements, extract, open_recording, survey, suspicion, with_disputes, with_stability
 from lineseg.simulate.laser import LIDAR_16, LMS_200, RPLIDAR_A1, RPLIDAR_A2, TIM_561, UTM_30LX
@@ -26,7 +26,6 @@ from lineseg.simulate.worlds import WORLDS
 from lineseg.truth import agreement, true_lines
 
 WORST = 15
-ROOT = Path(__file__).parents[2]
 BEFORE = {
     "coverage": 1.0, "invalid": 1.0, "rms": 0.5, "splits": 1.0, "gap": 1.0, "misses": 0.5, "change": 0.5, "near": 0.5,
     "brief": 0.5, "gone": 3.0, "jump": 1.0, "jolt": 2.0, "unstable": 0.5,
@@ -38,15 +37,8 @@ OTHER_LASERS = {
 }  # fmt: skip
 
 
-def recordings(files: list[str]) -> Iterator[Recording]:
-    for name in ("hallway", "laboratory"):
-        yield open_recording(ROOT / "sample_scans" / f"{name}.npz")
-    for name, drive in WORLDS.items():
-        yield drive.recording(name)
-    data = os.environ.get("LINESEG_DATA")
-    rooms = sorted((Path(data).parent / "truth").glob("*.npz")) if data else []
-    for file in (*rooms, *map(Path, files)):
-        yield open_recording(file)
+def more_recordings(files: list[str]) -> Iterator[Recording]:
+    yield from recordings(files)
     for name, lasers in OTHER_LASERS.items():
         for k, laser in enumerate(lasers):
             drive = replace(WORLDS[name], laser=laser, seed=WORLDS[name].seed + 700)
@@ -99,7 +91,7 @@ def main(files: list[str]) -> None:
     print(f"{'':24}{'faults':>8}{'correlation':>18}{'held by 15':>18}")
     print(f"{'':24}{'a frame':>8}{'before':>9}{'after':>9}{'before':>9}{'after':>9}")
     table = []
-    for recording in recordings(files):
+    for recording in more_recordings(files):
         table.append(row(recording))
         print(f"{recording.name:24}{table[-1][0]:8.2f}" + "".join(f"{value:9.2f}" for value in table[-1][1:]))
     for name, over in (("mean", np.mean), ("least", np.min)):
