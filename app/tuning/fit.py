@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,15 +13,15 @@ from lineseg.noise import RangeNoise, noise
 from lineseg.tuning.proposal import Proposal, propose
 
 from ..told.answers import Fitted, Noise
+from .kept import Kept
 
-# As long as a recording is open; every change of a threshold asks again.
-_noises: WeakKeyDictionary[Recording, RangeNoise] = WeakKeyDictionary()
+# Every change of a threshold asks again.
+_kept_noise = Kept[RangeNoise](most=1)
 
 
 def fit(recording: Recording, params: Thresholds, method: str, stop: NDArray[np.bool_]) -> Iterator[Fitted]:
     """Yield one answer. stop: (1,) bool, set it to end the work with `Cancelled`."""
-    known = _noises.get(recording) or noise(recording)
-    _noises[recording] = known
+    known = _kept_noise.get(recording, None, lambda: noise(recording))
     found = propose(recording, params, method, lambda: not stop[0], known)
     yield {
         "method": method,
