@@ -214,8 +214,7 @@ class Strip:
         if committee is not None:
             whole = disputed(recording, whole, committee, np.arange(len(recording)))
         end_turn()
-        assert whole.scores is not None
-        known = Known(key._replace(weights=()), recording, whole.scores, np.empty((len(recording), 0)), None)
+        known = Known(key._replace(weights=()), recording, whole.need_scores(), np.empty((len(recording), 0)), None)
         yield told(subject, known)
         if key.against is not None:
             fates = differences(self._pinned_survey(subject, key.against.params), whole, recording)
@@ -225,13 +224,11 @@ class Strip:
             yield told(subject, known)
         if key.deep and committee is None:
             whole = with_disputes(recording, whole, subject.stop)
-            assert whole.scores is not None
-            known = replace(known, scores=whole.scores)
+            known = replace(known, scores=whole.need_scores())
             yield told(subject, known)
         if key.deep:
             deep = with_stability(recording, whole, subject.stop)
-            assert deep.scores is not None
-            known = replace(known, scores=deep.scores)
+            known = replace(known, scores=deep.need_scores())
             yield told(subject, known)
         self._known = known
 
@@ -245,8 +242,7 @@ class Strip:
         threes, committee = survey(glance, params, threads=1), known_committee(recording)
         if committee is not None:
             threes = disputed(glance, threes, committee, glanced_frames(len(recording), stride))
-        assert threes.scores is not None
-        scores = threes.scores[1::3]
+        scores = threes.need_scores()[1::3]
         # The first and the last frame have only one neighbour.
         ends = np.isin(np.arange(0, len(recording), stride), (0, len(recording) - 1))
         scores[ends] = np.where([name in BESIDE for name in SCORES], 0, scores[ends])

@@ -13,7 +13,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import NamedTuple
+from typing import NamedTuple, Self
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -64,9 +64,18 @@ class Committee:
     judges: tuple[Params, ...]
     walls: list[Walls]
 
+    @classmethod
+    def of_some(cls, part: Recording, judges: tuple[Params, ...]) -> Self:
+        """These judges on a few frames of their recording."""
+        return cls(judges, [walls_of(part, judge, threads=1) for judge in judges])
+
     @property
     def complete(self) -> bool:
         return len(self.walls) == len(self.judges)
+
+    def walls_in(self, frame: int) -> list[NDArray[np.void]]:
+        """The lines of each judge in a frame."""
+        return [rows[offsets[frame] : offsets[frame + 1]] for rows, offsets in self.walls]
 
 
 _KNOWN: WeakKeyDictionary[Recording, Committee] = WeakKeyDictionary()
@@ -142,8 +151,7 @@ def with_disputes(
     The first call for a recording takes about as long as four surveys, any later one milliseconds. Raises ValueError
     for a survey without scores, `Cancelled` when stopped.
     """
-    if base.scores is None:
-        raise ValueError("this survey has no scores; call survey with scores=True")
+    base.need_scores()
     committee = committee_of(recording, cancelled, progress, threads)
     return disputed(recording, base, committee, np.arange(len(recording)))
 
@@ -154,7 +162,6 @@ def disputed(recording: Recording, base: Survey, committee: Committee, frames: N
     recording: these frames; frames: (len(recording),) their numbers for the committee. A survey of triples of
     neighbouring frames has the right "lapsed" in the middle of each.
     """
-    assert base.scores is not None
     frames, beams = np.asarray(frames, np.int64), np.diff(recording.offsets).astype(np.int64)
     faults, seen, votes = np.zeros(len(base)), np.zeros(len(base)), np.zeros(len(base.segments), np.int32)
     wanted = demands_of(base.params)
@@ -163,7 +170,7 @@ def disputed(recording: Recording, base: Survey, committee: Committee, frames: N
             base.segments, base.offsets, rows, offsets, frames, beams, float(wanted.min_points), wanted.min_length,
             faults, seen, votes,
         )  # fmt: skip
-    scores, judges = base.scores.copy(), len(committee.walls)
+    scores, judges = base.need_scores().copy(), len(committee.walls)
     scores[:, COLUMN.disputed] = faults / judges
     scores[:, COLUMN.blank] = np.where(np.diff(base.offsets) == 0, seen / judges, 0.0)
     lapsed = scores[:, COLUMN.gone].copy()

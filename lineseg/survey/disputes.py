@@ -13,7 +13,7 @@ from ..params import Params
 from ..scan import Recording, Scan
 from ..truth import demands_of
 from ..tuning.proposal import scaled
-from .committee import CONFIRMING, judges_of, walls_of
+from .committee import CONFIRMING, Committee, judges_of, known_committee
 from .difference import length_of, shared_beams
 from .remark import Ghost, Remark
 
@@ -67,8 +67,10 @@ def lines_missed(recording: Recording, frame: int, params: Thresholds | None = N
     params = Params() if params is None else params
     scan = recording[frame]
     own = [(segment.first, segment.last) for segment in extract(scan, params).segments]
-    alone, wanted = recording.only(np.array([frame])), demands_of(params)
-    found = [_enough(walls_of(alone, judge, threads=1).rows, wanted) for judge in judges_of(recording)]
+    committee, at = known_committee(recording), frame
+    if committee is None:
+        committee, at = Committee.of_some(recording.only(np.array([frame])), judges_of(recording)), 0
+    found = [_enough(walls, demands_of(params)) for walls in committee.walls_in(at)]
     return tuple(_ghost(wall) for wall, _ in _missed(found, own, len(scan)))
 
 

@@ -48,9 +48,13 @@ class Survey:
         """(frames,) one of SCORES, by name, for every frame."""
         if name not in SCORES:
             raise ValueError(f"there is no score {name!r}; choose from {', '.join(SCORES)}")
+        return self.need_scores()[:, list(SCORES).index(name)]
+
+    def need_scores(self) -> NDArray[np.float32]:
+        """(frames, len(SCORES)). Raises ValueError for a survey without scores."""
         if self.scores is None:
             raise ValueError("this survey has no scores; call survey with scores=True")
-        return self.scores[:, list(SCORES).index(name)]
+        return self.scores
 
 
 def joined(parts: list[NDArray[np.void]]) -> NDArray[np.void]:

@@ -55,15 +55,13 @@ def with_stability(
 
     Raises ValueError for a survey without scores, `Cancelled` when stopped.
     """
-    if base.scores is None:
-        raise ValueError("this survey has no scores; call survey with scores=True")
+    scores = base.need_scores().copy()
     total = sum(1 for _ in variations(base.params))
     most = np.zeros(len(base), np.int32)
     for done, (_, _, count) in enumerate(changes(recording, base, cancelled, threads)):
         np.maximum(most, count, out=most)
         if progress is not None:
             progress(done + 1, total)
-    scores = base.scores.copy()
     scores[:, list(SCORES).index("unstable")] = most
     return replace(base, scores=scores)
 

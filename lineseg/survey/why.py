@@ -19,7 +19,7 @@ from ..knobs import Thresholds
 from ..params import Params
 from ..region_growing.limits import limits_of
 from ..scan import Recording, Scan
-from .committee import Committee, disputed, judges_of, walls_of
+from .committee import Committee, disputed, judges_of
 from .disputes import confirmed, disputes
 from .frame_by_frame import judge_of
 from .remark import Remark
@@ -68,12 +68,10 @@ def why(
         raise IndexError(f"frame {frame}: the recording has the frames 0 to {len(recording) - 1}")
     first = max(frame - AROUND, 0)
     part = recording.only(np.arange(first, min(frame + AROUND + 1, len(recording))))
-    judges = judges_of(recording)
-    panel = Committee(judges, [walls_of(part, judge, threads=1) for judge in judges])
+    panel = Committee.of_some(part, judges_of(recording))
     found = disputed(part, survey(part, params), panel, np.arange(len(part)))
-    assert found.scores is not None
     scene = _Scene(part, found, frame - first, params or Params(), panel)
-    known = (found.scores, frame - first) if scores is None else (scores, frame)
+    known = (found.need_scores(), frame - first) if scores is None else (scores, frame)
     doubt = dict(zip(SCORES, doubts(known[0])[known[1]].tolist(), strict=True))
     remarks = [*_lines(scene), *_beside(scene), *_whole(scene, doubt), *_stability(scene)]
     weighted = [replace(each, doubt=WEIGHTS[each.score] * doubt[each.score]) for each in remarks]
@@ -101,10 +99,6 @@ class _Scene:
         """The median of the frames around."""
         return float(np.median(self.found.score(name)))
 
-    def walls(self, frame: int) -> list[NDArray[np.void]]:
-        """The lines of each judge in a frame."""
-        return [rows[offsets[frame] : offsets[frame + 1]] for rows, offsets in self.committee.walls]
-
     def points_of(self, row: np.void) -> NDArray[np.intp]:
         """The valid beams of a segment."""
         beams = (row["first"] + np.arange((row["last"] - row["first"]) % len(self.scan) + 1)) % len(self.scan)
@@ -118,7 +112,9 @@ class _Scene:
 
 def _disputes(scene: _Scene) -> Iterator[Remark]:
     """Lines that others find, and lines that others do not find."""
-    yield from disputes(scene.scan, scene.rows, scene.params, scene.committee.judges, scene.walls(scene.frame))
+    yield from disputes(
+        scene.scan, scene.rows, scene.params, scene.committee.judges, scene.committee.walls_in(scene.frame)
+    )
 
 
 def _lines(scene: _Scene) -> Iterator[Remark]:
@@ -173,7 +169,7 @@ def _beside(scene: _Scene) -> Iterator[Remark]:
         row = scene.rows[i]
         text = f"segment {i}, {row['length']:.1f} m, appears only in this frame"
         yield Remark("brief", text, int(row["first"]), int(row["last"]))
-    walls, beams_before = scene.walls(scene.frame - 1), len(scene.recording[scene.frame - 1])
+    walls, beams_before = scene.committee.walls_in(scene.frame - 1), len(scene.recording[scene.frame - 1])
     traced = trace(scene.scan, scene.params) if gone.any() else None
     for row in before[gone]:
         ends = moved(row, to_here)

@@ -111,3 +111,5 @@ def test_the_lines_missed_are_those_that_why_draws_as_ghosts():
     ghosts = lines_missed(recording, 8)
     assert ghosts
     assert set(ghosts) == {ghost for each in why(recording, 8) if each.score == "disputed" for ghost in each.ghosts}
+    committee_of(recording)
+    assert lines_missed(recording, 8) == ghosts
