@@ -6,7 +6,7 @@ import { drawn, merged, moved, seenOf, split, without } from "./lines.js";
 import { createList } from "./list.js";
 import { Overlay } from "./overlay.js";
 import { createStatus } from "./status.js";
-import { FrameSweep } from "./sweep.js";
+import { FrameSweep } from "../stage/sweep.js";
 import { Tags } from "./tags.js";
 import { Tools } from "./tools.js";
 

@@ -1,5 +1,5 @@
 // @ts-check
-// The formulas behind a decision, with its numbers put in. Terms carry the name of their geometry (overlay.js).
+// The formulas behind a decision, with its numbers put in. Terms carry the name of their geometry (shapes.js).
 import { h } from "../widgets/dom.js";
 import { fit, lengthOf } from "./geometry.js";
 import { fraction, math, num, power, root, row, signed, term, words } from "./mathml.js";

@@ -1,6 +1,6 @@
 // @ts-check
 // Finds the term of the formulas that belongs to a place in the scene.
-import { shapeOf } from "./overlay.js";
+import { shapeOf } from "./shapes.js";
 
 /** @typedef {import("./trace.js").Event} Event */
 /** @typedef {import("./trace.js").Trace} Trace */
@@ -27,7 +27,7 @@ export function termAt(at, names, event, trace, project) {
   return near[0]?.name ?? null;
 }
 
-/** @param {Point} at @param {import("./overlay.js").Shape} shape @param {Project} project */
+/** @param {Point} at @param {import("./shapes.js").Shape} shape @param {Project} project */
 function distance(at, { dots = [], lines = [] }, project) {
   const toDots = dots.map((dot) => toSegment(at, project(...dot), project(...dot)) - DOT_AHEAD_PX);
   const toLines = lines.map(([from, to]) => toSegment(at, project(...from), project(...to)));

@@ -1,5 +1,6 @@
 // @ts-check
 // Mode Learn: one frame, decision by decision, in words, pseudocode, formulas and charts.
+import { createOverlay } from "../stage/overlay.js";
 import { h, setText } from "../widgets/dom.js";
 import { createCharts } from "./charts.js";
 import { fetchInto } from "./fetched.js";
@@ -9,7 +10,7 @@ import { termAt } from "./hit.js";
 import { Ladder } from "./ladder.js";
 import { Lessons } from "./lessons.js";
 import { Listing } from "./listing.js";
-import { createOverlay, shapeOf } from "./overlay.js";
+import { shapeOf } from "./shapes.js";
 import { createPredict } from "./predict.js";
 import { Stepper } from "./stepper.js";
 import { Trace } from "./trace.js";

@@ -2,7 +2,7 @@
 // The scene: viser's page in a frame of the same origin. Its camera is set here; picking is the server's.
 import { h, setText } from "../widgets/dom.js";
 import { closePopovers } from "../widgets/menu.js";
-import { cameraIn, hasContent, clip, lockPlan, NEAREST, PLAN_FOV_DEG, planOf, rad, unlock } from "./viser.js";
+import { cameraIn, hasContent, clip, lockPlan, NEAREST, onScreen, PLAN_FOV_DEG, planOf, rad, unlock } from "./viser.js";
 
 /** @typedef {import("../wire.js").Box} Box */
 /** @typedef {import("./viser.js").Plan} Plan */
@@ -13,6 +13,9 @@ import { cameraIn, hasContent, clip, lockPlan, NEAREST, PLAN_FOV_DEG, planOf, ra
  */
 
 const MARGIN = 1.12;
+// What is gone to fills this share of the stage, unless it can be seen already.
+const SHARE = 0.4;
+const EASILY_SEEN_PX = 60;
 const BAR_PX = 110;
 const CAMERA_KEYS = new Set(["KeyW", "KeyA", "KeyS", "KeyD", "KeyQ", "KeyE"]);
 // viser's own panel and notices go, because the page shows connection and values; its slow fade-in goes, too.
@@ -197,6 +200,25 @@ export class Stage {
     this.#pendingFit = null;
     this.#apply();
   }
+
+  /** Moves the plan so that the box can be seen well; a box that can be seen well stays where it is. @param {Box} box */
+  goTo = ([xmin, ymin, xmax, ymax]) => {
+    const { clientWidth, clientHeight } = this.frame;
+    const ends = [this.project(xmin, ymin), this.project(xmax, ymax)];
+    const inside = ends.every((at) => at && at[0] > 0 && at[0] < clientWidth && at[1] > 0 && at[1] < clientHeight);
+    const [wide, high] = [xmax - xmin, ymax - ymin];
+    if (inside && Math.max(wide, high) * (this.#scale?.pxPerMetre ?? 0) > EASILY_SEEN_PX) return;
+    const span = Math.max(high, (wide * clientHeight) / Math.max(1, clientWidth), 0.5) / SHARE;
+    this.lookAt({ x: (xmin + xmax) / 2, y: (ymin + ymax) / 2, span });
+  };
+
+  /** Position of a point of the plan on the stage [px], in any view; null if it cannot be seen. @param {number} x @param {number} y @returns {[number, number] | null} */
+  seen = (x, y) => {
+    if (this.#mode === "plan") return this.project(x, y);
+    const found = cameraIn(this.frame);
+    const at = found && onScreen(found, [x, y, 0]);
+    return at && [at[0] * this.frame.clientWidth, at[1] * this.frame.clientHeight];
+  };
 
   /** Position of a point of the plan on the stage [px]; null in the free view. @param {number} x @param {number} y @returns {[number, number] | null} */
   project = (x, y) => {

@@ -82,6 +82,19 @@ export function unlock({ control, camera, mutable }, { x, y, height }) {
   mutable.requestRender();
 }
 
+/** Where a point of the scan is on the screen, from 0, 0 at the upper left to 1, 1; null if it is behind the camera. @param {Found} found @param {number[]} point @returns {[number, number] | null} */
+export function onScreen({ camera }, point) {
+  camera.updateMatrixWorld();
+  const eye = times(camera.matrixWorldInverse.elements, [...toThree(point), 1]);
+  const [x, y, , w] = times(camera.projectionMatrix.elements, eye);
+  return w > 0 ? [(1 + x / w) / 2, (1 - y / w) / 2] : null;
+}
+
+/** A matrix, column after column, times a vector. @param {number[]} matrix @param {number[]} vector */
+function times(matrix, vector) {
+  return vector.map((_, row) => vector.reduce((sum, value, column) => sum + matrix[4 * column + row] * value, 0));
+}
+
 /** @param {any} control */
 function allowAnyAngle(control) {
   control.minPolarAngle = 0;

@@ -1,8 +1,8 @@
 // @ts-check
-// The points of the labelled frame, requested when needed.
+// The points of the frame on the screen, requested when they are needed.
 import { fetchText } from "../fetch.js";
 
-/** @typedef {import("./lines.js").Sweep} Sweep */
+/** @typedef {import("../wire.js").Sweep} Sweep */
 
 export class FrameSweep {
   /** The sweep of the frame, once it is known. @type {Sweep | null} */ now = null;

@@ -1,51 +1,11 @@
 // @ts-check
-// Shows in the plan view what a term of a formula, or a question, refers to.
-import { svg } from "../widgets/dom.js";
+// What a term of a formula refers to in the scene.
 import { foot, stretch } from "./geometry.js";
 
 /** @typedef {import("./trace.js").Event} Event */
 /** @typedef {import("./trace.js").Trace} Trace */
 /** @typedef {import("./geometry.js").Point} Point */
-/** @typedef {{dots?: Point[], lines?: [Point, Point][], faint?: boolean}} Shape */
-
-/**
- * @param {HTMLElement} stage
- * @param {{project: (x: number, y: number) => [number, number] | null, onMove: (listener: () => void) => void}} view
- */
-export function createOverlay(stage, view) {
-  const element = svg("svg", { class: "overlay", "aria-hidden": "true" });
-  stage.append(element);
-  /** @type {Map<string, Shape>} */
-  const shapes = new Map();
-
-  function draw() {
-    element.replaceChildren();
-    for (const [name, shape] of shapes) {
-      const group = svg("g", { class: `overlay-shape overlay-${name}` });
-      for (const [from, to] of shape.lines ?? []) {
-        const one = view.project(...from);
-        const other = view.project(...to);
-        if (one && other) group.append(svg("line", { x1: one[0], y1: one[1], x2: other[0], y2: other[1] }));
-      }
-      for (const dot of shape.dots ?? []) {
-        const at = view.project(...dot);
-        if (at) group.append(svg("circle", { cx: at[0], cy: at[1], r: 8 }));
-      }
-      element.append(group);
-    }
-  }
-  view.onMove(draw);
-
-  return {
-    /** @param {string} name @param {Shape | null} shape */
-    set(name, shape) {
-      if (!shape && !shapes.has(name)) return;
-      if (shape) shapes.set(name, shape);
-      else shapes.delete(name);
-      draw();
-    },
-  };
-}
+/** @typedef {import("../stage/overlay.js").Shape} Shape */
 
 /**
  * The geometry of a term (formulas.js) at a decision.
