@@ -15,7 +15,7 @@ from . import view, view_field, wire
 from .live.node_params import Sent
 from .routes import labels, robot, tuning
 from .shelf import lessons
-from .told import answers, drawn, messages
+from .told import answers, drawn, messages, words
 from .told.typescript import alias, interface
 
 HEAD = """// Generated from the server's types by `python -m lineseg_app.page_types`; a test fails if it is outdated.
@@ -43,6 +43,8 @@ export type View = Required<Omit<ViewPatch, "mode" | "against">> & {
 export type Against = Required<Pinned>;
 /** The drawn state, as the page keeps it. latencyMs: from the latest change made here until it was drawn. */
 export type State = DrawnState & { rev: number; latencyMs: number | null };
+/** A sentence: text, and parts of it that name something in the scene or a threshold. */
+export type Words = (string | Link)[];
 export type Field = FieldEntry;
 export type Knob = KnobEntry;
 export type Method = MethodEntry;
@@ -66,7 +68,11 @@ def page_types() -> str:
     """The text of static/wire.d.ts."""
     shared = [alias(name, annotation) for name, annotation in SHARED.items()]
     sent = [interface(each, sent=True) for module in (view, wire, labels, tuning, robot) for each in _declared(module)]
-    told = [interface(each) for module in (messages, drawn, answers, lessons, view_field) for each in _declared(module)]
+    told = [
+        interface(each)
+        for module in (words, messages, drawn, answers, lessons, view_field)
+        for each in _declared(module)
+    ]
     told += [interface(each) for each in (Measure, WhatIf, Sent)]
     parts = [
         HEAD,

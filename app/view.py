@@ -58,6 +58,7 @@ class Layers:
     verdicts: bool = False
     laser: bool = True
     grid: bool = True
+    numbers: bool = False
     replay: bool = True
     ghosts: bool = True
 

@@ -101,7 +101,7 @@ def _changed(beam: int, name: str, knob: Knob, value: int | float, found: Extrac
     if segment < 0:
         return WhatIf(name, value, -1, -1, -1, f"{at} no line")
     line = found.segments[segment]
-    instead = f" instead of {now.segments[before].first}–{now.segments[before].last}" if before >= 0 else ""
+    instead = f" instead of beams {now.segments[before].first}–{now.segments[before].last}" if before >= 0 else ""
     return WhatIf(
         name, value, segment, line.first, line.last, f"{at} a line of beams {line.first}–{line.last}{instead}"
     )

@@ -12,7 +12,7 @@ import { closePopovers } from "./widgets/menu.js";
  *          timeline: {toggle: () => void, pace: (by: 1 | -1) => void, move: (by: number) => void, doubtful: (by: 1 | -1) => void},
  *          inspect: ReturnType<typeof import("./inspect/inspect.js").createInspect>, labels: ReturnType<typeof import("./label/labels.js").createLabels>,
  *          draw: Editor, panel: {open: (name: string) => void}, camera: {fit: () => void, toggle: () => void},
- *          layers: {button: HTMLElement}, opening: {choose: () => void}}} parts
+ *          layers: {button: HTMLElement, toggle: (name: string) => void}, opening: {choose: () => void}}} parts
  * @param {typeof import("./text/words.js").words} words
  * @param {() => void} help
  * @returns {Binding[]}
@@ -87,6 +87,7 @@ export function bindingsOf(page, parts, words, help) {
     { keys: ["f"], shown: "F", does: does.fit, run: camera.fit },
     { keys: ["v"], shown: "V", does: does.view, run: camera.toggle },
     { keys: ["l"], shown: "L", does: does.layers, run: () => parts.layers.button.click() },
+    { keys: ["i"], shown: "I", does: does.numbers, run: () => parts.layers.toggle("numbers") },
     { keys: ["o", "Ctrl+o"], shown: "O", does: does.open, run: parts.opening.choose },
     { keys: ["Ctrl+z"], shown: "Ctrl+Z", does: does.undo, run: () => editor().undo() },
     { keys: ["Ctrl+Shift+z", "Ctrl+y"], shown: "Ctrl+Shift+Z", does: does.redo, run: () => editor().redo() },

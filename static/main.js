@@ -52,10 +52,13 @@ const scene = mountScene(page, place("stage"), text, {
   drawing: () => draw.active,
   names: address.linked.names,
   onLook: address.writeSoon,
+  onLight: (threshold) => tune.panel.light(threshold),
+  onThreshold: (name) => tune.panel.show(name),
 });
 const { stage, notices, camera } = scene;
 const labels = createLabels(place("stage"), stage, words.label, { onFrame: goToFrame });
 const inspect = createInspect(page, words.inspect, {
+  pointing: scene.pointing,
   timeline: () => timeline,
   onTags: (tags) => labels.suggest(tags),
 });
@@ -72,6 +75,7 @@ const docks = { panel: place("panel"), replay: place("replay") };
 const tune = createTune(page, docks, words, {
   pages: [inspect.pages.frames, labelling, inspect.pages.truth],
   explanation: scene.explanation,
+  pointing: scene.pointing,
 });
 const learn = mountLearn(
   { stage: place("stage"), view: stage, dock: place("stepper"), panel: place("learn") },

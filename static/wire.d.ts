@@ -31,6 +31,8 @@ export type View = Required<Omit<ViewPatch, "mode" | "against">> & {
 export type Against = Required<Pinned>;
 /** The drawn state, as the page keeps it. latencyMs: from the latest change made here until it was drawn. */
 export type State = DrawnState & { rev: number; latencyMs: number | null };
+/** A sentence: text, and parts of it that name something in the scene or a threshold. */
+export type Words = (string | Link)[];
 export type Field = FieldEntry;
 export type Knob = KnobEntry;
 export type Method = MethodEntry;
@@ -186,6 +188,20 @@ export interface SendAsked {
 }
 
 // What the server sends
+
+/**
+ * A part of a sentence that names something, and what it is.
+ *
+ * beams: the first and the last; segment: its number in the frame; threshold: its name; line: x1, y1, x2, y2 [m] of
+ * a line that the frame lacks.
+ */
+export interface Link {
+  text: string;
+  beams?: [number, number];
+  segment?: number;
+  threshold?: string;
+  line?: [number, number, number, number];
+}
 
 /** A recording in the menu; `missing` if its file no longer exists. reading: how it was last read. */
 export interface RecordingEntry {
@@ -389,7 +405,7 @@ export interface Pack {
   note: string;
 }
 
-/** first, last: its beams. rms: root mean square distance of its points [m]. */
+/** first, last: its beams. rms: root mean square distance of its points [m]. colour: "#rrggbb". */
 export interface Segment {
   start: [number, number];
   end: [number, number];
@@ -399,10 +415,13 @@ export interface Segment {
   points: number;
   length: number;
   rms: number;
+  colour: string;
 }
 
-/** A dropped line; check: the threshold that it missed. */
+/** A dropped line; check: the threshold that it missed; start, end: its outermost points [m]. */
 export interface Dropped {
+  start: [number, number];
+  end: [number, number];
   first: number;
   last: number;
   points: number;
@@ -411,12 +430,17 @@ export interface Dropped {
   text: string;
 }
 
-/** The decision that the replay shows; value, limit: the compared numbers, null if not finite. */
+/**
+ * The decision that the replay shows; value, limit: the compared numbers, null if not finite.
+ *
+ * words: its sentence in parts.
+ */
 export interface Decision {
   index: number;
   kind: string;
   phase: string;
   text: string;
+  words: Words;
   beam: number;
   first: number;
   last: number;
@@ -429,10 +453,11 @@ export interface Decision {
   line: [number | null, number | null, number | null];
 }
 
-/** The explanation of the selected beam. at: its point [m]; segment: its segment, or −1. */
+/** The explanation of the selected beam. words: its sentence in parts; at: its point [m]; segment: or −1. */
 export interface Explanation {
   beam: number;
   text: string;
+  words: Words;
   segment: number;
   check: string;
   value: number | null;
@@ -714,12 +739,24 @@ export interface WhatIfs {
   changes: WhatIf[];
 }
 
-/** What looks wrong in the requested frames, by frame number. */
+/** One thing that looks wrong in a frame. first, last: the beams concerned, or −1; ghosts: lines that it lacks. */
+export interface Finding {
+  score: string;
+  words: Words;
+  first: number;
+  last: number;
+  ghosts: [number, number, number, number][];
+}
+
+/**
+ * What looks wrong in the requested frames, by frame number. whole: not given up because other thresholds came.
+ */
 export interface Whys {
-  recording: string;
+  place: string;
   method: string;
   params: Record<string, number>;
-  words: Record<number, string[]>;
+  found: Record<number, Finding[]>;
+  whole: boolean;
 }
 
 /**

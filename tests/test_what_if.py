@@ -71,7 +71,7 @@ def test_a_line_of_other_beams_is_named_with_the_one_that_it_replaces():
     step = scan_of([(2, -1.5, 2, -0.3), (2.05, -0.3, 2.05, 1.5)], field_of_view=1.2, beams=241)
     before = extract(step).segments[0]
     found = by_name(step, 60)["epsilon"]
-    then = f"beam 60 would be in a line of beams 0–240 instead of 0–{before.last}"
+    then = f"beam 60 would be in a line of beams 0–240 instead of beams 0–{before.last}"
     assert found.text == f"with ε = {found.value:g} m {then}"
 
 

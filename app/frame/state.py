@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.typing import NDArray
 
-from lineseg import Decision, FrameLabels, Recording, Segment, TrueLine, difference
+from lineseg import Decision, FrameLabels, Recording, Segment, Thresholds, TrueLine, difference
+from lineseg.colours import segment_colours
 from lineseg.readers import Account
 from lineseg.scan import PackAbout
 from lineseg.writers.finite import finite_or_none
@@ -13,6 +16,7 @@ from lineseg.writers.finite import finite_or_none
 from ..live.ring import LiveRecording, numbering
 from ..shelf.label_files import Known
 from ..told import drawn as told
+from ..told.words import words_of
 from ..view import View
 from .findings import Findings, Histogram
 from .geometry import Bounds, extent_of
@@ -76,9 +80,9 @@ def state_of(
         "difference": difference(pinned.extraction, found.extraction).counts if pinned is not None else None,
         "extent": extent_of(scan, bounds),
         "bounds": bounds,
-        "segments": [_segment(segment) for segment in found.extraction.segments],
-        "dropped": [_dropped(drop, *ends) for drop, ends in zip(found.drops, found.drop_ends, strict=True)],
-        "decision": _decision(chosen) if chosen is not None else None,
+        "segments": _segments(found.extraction.segments),
+        "dropped": _dropped_once(found),
+        "decision": _decision(chosen, type(view.params)) if chosen is not None else None,
         "explanation": _explanation(found, view.selected) if view.selected is not None else None,
         "histograms": {name: _histogram(each) for name, each in found.histograms.items()},
         "truth": recording.walls is not None and recording.poses is not None,
@@ -116,7 +120,13 @@ def _pack(about: PackAbout) -> told.Pack:
     }
 
 
-def _segment(segment: Segment) -> told.Segment:
+def _segments(segments: Sequence[Segment]) -> list[told.Segment]:
+    colours = segment_colours(segments).tolist()
+    codes = ["#{:02x}{:02x}{:02x}".format(*colour) for colour in colours]
+    return [_segment(segment, code) for segment, code in zip(segments, codes, strict=True)]
+
+
+def _segment(segment: Segment, colour: str) -> told.Segment:
     return {
         "start": segment.start,
         "end": segment.end,
@@ -126,7 +136,20 @@ def _segment(segment: Segment) -> told.Segment:
         "points": segment.points,
         "length": segment.length,
         "rms": segment.rms,
+        "colour": colour,
     }
+
+
+def _dropped_once(found: Findings) -> list[told.Dropped]:
+    """The dropped lines, without those within another: the same line, grown from another seed."""
+    n = len(found.scan)
+    first, last = np.array([(drop.first, drop.last) for drop in found.drops], int).reshape(-1, 2).T
+    more = (last - first) % n
+    # Of equal ones the first counts as the longest.
+    inside = (first[:, None] - first) % n + more[:, None] <= more
+    earlier = np.arange(len(first))[:, None] > np.arange(len(first))
+    again = (inside & ((more[:, None] < more) | earlier)).any(axis=1)
+    return [_dropped(found.drops[k], *found.drop_ends[k]) for k in np.flatnonzero(~again).tolist()]
 
 
 def _dropped(drop: Decision, start: NDArray, end: NDArray) -> told.Dropped:
@@ -135,6 +158,8 @@ def _dropped(drop: Decision, start: NDArray, end: NDArray) -> told.Dropped:
     if not np.isfinite(length):
         length = np.hypot(*across)
     return {
+        "start": (float(start[0]), float(start[1])),
+        "end": (float(end[0]), float(end[1])),
         "first": drop.first,
         "last": drop.last,
         "points": drop.points,
@@ -144,13 +169,14 @@ def _dropped(drop: Decision, start: NDArray, end: NDArray) -> told.Dropped:
     }
 
 
-def _decision(decision: Decision) -> told.Decision:
+def _decision(decision: Decision, params: type[Thresholds]) -> told.Decision:
     a, b, c = decision.line
     return {
         "index": decision.index,
         "kind": decision.kind,
         "phase": decision.phase,
         "text": decision.text,
+        "words": words_of(decision.text, params),
         "beam": decision.beam,
         "first": decision.first,
         "last": decision.last,
@@ -170,6 +196,7 @@ def _explanation(found: Findings, beam: int) -> told.Explanation:
     return {
         "beam": explained.beam,
         "text": explained.text,
+        "words": words_of(explained.text, type(found.trace.params)),
         "segment": explained.segment,
         "check": explained.check,
         "value": finite_or_none(explained.value),

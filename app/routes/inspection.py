@@ -5,15 +5,26 @@ from __future__ import annotations
 from fastapi import FastAPI
 from starlette.exceptions import HTTPException
 
-from lineseg import what_if, why
+from lineseg import Remark, Thresholds, what_if, why
 
 from ..frame.judge import Reference, agreement_told, judged_recording
 from ..session.sessions import Sessions
 from ..shelf.label_files import LabelFiles
-from ..told.answers import Truth, WhatIfs, Whys
+from ..told.answers import Finding, Truth, WhatIfs, Whys
+from ..told.words import words_of
 
 # Largest number of rows in view in the list of frames.
 MOST_ROWS = 60
+
+
+def _finding(remark: Remark, params: type[Thresholds]) -> Finding:
+    return {
+        "score": remark.score,
+        "words": words_of(remark.text, params, remark.ghosts),
+        "first": remark.first,
+        "last": remark.last,
+        "ghosts": list(remark.ghosts),
+    }
 
 
 def add_inspection(app: FastAPI, sessions: Sessions, files: LabelFiles) -> None:
@@ -42,12 +53,19 @@ def add_inspection(app: FastAPI, sessions: Sessions, files: LabelFiles) -> None:
             raise HTTPException(400, f"frames is {frames[:60]!r}; give numbers separated by commas") from None
         if len(recording) < 2:
             wanted = []
-        remarks = {frame: why(recording, recording.position(frame), view.params) for frame in wanted}
+        found = dict[int, list[Finding]]()
+        for frame in wanted:
+            now = sessions.shown(session)
+            if now.recording is not recording or now.view.params != view.params:
+                break
+            remarks = why(recording, recording.position(frame), view.params)
+            found[frame] = [_finding(each, type(view.params)) for each in remarks]
         return {
-            "recording": view.recording,
+            "place": view.place,
             "method": view.method,
             "params": view.params.numbers(),
-            "words": {frame: [each.text for each in said] for frame, said in remarks.items()},
+            "found": found,
+            "whole": len(found) == len(wanted),
         }
 
     @app.get("/api/truth")

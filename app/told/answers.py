@@ -11,6 +11,7 @@ from lineseg.what_if import WhatIf
 
 from .drawn import Account, Agreement, Params, Point, Reference
 from .typescript import As
+from .words import Words
 
 Job = Literal["curves", "map", "auto", "fit"]
 
@@ -25,13 +26,24 @@ class WhatIfs(TypedDict):
     changes: list[WhatIf]
 
 
-class Whys(TypedDict):
-    """What looks wrong in the requested frames, by frame number."""
+class Finding(TypedDict):
+    """One thing that looks wrong in a frame. first, last: the beams concerned, or −1; ghosts: lines that it lacks."""
 
-    recording: str
+    score: str
+    words: Words
+    first: int
+    last: int
+    ghosts: list[tuple[float, float, float, float]]
+
+
+class Whys(TypedDict):
+    """What looks wrong in the requested frames, by frame number. whole: not given up because other thresholds came."""
+
+    place: str
     method: str
     params: Params
-    words: dict[int, list[str]]
+    found: dict[int, list[Finding]]
+    whole: bool
 
 
 class Truth(TypedDict):

@@ -8,6 +8,7 @@ from typing import Annotated, Any, Literal, NotRequired
 from typing_extensions import TypedDict
 
 from .typescript import As
+from .words import Words
 
 Point = tuple[float, float]
 # a, b, c of the line ax + by + c = 0
@@ -37,7 +38,7 @@ class Pack(TypedDict):
 
 
 class Segment(TypedDict):
-    """first, last: its beams. rms: root mean square distance of its points [m]."""
+    """first, last: its beams. rms: root mean square distance of its points [m]. colour: "#rrggbb"."""
 
     start: Point
     end: Point
@@ -47,11 +48,14 @@ class Segment(TypedDict):
     points: int
     length: float
     rms: float
+    colour: str
 
 
 class Dropped(TypedDict):
-    """A dropped line; check: the threshold that it missed."""
+    """A dropped line; check: the threshold that it missed; start, end: its outermost points [m]."""
 
+    start: Point
+    end: Point
     first: int
     last: int
     points: int
@@ -61,12 +65,16 @@ class Dropped(TypedDict):
 
 
 class Decision(TypedDict):
-    """The decision that the replay shows; value, limit: the compared numbers, null if not finite."""
+    """The decision that the replay shows; value, limit: the compared numbers, null if not finite.
+
+    words: its sentence in parts.
+    """
 
     index: int
     kind: str
     phase: str
     text: str
+    words: Words
     beam: int
     first: int
     last: int
@@ -80,10 +88,11 @@ class Decision(TypedDict):
 
 
 class Explanation(TypedDict):
-    """The explanation of the selected beam. at: its point [m]; segment: its segment, or −1."""
+    """The explanation of the selected beam. words: its sentence in parts; at: its point [m]; segment: or −1."""
 
     beam: int
     text: str
+    words: Words
     segment: int
     check: str
     value: float | None

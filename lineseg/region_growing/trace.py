@@ -110,7 +110,7 @@ class GrowthTrace(Trace):
         line = self.extraction.segments[segment]
         value = float(line.distance(self.scan.xy[beam]))
         limit = float(self.params.epsilon_at(self.scan.ranges[beam]))
-        own = self._grown_into(segment)
+        own = self.grown_into(segment)
         rows = self.log[self._decided_on(beam)]
         joined = rows[(rows["kind"] == POINT_ADDED) & np.isin(rows["candidate"], own)]
         if len(joined):
@@ -125,7 +125,7 @@ class GrowthTrace(Trace):
         text = f"beam {beam} is in segment {segment}: {how} ({_margin(margin)}){self._afterwards(beam, own)}"
         return Explanation(beam, text, segment, "epsilon", value, limit, margin)
 
-    def _grown_into(self, segment: int) -> list[int]:
+    def grown_into(self, segment: int) -> list[int]:
         """The growths whose lines became the segment: its own and those merged into it."""
         ends = self.extraction.segments[segment].first, self.extraction.segments[segment].last
         own = [line.candidate for line in self.lines_at(len(self) - 1) if (line.first, line.last) == ends]

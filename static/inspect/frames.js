@@ -15,6 +15,7 @@ import { FrameList } from "./frame_list.js";
  * @property {(place: number) => number} number the number of the frame at a place
  * @property {(frame: number) => string} value its score, in words
  * @property {(frame: number) => string} words what looks wrong in it
+ * @property {HTMLElement} said all that looks wrong in the frame on the screen
  * @property {(frame: number) => boolean} passes whether it is listed
  * @property {() => void} onRows other frames became visible
  * @property {HTMLElement} extra below the score
@@ -45,7 +46,7 @@ class Frames {
   #list;
 
   /** @param {Text} text @param {Handlers} handlers */
-  constructor(text, { onFrame, onScore, number, value, words, passes, onRows, extra, filter }) {
+  constructor(text, { onFrame, onScore, number, value, words, said, passes, onRows, extra, filter }) {
     this.#text = text;
     this.#passes = passes;
     this.#number = number;
@@ -59,7 +60,7 @@ class Frames {
     const to = this.#limit(text.to, (typed) => {
       this.#high = typed ?? Infinity;
     });
-    this.#list = new FrameList(text, { value, words, onRows, onTake: (frame) => this.#go(frame) });
+    this.#list = new FrameList(text, { value, words, said, onRows, onTake: (frame) => this.#go(frame) });
     const [fromLabel, toLabel] = [h("label", {}, text.from), h("label", {}, text.to)];
     this.element = h(
       "div",

@@ -4,6 +4,7 @@ import { toast } from "../widgets/toast.js";
 import { createAb } from "./ab.js";
 import { createFilter } from "./filter.js";
 import { createFrames } from "./frames.js";
+import { createSaid } from "./said.js";
 import { createTruth } from "./truth.js";
 import { createWeights } from "./weights.js";
 import { createWords } from "./words.js";
@@ -11,24 +12,27 @@ import { createWords } from "./words.js";
 /**
  * @param {import("../page.js").Page} page
  * @param {typeof import("../text/inspect.js").inspectText} text
- * @param {{timeline: () => import("../bars/timeline.js").Timeline, onTags: (tags: string[]) => void}} handlers
+ * @param {{pointing: import("../widgets/words.js").Pointing & {show: (finding: import("../wire.js").Finding | null) => void},
+ *          timeline: () => import("../bars/timeline.js").Timeline, onTags: (tags: string[]) => void}} handlers
  *   onTags: all existing tags
  */
-export function createInspect(page, text, { timeline, onTags }) {
+export function createInspect(page, text, { pointing, timeline, onTags }) {
   const inspecting = () => page.view.mode === "inspect";
   const weights = createWeights(text.weights, (weights) => page.change({ weights }));
   const words = createWords({
     session: page.sessionId,
-    wanted: () => [...frames.inView, ...filter.unknown()],
-    onWords: () => (filter.searching ? listFrames() : frames.paint()),
+    wanted: () => [...(page.drawn ? [page.drawn.frame] : []), ...frames.inView, ...filter.unknown()],
+    onWords: () => (filter.searching ? listFrames() : frames.paint(), showSaid()),
   });
-  const filter = createFilter(text.filter, { words: words.of, onChange: listFrames, onTags });
+  const said = createSaid(text.said, pointing);
+  const filter = createFilter(text.filter, { words: words.texts, onChange: listFrames, onTags });
   const frames = createFrames(text.frames, {
     onFrame: page.goToFrame,
     onScore: (score) => page.change({ score }),
     number: (place) => timeline().scored.number(place),
     value: (frame) => timeline().scored.words(frame),
-    words: said,
+    words: inOneLine,
+    said: said.element,
     passes: (frame) => filter.passes(frame),
     filter: filter.element,
     onRows: () => inspecting() && words.need(),
@@ -36,7 +40,7 @@ export function createInspect(page, text, { timeline, onTags }) {
   });
   const ab = createAb(text.ab, {
     onToggle: togglePin,
-    onSwap: () => page.view.against && page.change({ ...page.view.against, against: present(), step: null }),
+    onSwap: () => page.view.against && page.change({ ...page.view.against, against: presentOf(page), step: null }),
     onAdopt: () => page.view.against && page.change({ ...page.view.against, against: null, step: null }),
     onNext: nextDifference,
   });
@@ -47,25 +51,27 @@ export function createInspect(page, text, { timeline, onTags }) {
   });
 
   /** Tags, note and remarks of a frame. @param {number} frame */
-  function said(frame) {
-    const wrong = words.of(frame);
-    const looks = wrong?.join(" · ") || (wrong ? text.nothingWrong : timeline().scored.summary(frame));
+  function inOneLine(frame) {
+    const wrong = words.texts(frame);
+    const looks = wrong?.join(" · ") || (wrong ? text.said.nothing : timeline().scored.summary(frame));
     return [filter.line(frame), looks].filter(Boolean).join(" · ");
+  }
+
+  function showSaid() {
+    const drawn = page.drawn;
+    if (drawn && inspecting()) said.set(filter.line(drawn.frame), words.of(drawn.frame));
+    else said.set("", []);
   }
 
   function listFrames() {
     frames.sort();
     filter.tell();
+    showSaid();
     if (inspecting()) words.need();
   }
 
-  /** The current result, in the form in which it would be pinned as A. */
-  function present() {
-    return { method: page.view.method, params: page.view.params };
-  }
-
   function togglePin() {
-    page.change({ against: page.view.against ? null : present() });
+    page.change({ against: page.view.against ? null : presentOf(page) });
   }
 
   function nextDifference() {
@@ -76,7 +82,7 @@ export function createInspect(page, text, { timeline, onTags }) {
   }
 
   return {
-    parts: [ab, frames, truth, words, filter, weights],
+    parts: [ab, frames, truth, words, filter, weights, { setState: showSaid }],
     pages: {
       frames: { name: "frames", label: text.tabs.frames, content: frames.element },
       truth: { name: "truth", label: text.tabs.truth, content: truth.element },
@@ -88,4 +94,9 @@ export function createInspect(page, text, { timeline, onTags }) {
     /** The values of the strip changed, or the mode was entered. */
     showScored: () => inspecting() && frames.setScored(timeline().scored.current),
   };
+}
+
+/** The current result, in the form in which it would be pinned as A. @param {import("../page.js").Page} page */
+function presentOf({ view: { method, params } }) {
+  return { method, params };
 }

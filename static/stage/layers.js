@@ -37,6 +37,8 @@ export function createLayers(words, onLayers) {
   return {
     button,
     list,
+    /** @param {string} name of a layer */
+    toggle: (name) => boxes.get(name)?.click(),
     /** Offers the true walls only if they are known. @param {import("../wire.js").State} state */
     setState({ truth }) {
       rows[names.indexOf("truth")].hidden = !truth;

@@ -4,6 +4,7 @@ import { createExplanation } from "../tune/explanation.js";
 import { h } from "../widgets/dom.js";
 import { createCamera } from "./camera.js";
 import { createLayers } from "./layers.js";
+import { createPointing } from "./pointing.js";
 import { mountNotices } from "./notices.js";
 import { Stage } from "./stage.js";
 
@@ -12,19 +13,34 @@ import { Stage } from "./stage.js";
  * @param {HTMLElement} holder
  * @param {typeof import("../text/page.js").pageText} text
  * @param {{onKey: (event: KeyboardEvent) => boolean, onFrame: (frame: Window) => void, onCancel: () => void, onRetry: () => void,
- *          drawing: () => boolean, names: (recording: string) => boolean, onLook: () => void}} handlers as of the stage, the notices, the camera
+ *          drawing: () => boolean, names: (recording: string) => boolean, onLook: () => void,
+ *          onLight: (threshold: string | null) => void, onThreshold: (name: string) => void}} handlers as of the stage, the notices, the camera, the pointing
  */
-export function mountScene(page, holder, text, { onKey, onFrame, onCancel, onRetry, drawing, names, onLook }) {
+export function mountScene(
+  page,
+  holder,
+  text,
+  { onKey, onFrame, onCancel, onRetry, drawing, names, onLook, onLight, onThreshold },
+) {
   const stage = new Stage(holder, text.stage, { onKey, onFrame });
   const notices = mountNotices(holder, text.stage, { onCancel, onRetry });
   const camera = createCamera(page, stage, text.stage, { drawing, names, onLook });
   const layers = createLayers(text, (switched) => page.change({ layers: switched }));
-  const explanation = createExplanation(text.explanation, stage, {
+  const pointing = createPointing(page, holder, stage, { onLight, onThreshold, label: text.stage.beam });
+  const explanation = createExplanation(text.explanation, stage, pointing, {
     onClose: () => page.change({ selected: null }),
     onChange: (name, value) => page.change({ params: { [name]: value } }),
   });
   const tools = h("div", { class: "stage-tools" }, ...camera.buttons, layers.button);
   holder.append(tools, layers.list, explanation.element);
   holder.setAttribute("aria-label", text.stage.label);
-  return { parts: [notices, layers, camera, explanation], stage, notices, camera, layers, explanation };
+  return {
+    parts: [notices, layers, camera, pointing, explanation],
+    stage,
+    notices,
+    camera,
+    layers,
+    explanation,
+    pointing,
+  };
 }

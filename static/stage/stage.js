@@ -14,7 +14,7 @@ import { cameraIn, hasContent, clip, lockPlan, NEAREST, onScreen, PLAN_FOV_DEG, 
 
 const MARGIN = 1.12;
 // What is gone to fills this share of the stage, unless it can be seen already.
-const SHARE = 0.4;
+const SHARE = 0.25;
 const EASILY_SEEN_PX = 60;
 const BAR_PX = 110;
 const CAMERA_KEYS = new Set(["KeyW", "KeyA", "KeyS", "KeyD", "KeyQ", "KeyE"]);

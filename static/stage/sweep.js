@@ -14,6 +14,11 @@ export class FrameSweep {
     this.#onCome = onCome;
   }
 
+  /** Forgets the points, because another frame is shown. */
+  drop() {
+    [this.#asked, this.now] = ["", null];
+  }
+
   /** @param {import("../wire.js").State} state of the frame */
   async need({ recording, readAs, frame }) {
     const query = new URLSearchParams({ recording, reading: JSON.stringify(readAs), frame: String(frame) });

@@ -4,6 +4,7 @@ import { steppingText } from "../text/stepping.js";
 import { h, sentenceCase, setText } from "../widgets/dom.js";
 import { iconButton } from "../widgets/icon.js";
 import { createVersus } from "../widgets/versus.js";
+import { fillWords, plain } from "../widgets/words.js";
 
 /** @typedef {Parameters<ReturnType<typeof createVersus>["set"]>[0]} Compared */
 
@@ -11,6 +12,7 @@ export class Decision {
   #phase = h("span", { class: "phase" });
   #sentence = h("p", { class: "decision", "aria-live": "polite", "aria-atomic": "true" });
   #versus = createVersus();
+  /** @type {import("../widgets/words.js").Pointing | null} */ #pointing = null;
 
   /** @param {string} leave words of the way back to the whole result @param {() => void} onLeave @param {...Node} answers beside the sentence */
   constructor(leave, onLeave, ...answers) {
@@ -26,11 +28,17 @@ export class Decision {
     );
   }
 
-  /** @param {string} phase @param {string} sentence @param {Compared} compared */
+  /** The words of sentences in parts can be pointed at. @param {import("../widgets/words.js").Pointing} pointing */
+  linkTo(pointing) {
+    this.#pointing = pointing;
+  }
+
+  /** @param {string} phase @param {string | import("../wire.js").Words} sentence @param {Compared} compared */
   set(phase, sentence, compared) {
     setText(this.#phase, steppingText.phases[phase] ?? sentenceCase(phase));
     this.#phase.dataset.phase = phase;
-    setText(this.#sentence, sentence);
+    if (this.#pointing && typeof sentence !== "string") fillWords(this.#sentence, sentence, this.#pointing);
+    else setText(this.#sentence, plain(sentence));
     this.#versus.set(compared);
   }
 

@@ -39,7 +39,12 @@ export const inspectText = {
     help: "The suspicion of a frame is a sum. Disputed lines count by their number, other scores by how far they stand out from the recording and from nearby frames. A greater weight makes a score count more; 0 leaves it out.",
     reset: "Default weights",
   },
-  nothingWrong: "nothing stands out",
+  said: {
+    label: "What looks wrong in this frame",
+    draw: "Draw it in the scene",
+    nothing: "nothing stands out",
+    pending: "Looking for what is wrong…",
+  },
   truth: {
     label: "Segments compared with the true lines",
     show: "Show in the scene",

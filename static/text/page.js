@@ -65,6 +65,7 @@ export const pageText = {
   stage: {
     label: "Laser scan from above",
     scene: "Scene: scan, seeds and segments",
+    beam: (/** @type {number} */ beam) => `beam ${beam}`,
     fit: "Fit the recording in view",
     free: "Rotate the scene freely in 3D",
     plan: "Back to the plan view",
@@ -116,6 +117,7 @@ export const pageText = {
       label: "Missed lines",
       help: "In Inspect: lines that this frame probably misses, found by extractions at the ε that fits the laser",
     },
+    numbers: { label: "Beam numbers", help: "The number of each beam at its point, as many as there is room for (I)" },
     replay: { label: "Replay geometry", help: "The window, line, ε band and candidate of the current decision" },
     laser: { label: "Laser", help: "Position and direction of the laser" },
     grid: { label: "Grid", help: "Squares of equal size; the scale bar shows how large they are" },
@@ -253,6 +255,7 @@ export const pageText = {
       fit: "fit the recording in view",
       view: "plan or free 3D view",
       layers: "layers",
+      numbers: "beam numbers in the scene",
       open: "open a file",
       undo: "undo a change",
       redo: "redo",

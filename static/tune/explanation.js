@@ -3,6 +3,7 @@ import { h, setText } from "../widgets/dom.js";
 import { iconButton } from "../widgets/icon.js";
 import { withUnit } from "../widgets/scale.js";
 import { tooltip } from "../widgets/tooltip.js";
+import { fillWords, pointAt } from "../widgets/words.js";
 import { createVersus } from "../widgets/versus.js";
 import { comparison } from "../stepping/comparison.js";
 import { symbol } from "./symbol.js";
@@ -15,9 +16,10 @@ import { symbol } from "./symbol.js";
  * @param {typeof import("../text/page.js").pageText.explanation} text
  * @param {{project: (x: number, y: number) => [number, number] | null, onMove: (listener: () => void) => void}} stage
  *   project: position of a point on the stage [px]
+ * @param {import("../widgets/words.js").Pointing} pointing
  * @param {{onClose: () => void, onChange: (name: string, value: number) => void}} handlers
  */
-export function createExplanation(text, stage, { onClose, onChange }) {
+export function createExplanation(text, stage, pointing, { onClose, onChange }) {
   const beam = h("span", { class: "phase" });
   const sentence = h("p", { class: "decision" });
   const versus = createVersus();
@@ -72,26 +74,33 @@ export function createExplanation(text, stage, { onClose, onChange }) {
       shown = explanation;
       if (!explanation) return;
       setText(beam, text.beam(explanation.beam));
-      setText(sentence, explanation.text);
+      fillWords(sentence, explanation.words, pointing);
       versus.set(comparison(explanation, knobs));
       place();
     },
     /** Buttons for the changes that would give another answer. @param {import("../wire.js").WhatIf[]} found */
     setChanges(found) {
-      const buttons = found.flatMap(({ name, value, text: why }) => {
-        const knob = knobs.find((each) => each.name === name);
-        if (!knob || value === null) return [];
-        const button = h(
-          "button",
-          { type: "button", class: "button what-if-change", onclick: () => onChange(name, value) },
-          symbol(knob.symbol),
-          withUnit(knob, value),
-        );
-        tooltip(button, why);
-        return [button];
+      const buttons = found.flatMap((change) => {
+        const knob = knobs.find((each) => each.name === change.name);
+        return knob && change.value !== null ? [changeButton(change, change.value, knob, { pointing, onChange })] : [];
       });
       changes.hidden = !found.length;
       changes.replaceChildren(h("span", { class: "muted" }, buttons.length ? text.changes : text.noChange), ...buttons);
     },
   };
+}
+
+/**
+ * Sets the value that gives another answer; while it is pointed at, the line that the beam would be in is lit.
+ * @param {import("../wire.js").WhatIf} change @param {number} value @param {Knob} knob
+ * @param {{pointing: import("../widgets/words.js").Pointing, onChange: (name: string, value: number) => void}} handlers
+ */
+function changeButton({ name, segment, first, last, text }, value, knob, { pointing, onChange }) {
+  const onclick = () => onChange(name, value);
+  const props = { type: "button", class: "button what-if-change", onclick };
+  const button = h("button", props, symbol(knob.symbol), withUnit(knob, value));
+  tooltip(button, text);
+  const beams = segment >= 0 ? /** @type {[number, number]} */ ([first, last]) : undefined;
+  pointAt(button, { text: knob.symbol, threshold: name, beams }, pointing);
+  return button;
 }

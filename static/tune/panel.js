@@ -25,6 +25,7 @@ class Panel {
   #lines;
   #tabs;
   /** Identifies the drawn recording. */ #place = "";
+  /** The row that a sentence names. @type {HTMLElement | null | undefined} */ #lit = null;
 
   /**
    * @param {HTMLElement} panel
@@ -62,6 +63,20 @@ class Panel {
   /** The row of a threshold, so that others can add to it. @param {string} name */
   row(name) {
     return this.#thresholds.row(name);
+  }
+
+  /** Marks the row of the threshold that a sentence names; null: none. @param {string | null} name */
+  light(name) {
+    this.#lit?.classList.remove("lit");
+    this.#lit = name ? this.row(name)?.element : null;
+    this.#lit?.classList.add("lit");
+    this.#lit?.scrollIntoView({ block: "nearest" });
+  }
+
+  /** Goes to the slider of a threshold. @param {string} name */
+  show(name) {
+    this.open("thresholds");
+    this.#thresholds.show(name);
   }
 
   /** Shows one of the pages. @param {string} name */

@@ -15,7 +15,7 @@ const USUAL_SPEED = 5;
 /**
  * @param {HTMLElement} dock
  * @param {typeof import("../text/page.js").pageText} words
- * @param {{onStep: (step: number | null) => void, settled: () => boolean}} handlers
+ * @param {{onStep: (step: number | null) => void, settled: () => boolean, pointing: import("../widgets/words.js").Pointing}} handlers
  */
 export function mountReplay(dock, words, handlers) {
   return new Replay(dock, words.replay, handlers);
@@ -35,9 +35,9 @@ class Replay {
   /**
    * @param {HTMLElement} dock
    * @param {typeof import("../text/page.js").pageText.replay} text
-   * @param {{onStep: (step: number | null) => void, settled: () => boolean}} handlers
+   * @param {{onStep: (step: number | null) => void, settled: () => boolean, pointing: import("../widgets/words.js").Pointing}} handlers
    */
-  constructor(dock, text, { onStep, settled }) {
+  constructor(dock, text, { onStep, settled, pointing }) {
     this.#text = text;
     const steps = new Steps(
       {
@@ -60,6 +60,7 @@ class Replay {
     );
     this.#steps = steps;
     this.#decision = new Decision(text.leave, () => this.leave());
+    this.#decision.linkTo(pointing);
     this.#enter = h(
       "button",
       { type: "button", class: "button replay-enter", onclick: () => steps.go(0) },
@@ -121,7 +122,7 @@ class Replay {
     setText(this.#count, steps ? this.#text.decisions(steps) : this.#text.none);
     this.#decision.set(
       decision?.phase ?? "",
-      decision?.text ?? "",
+      decision?.words ?? [],
       decision ? comparison(decision, this.#knobs) : null,
     );
     this.#show();

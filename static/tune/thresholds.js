@@ -107,6 +107,14 @@ export class Thresholds {
     return this.#rows.get(name) ?? null;
   }
 
+  /** Goes to a slider. @param {string} name */
+  show(name) {
+    const row = this.row(name)?.element;
+    row?.closest("details")?.setAttribute("open", "");
+    row?.scrollIntoView({ block: "nearest" });
+    row?.querySelector("input")?.focus({ preventScroll: true });
+  }
+
   /** Another recording was opened. */
   forget() {
     for (const row of this.#rows.values()) row.shrink();

@@ -9,10 +9,11 @@ import { createTuner } from "./tuner.js";
  * @param {import("../page.js").Page} page
  * @param {{panel: HTMLElement, replay: HTMLElement}} places
  * @param {typeof import("../text/words.js").words} text
- * @param {{pages: {name: string, label: string, content: HTMLElement}[], explanation: ReturnType<typeof import("./explanation.js").createExplanation>}} others
+ * @param {{pages: {name: string, label: string, content: HTMLElement}[], explanation: ReturnType<typeof import("./explanation.js").createExplanation>,
+ *          pointing: import("../widgets/words.js").Pointing}} others
  *   pages: further pages of the panel, for the mode Inspect
  */
-export function createTune(page, places, text, { pages, explanation }) {
+export function createTune(page, places, text, { pages, explanation, pointing }) {
   const tuner = createTuner(text.tuning, {
     session: () => page.session.id,
     onParams: (params) => page.change({ params }),
@@ -34,6 +35,7 @@ export function createTune(page, places, text, { pages, explanation }) {
   const replay = mountReplay(places.replay, text.page, {
     onStep: (step) => page.change({ step }),
     settled: page.settled,
+    pointing,
   });
   const whatIf = createWhatIf({
     session: page.sessionId,
