@@ -21,12 +21,14 @@ from .baselines.split_and_merge_textbook import SPLIT_AND_MERGE_TEXTBOOK, Textbo
 from .knobs import Thresholds
 from .params import Params
 from .region_growing import Run, run
-from .region_growing.extraction import extraction_of
+from .region_growing.extraction import KernelOutput
 from .region_growing.trace import VOCABULARY, GrowthTrace
 from .scan import Scan
 from .segment import Extraction
 from .tracing.decisions import Trace
 from .tracing.vocabulary import Vocabulary
+
+DEFAULT = Params()
 
 
 @dataclass(frozen=True)
@@ -55,14 +57,14 @@ def extract(scan: Scan, params: Thresholds | None = None) -> Extraction:
     if type(scan) is not Scan:
         need_scan(scan)
     if params is None or type(params) is Params:
-        return grow(scan, params or Params())
+        return grow(scan, params or DEFAULT)
     return method_of(params).extract(scan, params)
 
 
 def trace(scan: Scan, params: Thresholds | None = None) -> Trace:
     """Like `extract`, with every decision recorded; `.extraction` is what `extract` returns. Raises the same errors."""
     need_scan(scan)
-    params = Params() if params is None else params
+    params = params or DEFAULT
     return method_of(params).trace(scan, params)
 
 
@@ -93,7 +95,8 @@ def _baseline(
 
 
 def _extraction(scan: Scan, params: Params, result: Run) -> Extraction:
-    return extraction_of("region-growing", scan, params, result.lines, result.dropped, result.beam)
+    rows = KernelOutput(scan, result.lines, result.dropped, result.beam)
+    return Extraction.of_rows("region-growing", params, rows)
 
 
 EXTRACTORS = {

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -65,9 +66,10 @@ class Scan:
 
     @classmethod
     def regular(cls, ranges: Floats, angle_min: float, angle_increment: float, **fields) -> Scan:
-        """A scan whose beams are `angle_increment` apart, as in sensor_msgs/LaserScan."""
+        """A scan whose beams are `angle_increment` apart, as in sensor_msgs/LaserScan; its bearings are read-only."""
         ranges = np.asarray(ranges)
-        return cls(ranges, angle_min + angle_increment * np.arange(len(ranges)), **fields)
+        fan = regular_fan(float(angle_min), float(angle_increment), ranges.size)
+        return cls(ranges, fan.bearings, known=fan, **fields)
 
     def __len__(self) -> int:
         return len(self.ranges)
@@ -83,9 +85,7 @@ class Scan:
         # `replace` may have given the scan other bearings.
         if self.known is not None and self.known.bearings is self.bearings:
             return self.known
-        rays = np.array((np.cos(self.bearings), np.sin(self.bearings)))
-        rays.flags.writeable = False
-        return Fan(self.bearings, rays, beams_around(self.bearings))
+        return fan_of(self.bearings)
 
     @property
     def rays(self) -> NDArray[np.float64]:
@@ -203,24 +203,29 @@ class Recording:
         if not -len(self) <= frame < len(self):
             raise IndexError(f"frame {frame} of {self.name or 'the recording'}: it has the frames 0 to {len(self) - 1}")
         frame %= len(self)
-        beams = slice(self.offsets[frame], self.offsets[frame + 1])
-        fields = {} if self.wall is None else {"wall": self.wall[beams]}
+        numbers = self._numbers_of_frames()
+        first, end = self.offsets[frame], self.offsets[frame + 1]
+        return self._scan(first, end, [float(of[frame]) for of in numbers], self.frame_ids[frame])
+
+    def __iter__(self) -> Iterator[Scan]:
+        spans = pairwise(self.offsets.tolist())
+        numbers = zip(*(of.tolist() for of in self._numbers_of_frames()), strict=True)
+        frames = zip(spans, numbers, self.frame_ids, strict=True)
+        return (self._scan(first, end, fields, frame_id) for (first, end), fields, frame_id in frames)
+
+    def _numbers_of_frames(self) -> tuple[Floats, ...]:
+        return self.angle_min, self.angle_increment, self.range_min, self.range_max, self.stamps
+
+    def _scan(self, first: int, end: int, numbers: Sequence[float], frame_id: str) -> Scan:
+        angle_min, increment, range_min, range_max, stamp = numbers
+        wall = None if self.wall is None else self.wall[first:end]
         if self.bearings is not None:
-            bearings, known = self.bearings[beams], None
+            bearings, known = self.bearings[first:end], None
         else:
             # Most scans of a recording share their geometry, so its sines and cosines are computed once.
-            known = self._fan(frame)
+            known = regular_fan(angle_min, increment, int(end - first))
             bearings = known.bearings
-        return Scan(
-            self.ranges[beams],
-            bearings,
-            float(self.range_min[frame]),
-            float(self.range_max[frame]),
-            float(self.stamps[frame]),
-            self.frame_ids[frame],
-            known=known,
-            **fields,
-        )
+        return Scan(self.ranges[first:end], bearings, range_min, range_max, stamp, frame_id, wall, known)
 
     def only(self, frames: NDArray[np.integer]) -> Recording:
         """The frames of these numbers, in this order."""
@@ -256,13 +261,6 @@ class Recording:
         """Whether frame `number` of the file is one of the scans."""
         return self.number(self.position(number)) == number
 
-    def _fan(self, frame: int) -> Fan:
-        beams = int(self.offsets[frame + 1] - self.offsets[frame])
-        return regular_fan(float(self.angle_min[frame]), float(self.angle_increment[frame]), beams)
-
-    def __iter__(self) -> Iterator[Scan]:
-        return (self[frame] for frame in range(len(self)))
-
     @property
     def beams(self) -> tuple[int, int]:
         """The least and the greatest number of beams in a scan."""
@@ -273,9 +271,16 @@ class Recording:
 @lru_cache(maxsize=64)
 def regular_fan(angle_min: float, angle_increment: float, beams: int) -> Fan:
     """The fan of beams that are `angle_increment` apart, read-only."""
-    fan = Scan.regular(np.empty(beams), angle_min, angle_increment).fan
-    fan.bearings.flags.writeable = False
-    return fan
+    bearings = angle_min + angle_increment * np.arange(beams)
+    bearings.flags.writeable = False
+    return fan_of(bearings)
+
+
+def fan_of(bearings: Floats) -> Fan:
+    """The fan of beams that point there."""
+    rays = np.array((np.cos(bearings), np.sin(bearings)))
+    rays.flags.writeable = False
+    return Fan(bearings, rays, beams_around(bearings))
 
 
 def beams_around(bearings: Floats) -> int:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -62,6 +62,14 @@ class Dropped(NamedTuple):
     limit: float
 
 
+class Rows(Protocol):
+    """The output of a kernel, and how the parts of an `Extraction` are made of it."""
+
+    def segments(self) -> tuple[Segment, ...]: ...
+    def labels(self) -> NDArray[np.int32]: ...
+    def drops(self) -> tuple[Dropped, ...]: ...
+
+
 @dataclass(frozen=True, eq=False)
 class Extraction:
     """What a method finds in one scan.
@@ -75,6 +83,20 @@ class Extraction:
     segments: tuple[Segment, ...]
     labels: NDArray[np.int32]
     dropped: tuple[Dropped, ...]
+
+    @classmethod
+    def of_rows(cls, method: str, params: Any, rows: Rows) -> Extraction:
+        """The same of a kernel's output; each part is made when it is first asked for."""
+        made = cls.__new__(cls)
+        made.__dict__.update(method=method, params=params, _rows=rows)
+        return made
+
+    def __getattr__(self, name: str) -> Any:
+        rows = self.__dict__.get("_rows")
+        if rows is None or name not in ("segments", "labels", "dropped"):
+            raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}", name=name, obj=self)
+        part = rows.drops() if name == "dropped" else getattr(rows, name)()
+        return self.__dict__.setdefault(name, part)
 
     @cached_property
     def covered(self) -> int:

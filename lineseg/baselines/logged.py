@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 from numpy.typing import NDArray
 
-from ..region_growing.extraction import extraction_of
+from ..region_growing.extraction import KernelOutput
 from ..scan import Scan
 from ..segment import Extraction
 from ..tracing.decisions import Trace
@@ -41,4 +41,5 @@ class LoggedMethod(NamedTuple):
         return Trace(scan, params, extraction, self.vocabulary, found.rows, found.positions)
 
     def _extraction(self, scan: Scan, params: Any, found: Run) -> Extraction:
-        return extraction_of(self.name, scan, params, found.lines, found.dropped, found.positions)
+        rows = KernelOutput(scan, found.lines, found.dropped, found.positions)
+        return Extraction.of_rows(self.name, params, rows)

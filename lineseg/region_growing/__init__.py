@@ -6,6 +6,7 @@ Int. J. Advanced Robotic Systems 15(1), 2018, DOI 10.1177/1729881418755245.
 
 from __future__ import annotations
 
+import threading
 from functools import partial
 from typing import NamedTuple
 
@@ -96,6 +97,7 @@ class Memory:
     """
 
     def __init__(self, beams: int, circle: bool) -> None:
+        self.beams, self.circle = beams, circle
         places = (4 * beams if circle else beams) + 1
         self.xy = np.empty((6, places))
         self.numbers = np.empty((6, places), np.int32)
@@ -103,20 +105,45 @@ class Memory:
         self.dropped = np.empty(2 * beams + 1, DROPPED)
         self.arguments = self.xy, self.numbers, self.lines.view(np.float64), self.dropped.view(np.float64)
 
+    def written(self, lines: int, dropped: int) -> tuple[NDArray[np.void], NDArray[np.void]]:
+        """Copies of the first lines and dropped candidates."""
+        # As plain numbers, because numpy copies structured rows field by field.
+        _, _, line_numbers, dropped_numbers = self.arguments
+        found = line_numbers[: LINE.itemsize // 8 * lines].copy().view(LINE)
+        return found, dropped_numbers[: DROPPED.itemsize // 8 * dropped].copy().view(DROPPED)
+
+    @classmethod
+    def of_thread(cls, beams: int, circle: bool) -> Memory:
+        """The memory that this thread keeps for its next scan; one of its own for a scan of very many beams."""
+        if beams > MOST_KEPT:
+            return cls(beams, circle)
+        kept: Memory = getattr(_THREAD, "memory", NO_MEMORY)
+        if kept.beams < beams or (circle and not kept.circle):
+            kept = _THREAD.memory = cls(max(beams, kept.beams), circle or kept.circle)
+        return kept
+
+
+# Scans of more beams than this are rare, and their memory is not worth keeping.
+MOST_KEPT = 20_000
+_THREAD = threading.local()
+NO_MEMORY = Memory(0, circle=False)
+
 
 def run(scan: Scan, params: Params, logged: bool = False) -> Run:
     """Extract the lines of one scan; log every decision if `logged`."""
-    memory = Memory(len(scan), scan.full_circle)
+    around = scan.around
+    memory = Memory.of_thread(len(scan), around > 0)
     ranges, nearest, farthest = scan.ranges.astype(np.float64), float(scan.range_min), float(scan.range_max)
-    scene = (ranges, scan.rays, nearest, farthest, scan.around, limits_of(params))
+    scene = (ranges, scan.rays, nearest, farthest, around, limits_of(params))
     rows = None
     if logged:
         run_once = partial(extract_lines, *scene, *memory.arguments)
         (count, drops, points, _), rows = written(run_once, 4 * len(scan) + 64)
     else:
         count, drops, points, _ = extract_lines(*scene, *memory.arguments, None)
-    beam = memory.numbers[0, : 4 * points] % scan.around if scan.full_circle else memory.numbers[0, :points]
-    return Run(memory.lines[:count], memory.dropped[:drops], beam, points, rows)
+    beam = memory.numbers[0, : 4 * points] % around if around > 0 else memory.numbers[0, :points].copy()
+    lines, dropped = memory.written(count, drops)
+    return Run(lines, dropped, beam, points, rows)
 
 
 def thin_things(scan: Scan, params: Params | None = None) -> NDArray[np.bool_]:

@@ -114,8 +114,9 @@ def written(call: Callable[[Log], T], rows: int) -> tuple[T, NDArray[np.void]]:
     if log.used[0] > rows:
         log = Log(np.empty(log.used[0], ROW), np.zeros(1, np.int64))
         result = call(log)
-    # A copy, because few rows of the memory are used, and a trace may be kept for long.
-    return result, log.rows[: log.used[0]].copy()
+    # A copy, because few rows of the memory are used, and a trace may be kept for long. As bytes: numpy copies
+    # structured rows field by field.
+    return result, log.rows.view(np.uint8)[: log.used[0] * ROW.itemsize].copy().view(ROW)
 
 
 class Notes:
