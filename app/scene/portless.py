@@ -1,14 +1,18 @@
 """A viser server that listens on no port: whoever accepts a browser's socket hands it over inside of the process.
 
 viser itself checks neither origin nor token, so any program or page that reached a port of it could read the scene and
-move the sliders. viser is pinned to one version, and this relies on two of its internals: viser looks `serve` up in
-the module `viser.infra._infra`, and it asks a connection for no more than `Connection` has.
+move the sliders. viser is pinned to one version, and this relies on three of its internals: viser looks `serve` and
+`new_event_loop` up in the module `viser.infra._infra`, and it asks a connection for no more than `Connection` has.
+
+All scenes share the event loop of the server. In loops of their own, forty tabs would have forty more threads that
+wait for each other at every picture, because Python runs one at a time.
 """
 
 from __future__ import annotations
 
 import asyncio
 import contextlib
+import threading
 from collections import deque
 from collections.abc import AsyncIterator, Awaitable, Callable, Coroutine
 from concurrent.futures import Future
@@ -30,7 +34,7 @@ Send = Callable[[bytes], Coroutine[Any, Any, None]]
 
 
 class Connection:
-    """What viser sees of a browser. `send` runs in the loop that made the connection; all else in viser's.
+    """What viser sees of a browser. `send` is awaited in the loop that made the connection; all else runs in viser's.
 
     subprotocol: what the browser offered, which tells viser the version of its page.
     """
@@ -49,7 +53,10 @@ class Connection:
         if self._closed:
             raise ConnectionClosedOK(None, None)
         try:
-            await asyncio.wrap_future(asyncio.run_coroutine_threadsafe(self._send(data), self._outside))
+            if self._outside is asyncio.get_running_loop():
+                await self._send(data)
+            else:
+                await asyncio.wrap_future(asyncio.run_coroutine_threadsafe(self._send(data), self._outside))
         except Exception:
             raise ConnectionClosedOK(None, None) from None
 
@@ -106,7 +113,7 @@ class Door(str):
 
     def enter(self, connection: Connection) -> Future[None]:
         """Let viser serve a connection until it ends. Raises RuntimeError if viser has stopped."""
-        if self.loop is None or self.loop.is_closed():
+        if self.loop is None or self.loop.is_closed() or self._handler is None:
             raise RuntimeError("viser has stopped")
         return asyncio.run_coroutine_threadsafe(self._serve(connection), self.loop)
 
@@ -135,6 +142,40 @@ def _serve(handler: Callable[[Any], Awaitable[None]], host: str, *arguments: Any
     return websockets.asyncio.server.serve(handler, host, *arguments, **options)
 
 
+class Borrowed(asyncio.AbstractEventLoop):
+    """A loop that runs in another thread, for viser, which makes a loop and runs it until its server stops."""
+
+    def __init__(self, loop: asyncio.AbstractEventLoop) -> None:
+        self._loop = loop
+        self.create_task = loop.create_task
+        self.create_future = loop.create_future
+        self.call_soon_threadsafe = loop.call_soon_threadsafe
+
+    def run_until_complete(self, future: Any) -> Any:
+        return asyncio.run_coroutine_threadsafe(future, self._loop).result()
+
+    def is_closed(self) -> bool:
+        return self._loop.is_closed()
+
+    def stop(self) -> None:
+        """Other servers use it."""
+
+    def close(self) -> None:
+        """Other servers use it."""
+
+
+# The loop for the server that is being made, and the lock that lets one be made at a time.
+_lent: list[asyncio.AbstractEventLoop] = []
+_making = threading.Lock()
+
+
+def _new_event_loop() -> asyncio.AbstractEventLoop:
+    return Borrowed(_lent[0]) if _lent else asyncio.new_event_loop()
+
+
+infra.asyncio = SimpleNamespace(  # pyright: ignore[reportAttributeAccessIssue]
+    **vars(asyncio) | {"new_event_loop": _new_event_loop}
+)
 infra.websockets = SimpleNamespace(  # pyright: ignore[reportAttributeAccessIssue, reportPrivateImportUsage]
     asyncio=SimpleNamespace(server=SimpleNamespace(serve=_serve)),
     datastructures=websockets.datastructures,
@@ -143,13 +184,18 @@ infra.websockets = SimpleNamespace(  # pyright: ignore[reportAttributeAccessIssu
 
 
 class PortlessServer(viser.ViserServer):
-    """A viser server that is reached through its `door` only, and that never opens a share tunnel."""
+    """A viser server that is reached through its `door` only, and that never opens a share tunnel.
 
-    def __init__(self) -> None:
+    loop: runs in another thread, and serves the scene; with None, viser makes a loop of its own.
+    """
+
+    def __init__(self, loop: asyncio.AbstractEventLoop | None = None) -> None:
         # viser prints to stdout, which belongs to the command line.
         rich.get_console().quiet = True
         self.door = Door()
-        super().__init__(host=self.door, port=0, label="lineseg", verbose=False)
+        with _making:
+            _lent[:] = [] if loop is None else [loop]
+            super().__init__(host=self.door, port=0, label="lineseg", verbose=False)
         if self.door.loop is None:
             self.stop()
             raise RuntimeError(f"viser {viser.__version__} opened a port of its own; install version 1.1.1")

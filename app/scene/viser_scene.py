@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import math
 from collections.abc import Callable
 from typing import Any, Literal
@@ -68,11 +69,11 @@ class ViserScene:
 
     change: called with a patch of the View. pick: called with the clicked point of the plane
     z = 0 and a radius around it [m].
-    Both are called in viser's threads. Starting blocks for a moment, so start it in a thread.
+    Both are called in viser's threads. loop: see PortlessServer. Starting blocks for a moment, so start it in a thread.
     """
 
-    def __init__(self, change: Change, pick: Pick) -> None:
-        self._server = PortlessServer()
+    def __init__(self, change: Change, pick: Pick, loop: asyncio.AbstractEventLoop | None = None) -> None:
+        self._server = PortlessServer(loop)
         self._metres_per_pixel = 0.02
         self._dark: bool | None = None
         self._bounds: Bounds | None = None

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import logging
 import os
 import threading
@@ -78,7 +79,7 @@ class Session:
     """Every input changes the View and wakes the worker; while the worker draws, only the newest request is kept.
 
     `send` is called in the worker's thread and may block: a slow page only slows its own session.
-    Creating a session starts a viser server and blocks for a moment.
+    Creating a session starts a viser server, in `loop`, and blocks for a moment.
     """
 
     def __init__(
@@ -89,6 +90,7 @@ class Session:
         warm_up: WarmUp,
         view: View,
         watch: Watch | None = None,
+        loop: asyncio.AbstractEventLoop | None = None,
     ) -> None:
         self.id = id
         self._watch = watch
@@ -108,7 +110,7 @@ class Session:
         self._done = 0
         self._cancelled = self._closing = False
         self._lock = threading.RLock()
-        self._scene = ViserScene(self._change_from_scene, self._pick)
+        self._scene = ViserScene(self._change_from_scene, self._pick, loop)
         self._drawing = Newest(f"session {id[:6]}", self._work)
         self._strip = Strip(f"strip {id[:6]}", warm_up.surveyed, self._tell)
         self._followed = 0.0

@@ -90,9 +90,9 @@ class Sessions:
             await self.close(min(away, key=lambda session: session.detached_at or 0.0))
         self._opening += 1
         try:
-            session = await asyncio.to_thread(
-                Session, secrets.token_urlsafe(16), self._library, self._files, self._warm_up, view, self._watch
-            )
+            shared = self._library, self._files, self._warm_up
+            loop = asyncio.get_running_loop()
+            session = await asyncio.to_thread(Session, secrets.token_urlsafe(16), *shared, view, self._watch, loop)
         finally:
             self._opening -= 1
         self._sessions[session.id] = session
