@@ -3,7 +3,7 @@
 import hashlib
 import json
 from collections.abc import Iterator, Mapping
-from dataclasses import asdict, dataclass, field, fields, replace
+from dataclasses import dataclass, field, fields, replace
 from functools import cache, lru_cache
 from typing import Annotated, Any, Literal, Self, TypeVar
 
@@ -12,6 +12,7 @@ from pydantic import Field, ValidationError
 from lineseg import EXTRACTORS, Params, Thresholds
 from lineseg.doubt import SCORES, Score
 from lineseg.doubt.suspicion import WEIGHTS
+from lineseg.knobs import replaced
 from lineseg.readers import Reading
 
 from .bounds import Count, Message, Name, ReadingValues, RecordingId, Values, sentence
@@ -227,7 +228,7 @@ class View:
             mirrored=False,
             patch=Annotated[dict[Name, bool], Field(max_length=64)],
             take=lambda view, switched: view.layers.but(**switched),
-            tell=asdict,
+            tell=lambda layers: dict(vars(layers)),
             written="switches",
         ),
     ] = field(default_factory=Layers)
@@ -248,15 +249,18 @@ class View:
         view, usual = self, _usual(type(self))
         changed, chosen = set[str](), set[str]()
         for name, entry in declared.items():
-            if changed.intersection(entry.reset_by):
-                view = replace(view, **{name: entry.fresh(view) if entry.fresh else getattr(usual, name)})
-            elif chosen.intersection(entry.off_by):
-                view = replace(view, **{name: False})
+            value = was = getattr(view, name)
+            if changed and not changed.isdisjoint(entry.reset_by):
+                value = entry.fresh(view) if entry.fresh else getattr(usual, name)
+            elif chosen and not chosen.isdisjoint(entry.off_by):
+                value = False
             if name in patch:
-                view = replace(view, **{name: entry.taken(name, view, patch[name])})
-            if (value := getattr(view, name)) != getattr(self, name):
-                changed.add(name)
-                chosen.update([name] if value is not None else [])
+                value = entry.taken(name, replaced(view, {name: value}), patch[name])
+            if value is not was:
+                view = replaced(view, {name: value})
+                if value != was:
+                    changed.add(name)
+                    chosen.update([name] if value is not None else [])
         return view
 
     def salvaged(self, said: Mapping[str, Any]) -> tuple[Self, str | None]:

@@ -11,13 +11,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from lineseg import EXTRACTORS, Decision, Extraction, Recording, Scan, Thresholds, Trace
+from lineseg import EXTRACTORS, Extraction, Recording, Scan, Thresholds, Trace
 from lineseg.knobs import Knob
 from lineseg.region_growing.checks import number_of
 from lineseg.region_growing.prediction import predicted_ranges
 from lineseg.region_growing.trace import GrowthTrace
 
 BINS = 24
+# The time of this thread alone, because other threads may interrupt it; it is too coarse on Windows.
+CLOCK = time.thread_time if time.get_clock_info("thread_time").resolution < 1e-6 else time.perf_counter
 
 
 @dataclass(frozen=True)
@@ -53,18 +55,24 @@ class Findings:
         }
 
     @cached_property
-    def drops(self) -> tuple[Decision, ...]:
-        """The decisions that dropped a line."""
-        return tuple(self.trace.at(self.trace.jump("drop")))
+    def drops(self) -> NDArray[np.intp]:
+        """Indices of the decisions that dropped a line."""
+        return self.trace.jump("drop")
+
+    @cached_property
+    def drop_spans(self) -> NDArray[np.int64]:
+        """(2, drops): first and last beam of each dropped line."""
+        rows = self.trace.log[self.drops]
+        return self.trace.as_beams(np.maximum((rows["first"], rows["last"]), 0))
 
     @cached_property
     def drop_ends(self) -> NDArray[np.float64]:
         """(drops, 2, 2): the outermost points of each dropped line [m]; 0 if it has no valid beam."""
-        spans = np.array([(drop.first, drop.last) for drop in self.drops], int).reshape(-1, 2)
-        beams, drops = self.trace.beams_of(*spans.T)
-        outermost = np.searchsorted(drops, np.arange(len(spans) + 1))
+        count = len(self.drops)
+        beams, drops = self.trace.beams_of(*self.drop_spans)
+        outermost = np.searchsorted(drops, np.arange(count + 1))
         some = np.diff(outermost) > 0
-        ends = np.zeros((len(spans), 2, 2))
+        ends = np.zeros((count, 2, 2))
         ends[some, 0] = self.scan.xy[beams[outermost[:-1][some]]]
         ends[some, 1] = self.scan.xy[beams[outermost[1:][some] - 1]]
         return ends
@@ -88,16 +96,11 @@ def findings(recording: Recording, frame: int, method: str, params: Thresholds) 
 def findings_in(scan: Scan, method: str, params: Thresholds) -> Findings:
     """Run the method on a scan, which is faster if the scan is the same object for other thresholds."""
     extractor = EXTRACTORS[method]
-    # The faster of two runs, because other threads may interrupt one of them.
-    elapsed = min(_seconds(lambda: extractor.extract(scan, params)) for _ in range(2))
+    begun = CLOCK()
+    extractor.extract(scan, params)
+    elapsed = CLOCK() - begun
     trace = extractor.trace(scan, params)
     return Findings(scan, trace.extraction, trace, elapsed * 1e6)
-
-
-def _seconds(work: Callable[[], object]) -> float:
-    begun = time.perf_counter()
-    work()
-    return time.perf_counter() - begun
 
 
 def histograms(found: Findings) -> dict[str, Histogram]:
@@ -136,15 +139,13 @@ def _distances_measured(found: Findings, trace: GrowthTrace) -> dict[str, tuple[
 def histogram(passed: NDArray, failed: NDArray, low: float, high: float, log: bool) -> Histogram:
     """Counts in bins from low to high, logarithmic if `log`; values beyond fall into the outermost bins."""
     scale: Callable[[Any], Any] = np.log if log else np.asarray
-    tiny = low * 1e-6 if log else -np.inf
-
-    def counts(values: NDArray) -> tuple[int, ...]:
-        kept = values[~np.isnan(values)]
-        place = (scale(np.clip(kept, max(tiny, low), high)) - scale(low)) / (scale(high) - scale(low))
-        bins = np.minimum((place * BINS).astype(int), BINS - 1)
-        return tuple(np.bincount(bins, minlength=BINS).tolist())
-
-    return Histogram(low, high, log, counts(passed), counts(failed))
+    values = np.concatenate((passed, failed))
+    known = ~np.isnan(values)
+    place = (scale(np.minimum(np.maximum(values[known], low), high)) - scale(low)) / (scale(high) - scale(low))
+    bins = np.minimum((place * BINS).astype(int), BINS - 1)
+    split = int(np.count_nonzero(known[: len(passed)]))
+    counts = (tuple(np.bincount(part, minlength=BINS).tolist()) for part in (bins[:split], bins[split:]))
+    return Histogram(low, high, log, *counts)
 
 
 def _seed_distances(found: Findings) -> tuple[NDArray, NDArray]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from weakref import WeakKeyDictionary
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -30,9 +32,19 @@ def bounds_of(recording: Recording) -> Bounds:
 
 def extent_of(scan: Scan, bounds: Bounds) -> Bounds:
     """The box around the points of one scan; the box of the recording if it has none."""
+    if scan not in _EXTENTS:
+        _EXTENTS[scan] = _extent_of(scan)
+    return _EXTENTS[scan] or bounds
+
+
+# While a slider moves, the scan stays the same.
+_EXTENTS: WeakKeyDictionary[Scan, Bounds | None] = WeakKeyDictionary()
+
+
+def _extent_of(scan: Scan) -> Bounds | None:
     xy = scan.xy[scan.valid]
     if not len(xy):
-        return bounds
+        return None
     (x1, y1), (x2, y2) = xy.min(axis=0), xy.max(axis=0)
     return float(x1), float(y1), float(x2), float(y2)
 

@@ -143,30 +143,39 @@ def _segment(segment: Segment, colour: str) -> told.Segment:
 def _dropped_once(found: Findings) -> list[told.Dropped]:
     """The dropped lines, without those within another: the same line, grown from another seed."""
     n = len(found.scan)
-    first, last = np.array([(drop.first, drop.last) for drop in found.drops], int).reshape(-1, 2).T
+    first, last = found.drop_spans
     more = (last - first) % n
     # Of equal ones the first counts as the longest.
     inside = (first[:, None] - first) % n + more[:, None] <= more
     earlier = np.arange(len(first))[:, None] > np.arange(len(first))
     again = (inside & ((more[:, None] < more) | earlier)).any(axis=1)
-    return [_dropped(found.drops[k], *found.drop_ends[k]) for k in np.flatnonzero(~again).tolist()]
+    return _dropped(found, np.flatnonzero(~again))
 
 
-def _dropped(drop: Decision, start: NDArray, end: NDArray) -> told.Dropped:
-    across = end - start
-    length = abs(drop.line[0] * across[1] - drop.line[1] * across[0])
-    if not np.isfinite(length):
-        length = np.hypot(*across)
-    return {
-        "start": (float(start[0]), float(start[1])),
-        "end": (float(end[0]), float(end[1])),
-        "first": drop.first,
-        "last": drop.last,
-        "points": drop.points,
-        "length": float(length),
-        "check": drop.check,
-        "text": drop.text,
-    }
+def _dropped(found: Findings, which: NDArray[np.intp]) -> list[told.Dropped]:
+    """Some of the dropped lines, by their numbers; much faster than from whole decisions."""
+    indices, ends, checks = found.drops[which], found.drop_ends[which], found.trace.vocabulary.check_names
+    rows = found.trace.log[indices]
+    dx, dy = (ends[:, 1] - ends[:, 0]).T
+    with np.errstate(invalid="ignore", over="ignore"):
+        lengths = np.abs(rows["line"]["a"] * dy - rows["line"]["b"] * dx)
+    lengths = np.where(np.isfinite(lengths), lengths, np.hypot(dx, dy))
+    points = np.maximum(rows["last"] - rows["first"] + 1, 0)
+    spans, columns = found.drop_spans[:, which].tolist(), (points, lengths, rows["check"])
+    lines = zip(ends.tolist(), *spans, *(each.tolist() for each in columns), found.trace.texts(indices), strict=True)
+    return [
+        {
+            "start": (start[0], start[1]),
+            "end": (end[0], end[1]),
+            "first": first,
+            "last": last,
+            "points": many,
+            "length": length,
+            "check": checks[check],
+            "text": text,
+        }
+        for (start, end), first, last, many, length, check, text in lines
+    ]
 
 
 def _decision(decision: Decision, params: type[Thresholds]) -> told.Decision:

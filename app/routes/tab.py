@@ -23,7 +23,7 @@ from ..session.following import OWN
 from ..session.session import Session
 from ..session.sessions import Sessions, TooManySessionsError
 from ..shelf.library import Library
-from ..told.messages import Failure, MethodEntry, ReadingEntry, Recordings, ScoreEntry, Surveyed, Welcome
+from ..told.messages import Failure, MethodEntry, Quick, ReadingEntry, Recordings, ScoreEntry, Surveyed, Welcome
 from ..view import STRIP_SCORES, View
 from ..wire import BadMessageError, Cancel, Change, Close, Follow, Hello, Incoming, OpenLink, parse
 from .heard import text_from
@@ -134,7 +134,7 @@ async def _converse(
 
     def send(message: BaseModel) -> None:
         """Called in the worker's thread; waits until the message is sent, so a slow page slows only its own worker."""
-        sending = asyncio.run_coroutine_threadsafe(_tell(socket, message), loop)
+        sending = asyncio.run_coroutine_threadsafe(_send(socket, _encoded(message)), loop)
         try:
             sending.result(SEND_SECONDS)
         except (CancelledError, TimeoutError, WebSocketDisconnect, RuntimeError):
@@ -226,7 +226,17 @@ async def _hang_up(socket: WebSocket) -> None:
 
 
 async def _tell(socket: WebSocket, message: BaseModel) -> None:
+    await _send(socket, _encoded(message))
+
+
+async def _send(socket: WebSocket, encoded: str | bytes) -> None:
+    if isinstance(encoded, bytes):
+        await socket.send_bytes(encoded)
+    else:
+        await socket.send_text(encoded)
+
+
+def _encoded(message: BaseModel) -> str | bytes:
     if isinstance(message, Surveyed):
-        await socket.send_bytes(message.as_bytes())
-        return
-    await socket.send_text(message.model_dump_json())
+        return message.as_bytes()
+    return message.as_json() if isinstance(message, Quick) else message.model_dump_json()

@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
@@ -101,7 +102,7 @@ def _lines(
     if layers.segments:
         lines["segments"] = segments(found.scan, state)
     if layers.dropped:
-        lines["dropped"] = dropped_lines(found.drop_ends[: len(state.drops)], theme)
+        lines["dropped"] = dropped_lines(found.drop_ends[: state.drops], theme)
     if layers.normals and view.step is None:
         lines["normals"] = normals(found.extraction.segments, state.colours)
     return lines
@@ -109,9 +110,16 @@ def _lines(
 
 def scan_points(scan: Scan, state: State, theme: Theme) -> Points:
     """Every valid point in the colour of its line, or grey."""
-    labels = state.labels[scan.valid]
-    colours = np.concatenate((state.colours, np.array([theme.point], dtype=np.uint8)))[labels]
-    return points_at(scan.xy[scan.valid], colours)
+    if scan not in _RETURNS:
+        kept = np.flatnonzero(scan.valid & np.isfinite(scan.xy).all(axis=1))
+        _RETURNS[scan] = kept, points_at(scan.xy[kept], theme.point).xyz
+    beams, xyz = _RETURNS[scan]
+    colours = np.concatenate((state.colours, np.array([theme.point], dtype=np.uint8)))
+    return Points(xyz, colours[state.labels[beams]])
+
+
+# The beams with a point, and these points: while a slider moves, the scan stays the same.
+_RETURNS: WeakKeyDictionary[Scan, tuple[NDArray[np.intp], NDArray[np.float32]]] = WeakKeyDictionary()
 
 
 def seed_points(found: Findings, state: State, theme: Theme) -> Points:

@@ -1,8 +1,9 @@
 """A viser server that listens on no port: whoever accepts a browser's socket hands it over inside of the process.
 
 viser itself checks neither origin nor token, so any program or page that reached a port of it could read the scene and
-move the sliders. viser is pinned to one version, and this relies on three of its internals: viser looks `serve` and
-`new_event_loop` up in the module `viser.infra._infra`, and it asks a connection for no more than `Connection` has.
+move the sliders. viser is pinned to one version, and this relies on some of its internals: viser looks `serve`,
+`new_event_loop` and `AsyncMessageBuffer` up in the module `viser.infra._infra`, and it asks a connection for no more
+than `Connection` has.
 
 All scenes share the event loop of the server. In loops of their own, forty tabs would have forty more threads that
 wait for each other at every picture, because Python runs one at a time.
@@ -146,22 +147,46 @@ class Borrowed(asyncio.AbstractEventLoop):
     """A loop that runs in another thread, for viser, which makes a loop and runs it until its server stops."""
 
     def __init__(self, loop: asyncio.AbstractEventLoop) -> None:
-        self._loop = loop
+        self.loop = loop
         self.create_task = loop.create_task
         self.create_future = loop.create_future
         self.call_soon_threadsafe = loop.call_soon_threadsafe
 
     def run_until_complete(self, future: Any) -> Any:
-        return asyncio.run_coroutine_threadsafe(future, self._loop).result()
+        return asyncio.run_coroutine_threadsafe(future, self.loop).result()
 
     def is_closed(self) -> bool:
-        return self._loop.is_closed()
+        return self.loop.is_closed()
 
     def stop(self) -> None:
         """Other servers use it."""
 
     def close(self) -> None:
         """Other servers use it."""
+
+
+class Arrival(asyncio.Event):
+    """Set in its loop only.
+
+    viser sets its events in other threads too, which may break off there, and then once more in the loop.
+    """
+
+    def __init__(self, loop: asyncio.AbstractEventLoop) -> None:
+        super().__init__()
+        self._home = loop.loop if isinstance(loop, Borrowed) else loop
+
+    def set(self) -> None:
+        with contextlib.suppress(RuntimeError):
+            if asyncio.get_running_loop() is self._home:
+                super().set()
+
+
+class Buffer(infra.AsyncMessageBuffer):
+    """viser's messages on their way to the browser."""
+
+    def __init__(self, *arguments: Any, **options: Any) -> None:
+        super().__init__(*arguments, **options)
+        self.message_event = Arrival(self.event_loop)
 
 
 # The loop for the server that is being made, and the lock that lets one be made at a time.
@@ -176,6 +201,7 @@ def _new_event_loop() -> asyncio.AbstractEventLoop:
 infra.asyncio = SimpleNamespace(  # pyright: ignore[reportAttributeAccessIssue]
     **vars(asyncio) | {"new_event_loop": _new_event_loop}
 )
+infra.AsyncMessageBuffer = Buffer  # pyright: ignore[reportPrivateImportUsage]
 infra.websockets = SimpleNamespace(  # pyright: ignore[reportAttributeAccessIssue, reportPrivateImportUsage]
     asyncio=SimpleNamespace(server=SimpleNamespace(serve=_serve)),
     datastructures=websockets.datastructures,

@@ -26,7 +26,7 @@ class State:
     """The lines at one moment.
 
     labels: (beams,) the line of each beam, or −1; colours: (lines, 3); starts, ends: (lines, 2) [m]; candidates: the
-    growth of each line; drops: the lines dropped so far.
+    growth of each line; drops: how many lines were dropped so far.
     """
 
     labels: NDArray[np.int32]
@@ -34,7 +34,7 @@ class State:
     starts: NDArray
     ends: NDArray
     candidates: tuple[int, ...]
-    drops: tuple[Decision, ...]
+    drops: int
 
 
 def state_at(found: Findings, step: int | None) -> State:
@@ -49,7 +49,7 @@ def state_at(found: Findings, step: int | None) -> State:
         starts[index] = foot(found.scan.xy[traced.first], traced.line)
         ends[index] = foot(found.scan.xy[traced.last], traced.line)
     candidates = tuple(traced.candidate for traced in lines)
-    drops = tuple(drop for drop in found.drops if drop.index <= step)
+    drops = int(np.searchsorted(found.drops, step, side="right"))
     return State(labels, _candidate_colours(found, candidates), starts, ends, candidates, drops)
 
 
@@ -59,7 +59,7 @@ def _final(found: Findings) -> State:
     ends = np.array([segment.end for segment in segments], dtype=float).reshape(-1, 2)
     lines = found.trace.lines_at(len(found.trace) - 1) if len(found.trace) else ()
     candidates = tuple(line.candidate for line in lines)
-    return State(found.extraction.labels, segment_colours(segments), starts, ends, candidates, found.drops)
+    return State(found.extraction.labels, segment_colours(segments), starts, ends, candidates, len(found.drops))
 
 
 def _candidate_colours(found: Findings, candidates: tuple[int, ...]) -> Colours:

@@ -63,8 +63,12 @@ def dashed(starts: NDArray, ends: NDArray, dash: float, colours: Colours | Colou
 
 def _raised(xy: NDArray) -> NDArray[np.float32]:
     """(…, 2) → (…, 3) with z = 0."""
-    return np.concatenate((xy, np.zeros((*xy.shape[:-1], 1))), axis=-1).astype(np.float32)
+    xyz = np.zeros((*xy.shape[:-1], 3), np.float32)
+    xyz[..., :2] = xy
+    return xyz
 
 
 def _each(colours: Colours | Colour, n: int) -> Colours:
-    return np.broadcast_to(np.asarray(colours, dtype=np.uint8), (n, 3)).copy()
+    each = np.empty((n, 3), np.uint8)
+    each[:] = colours
+    return each
