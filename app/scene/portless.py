@@ -25,6 +25,7 @@ import viser
 import viser.infra._infra as infra
 import websockets.asyncio.server
 import websockets.datastructures
+from viser.infra._async_message_buffer import AsyncMessageBuffer
 from websockets.exceptions import ConnectionClosedOK
 
 MOST_WAITING = 64
@@ -181,7 +182,7 @@ class Arrival(asyncio.Event):
                 super().set()
 
 
-class Buffer(infra.AsyncMessageBuffer):
+class Buffer(AsyncMessageBuffer):
     """viser's messages on their way to the browser."""
 
     def __init__(self, *arguments: Any, **options: Any) -> None:
@@ -198,7 +199,7 @@ def _new_event_loop() -> asyncio.AbstractEventLoop:
     return Borrowed(_lent[0]) if _lent else asyncio.new_event_loop()
 
 
-infra.asyncio = SimpleNamespace(  # pyright: ignore[reportAttributeAccessIssue]
+infra.asyncio = SimpleNamespace(  # pyright: ignore[reportAttributeAccessIssue, reportPrivateImportUsage]
     **vars(asyncio) | {"new_event_loop": _new_event_loop}
 )
 infra.AsyncMessageBuffer = Buffer  # pyright: ignore[reportPrivateImportUsage]

@@ -10,6 +10,7 @@ import pytest
 import zstandard
 from lineseg_app.frame.findings import findings
 from lineseg_app.frame.geometry import bounds_of
+from lineseg_app.scene.palette import linear
 from lineseg_app.scene.picture import picture
 from lineseg_app.scene.viser_scene import ViserScene
 from lineseg_app.view import View
@@ -156,3 +157,43 @@ def test_drawing_moves_the_sliders_and_moving_them_back_is_no_change(scene, caps
     assert (drawn._sliders["epsilon"].value, drawn._sliders["epsilon"].max) == (0.9, 1.0)
     assert changes == []
     assert capsys.readouterr().out == ""
+
+
+def test_after_many_pictures_a_scene_has_what_the_last_one_shows(scene):
+    drawn, _ = scene
+    recording = Recording.from_scans([wall_ahead(), wall_ahead(distance=3.0)])
+    for frame, epsilon, layers in (
+        (0, 0.03, {}),
+        (1, 0.03, {}),
+        (1, 0.001, {"seeds": False}),
+        (0, 0.02, {"laser": False}),
+    ):
+        view = View(frame=frame, params=Params(epsilon=epsilon), dark=frame == 0).patched({"layers": layers})
+        shown = picture(view, recording, findings(recording, frame, view.method, view.params), bounds_of(recording))
+        drawn.draw(shown, view.params, view.dark)
+        for name, handle in drawn._clouds.items():
+            each = shown.points.get(name)
+            assert handle.visible == (each is not None and len(each.xyz) > 0)
+            if each is not None and len(each.xyz):
+                np.testing.assert_array_equal(handle.points, each.xyz, strict=True)
+                np.testing.assert_array_equal(handle.colors, each.colours, strict=True)
+        for name, handle in drawn._lines.items():
+            each = shown.lines.get(name)
+            assert handle.visible == (each is not None and len(each.xyz) > 0)
+            if each is not None and len(each.xyz):
+                np.testing.assert_array_equal(handle.points, each.xyz, strict=True)
+                colours = np.repeat(linear(each.colours)[:, None], 2, axis=1)
+                np.testing.assert_array_equal(handle.colors, colours, strict=True)
+
+
+def test_a_slider_that_was_moved_in_vain_goes_back_with_the_next_picture(scene):
+    drawn, _ = scene
+    recording = Recording.from_scans([wall_ahead()])
+    view = View()
+    shown = picture(view, recording, findings(recording, 0, view.method, view.params), bounds_of(recording))
+    drawn.draw(shown, view.params, view.dark)
+    slider = drawn._sliders["epsilon"]
+    slider.value = 0.07
+    drawn._moved.add("epsilon")
+    drawn.draw(shown, view.params, view.dark)
+    assert slider.value == view.params.epsilon
