@@ -151,7 +151,9 @@ class View:
 
     reading: how the file is read, apart from the topic.
     step: the decision that the replay shows, or None for the whole result.
-    selected: the beam to explain, or None. score: shown in the strip. against: the result to compare with.
+    lesson: its id, or None; page: of the lesson, from 0. selected: the beam to explain, or None.
+    closeup: whether Learn shows each decision from near by. score: shown in the strip.
+    against: the result to compare with.
     weights: of the suspicion, if not the defaults.
     reference: the truth to use if both exist: "labels" made by people, or the "wall" of the recording.
     live: whether to follow the newest frame of a live recording; if not, the recording stays frozen.
@@ -193,7 +195,10 @@ class View:
         ),
     ] = field(default_factory=Params)
     step: Annotated[Count | None, ViewField(link="step", mirrored=True, reset_by=(*PLACE, "method"))] = None
+    lesson: Annotated[Name | None, ViewField(link="lesson", mirrored=True)] = None
+    page: Annotated[Count, ViewField(link="page", mirrored=True, reset_by=("lesson",))] = 0
     selected: Annotated[Count | None, ViewField(link="beam", mirrored=True, reset_by=PLACE)] = None
+    closeup: Annotated[Literal["on", "off"], ViewField(link="closeup", mirrored=True)] = "on"
     camera: Annotated[Literal["plan", "free"], ViewField(link="camera", mirrored=False)] = "plan"
     speed: Annotated[Literal["0.5", "1", "2", "4", "8"], ViewField(link="speed", mirrored=False)] = "1"
     score: Annotated[Name, ViewField(link="score", mirrored=True, choices=STRIP_SCORES)] = "coverage"

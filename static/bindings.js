@@ -8,10 +8,10 @@ import { closePopovers } from "./widgets/menu.js";
 
 /**
  * @param {import("./page.js").Page} page
- * @param {{replay: Steps, learn: {stepper: import("./learn/stepper.js").Stepper, zoom: () => void, answer: (yes: boolean) => void},
+ * @param {{replay: Steps, learn: {stepper: import("./learn/stepper.js").Stepper, answer: (yes: boolean) => void},
  *          timeline: {toggle: () => void, pace: (by: 1 | -1) => void, move: (by: number) => void, doubtful: (by: 1 | -1) => void},
  *          inspect: ReturnType<typeof import("./inspect/inspect.js").createInspect>, labels: ReturnType<typeof import("./label/labels.js").createLabels>,
- *          draw: Editor, panel: {open: (name: string) => void}, camera: {fit: () => void, toggle: () => void},
+ *          draw: Editor, panel: {open: (name: string) => void}, camera: {fit: () => void, closeUp: {toggle: () => void}, toggle: () => void},
  *          layers: {button: HTMLElement, toggle: (name: string) => void}, opening: {choose: () => void}}} parts
  * @param {typeof import("./text/words.js").words} words
  * @param {() => void} help
@@ -74,7 +74,7 @@ export function bindingsOf(page, parts, words, help) {
     { keys: ["x"], shown: "X M C", does: words.learn.keys.jumps, run: () => jumpInLearn("refusal") },
     { keys: ["m"], shown: "", does: "", run: () => (labels.active ? labels.merge(1) : jumpInLearn("merge")) },
     { keys: ["c"], shown: "", does: "", run: () => jumpInLearn("cut") },
-    { keys: ["z"], shown: "Z", does: words.learn.keys.zoom, run: () => page.learning && learn.zoom() },
+    { keys: ["z"], shown: "Z", does: words.learn.keys.closeUp, run: () => page.learning && camera.closeUp.toggle() },
     { keys: ["Shift+n"], shown: "N Shift+N", does: does.doubtful, run: () => !page.replaying && doubtful(-1) },
     { keys: ["b"], shown: "B Shift+B", does: words.inspect.keys.ab, run: inspect.togglePin },
     { keys: ["Shift+b"], shown: "", does: "", run: inspect.nextDifference },

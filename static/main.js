@@ -80,7 +80,7 @@ const tune = createTune(page, docks, words, {
 const learn = mountLearn(
   { stage: place("stage"), view: stage, dock: place("stepper"), panel: place("learn") },
   { tune: text.tune, learn: words.learn },
-  { onStep: (step) => change({ step }), onChange: change, onDraw: page.drawWorld, settled, session: sessionId },
+  { onChange: change, onDraw: page.drawWorld, closeUp: camera.closeUp, settled, session: sessionId },
 );
 const pages = { learn: [place("learn"), place("stepper")], usual: [place("panel"), place("replay")] };
 const modes = createModes(words.learn.modes, place("main"), pages, {

@@ -68,7 +68,10 @@ export interface ViewPatch {
   method?: string;
   params?: Record<string, number>;
   step?: number | null;
+  lesson?: string | null;
+  page?: number;
   selected?: number | null;
+  closeup?: "on" | "off";
   camera?: "plan" | "free";
   speed?: "0.5" | "1" | "2" | "4" | "8";
   score?: string;
@@ -555,6 +558,34 @@ export interface Account {
   believable: boolean;
 }
 
+/** A name at a place of the scan [m]. */
+export interface Named {
+  text: string;
+  at: [number, number];
+}
+
+/** A distance between two places [m]. beside: drawn beside them. */
+export interface Measured {
+  text: string;
+  start: [number, number];
+  end: [number, number];
+  beside: boolean;
+}
+
+/**
+ * The part of the plan that shows a decision.
+ *
+ * box: as drawn [m]. factor: distances along the unit vector `normal` are drawn so many times as long, about `at`.
+ */
+export interface Framing {
+  box: [number, number, number, number];
+  factor: number;
+  normal: [number, number];
+  at: [number, number];
+  names: Named[];
+  measures: Measured[];
+}
+
 /**
  * What is on the screen.
  *
@@ -566,9 +597,10 @@ export interface Account {
  * since: time since the first scan of the file [s], null if the stamps cannot be believed. covered: number of
  * `valid` beams in segments. steps: number of decisions. difference: fates of the lines of A. truth: whether the
  * recording has its true walls. agreement: in the mode Inspect if the truth is known; labels: in the mode Inspect
- * if the recording can have labels. references: available references; judgedBy: the one in use, "" without truth.
- * extent: box around the points of the frame, bounds: of the recording [m]. extractionUs: time of the extraction
- * [µs].
+ * if the recording can have labels. framing: of the decision on the screen, ahead: of the next one without its
+ * outcome; null where the whole plan is shown. nodes: what the scene shows. references: available references;
+ * judgedBy: the one in use, "" without truth. extent: box around the points of the frame, bounds: of the recording
+ * [m]. extractionUs: time of the extraction [µs].
  */
 export interface Scene {
   view: View;
@@ -609,6 +641,9 @@ export interface Scene {
   segments: Segment[];
   dropped: Dropped[];
   decision: Decision | null;
+  framing: Framing | null;
+  ahead: Framing | null;
+  nodes: string[];
   explanation: Explanation | null;
   histograms: Record<string, Histogram>;
   truth: boolean;
@@ -671,6 +706,9 @@ export interface DrawnState {
   segments: Segment[];
   dropped: Dropped[];
   decision: Decision | null;
+  framing: Framing | null;
+  ahead: Framing | null;
+  nodes: string[];
   explanation: Explanation | null;
   histograms: Record<string, Histogram>;
   truth: boolean;
@@ -728,6 +766,15 @@ export interface TraceColumns {
   text: string[];
   x: (number | null)[];
   y: (number | null)[];
+}
+
+/** A term or symbol. forms: how texts write it; equation: of the paper, lesson: the id of one about it, or "". */
+export interface ExplainedTerm {
+  name: string;
+  text: string;
+  forms: string[];
+  equation: string;
+  lesson: string;
 }
 
 /** The threshold changes that would change the answer for the selected beam, and that answer. */
@@ -960,19 +1007,28 @@ export interface Named {
 }
 
 /**
+ * What a text looks at: near: beams whose points fill the stage where no decision is shown; none: all of them.
+ * names: words for beams, written beside their points.
+ */
+export interface Looked {
+  near: number[];
+  names: Record<string, number>;
+}
+
+/**
  * One text and what the page shows with it: the decision found, or the whole result.
  *
- * near: beams whose points fill the stage; none: all of them. params: override those of the lesson. method: shows
- * the whole result of this method, with its default thresholds, instead of region growing; it cannot be combined
- * with find or params.
+ * params: override those of the lesson. method: shows the whole result of this method, with its default thresholds,
+ * instead of region growing; it cannot be combined with find or params.
  */
 export interface Step {
+  near: number[];
+  names: Record<string, number>;
   text: string;
   method: string | null;
   find: Find | null;
   params: Record<string, number>;
   selected: number | null;
-  near: number[];
 }
 
 /**
@@ -998,6 +1054,8 @@ export interface Goal {
 
 /** text: what to do; hint: shown on request; done: shown when it is done. */
 export interface Task {
+  near: number[];
+  names: Record<string, number>;
   text: string;
   hint: string;
   done: string;
@@ -1037,10 +1095,11 @@ export interface NamedLesson {
   accepted: Record<string, [number, number]>;
 }
 
-/** broken: one sentence for each file that is not a valid lesson. */
+/** broken: one sentence for each file that is not a valid lesson. terms: all that texts use, explained. */
 export interface Lessons {
   lessons: NamedLesson[];
   broken: string[];
+  terms: ExplainedTerm[];
 }
 
 /**

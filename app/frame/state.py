@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,10 +15,12 @@ from lineseg.writers.finite import finite_or_none
 
 from ..live.ring import LiveRecording, numbering
 from ..shelf.label_files import Known
+from ..shelf.lessons import looked_at
 from ..told import drawn as told
 from ..told.words import words_of
 from ..view import View
 from .findings import Findings, Histogram
+from .framing import Framing, framing_near, framing_of
 from .geometry import Bounds, extent_of
 from .judge import Judged, Reference, agreement_told
 
@@ -33,8 +35,12 @@ def state_of(
     since: float | None,
     pinned: Findings | None = None,
     judged: Judged | None = None,
+    nodes: Iterable[str] = (),
 ) -> told.Scene:
-    """Everything except the drawing time and the marks, which are long and change only with the trace."""
+    """Everything except the drawing time and the marks, which are long and change only with the trace.
+
+    nodes: names of what the scene shows.
+    """
     scan, trace = found.scan, found.trace
     first, every = numbering(recording)
     chosen = trace[view.step] if view.step is not None else None
@@ -83,6 +89,9 @@ def state_of(
         "segments": _segments(found.extraction.segments),
         "dropped": _dropped_once(found),
         "decision": _decision(chosen, type(view.params)) if chosen is not None else None,
+        "framing": _framed(found, view, view.step),
+        "ahead": _framed(found, view, view.step + 1) if view.step is not None else None,
+        "nodes": list(nodes),
         "explanation": _explanation(found, view.selected) if view.selected is not None else None,
         "histograms": {name: _histogram(each) for name, each in found.histograms.items()},
         "truth": recording.walls is not None and recording.poses is not None,
@@ -197,6 +206,34 @@ def _decision(decision: Decision, params: type[Thresholds]) -> told.Decision:
         "value": finite_or_none(decision.value),
         "limit": finite_or_none(decision.limit),
         "line": (finite_or_none(a), finite_or_none(b), finite_or_none(c)),
+    }
+
+
+def _framed(found: Findings, view: View, step: int | None) -> told.Framing | None:
+    """The framing of a step, or of the page of a lesson that shows the whole result."""
+    if view.mode != "learn" or view.closeup == "off":
+        return None
+    if step is not None:
+        framing = framing_of(found, step) if step < len(found.trace) else None
+    else:
+        looked = looked_at(view.lesson, view.page) if view.lesson else None
+        here = looked is not None and looked[0] == view.recording
+        framing = framing_near(found, looked[1].near, looked[1].names) if here else None
+    return framing and _framing(framing, outcome=step is None or step == view.step)
+
+
+def _framing(framing: Framing, outcome: bool) -> told.Framing:
+    return {
+        "box": framing.box,
+        "factor": framing.factor,
+        "normal": framing.normal,
+        "at": framing.at,
+        "names": [{"text": name.text, "at": name.at} for name in framing.names if outcome or not name.tells],
+        "measures": [
+            {"text": each.text, "start": each.start, "end": each.end, "beside": each.beside}
+            for each in framing.measures
+            if outcome
+        ],
     }
 
 

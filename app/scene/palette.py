@@ -26,6 +26,8 @@ class Theme:
     accepted: Colour
     refused: Colour
     candidate: Colour
+    predicted: Colour
+    other: Colour
     pinned: Colour
     changed: Colour
     matched: Colour
@@ -38,6 +40,7 @@ LIGHT = Theme(
     point=(140, 145, 152), invalid=(178, 183, 190), strong=(20, 22, 26), faint=(150, 155, 162),
     grid=(232, 234, 237), axis=(205, 208, 213), truth=(170, 170, 60), laser=(20, 22, 26),
     accepted=(0, 136, 85), refused=(204, 51, 17), candidate=(238, 51, 119),
+    predicted=(110, 70, 215), other=(0, 119, 187),
     pinned=(208, 213, 221), changed=(178, 102, 210),
     matched=(0, 119, 187), missed=(20, 22, 26), false=(238, 119, 51), ghost=(110, 70, 215),
 )  # fmt: skip
@@ -45,6 +48,7 @@ DARK = Theme(
     point=(128, 134, 142), invalid=(92, 98, 107), strong=(245, 246, 248), faint=(120, 126, 134),
     grid=(56, 60, 67), axis=(92, 98, 107), truth=(150, 150, 60), laser=(235, 237, 240),
     accepted=(60, 200, 140), refused=(255, 110, 80), candidate=(255, 110, 170),
+    predicted=(170, 140, 255), other=(51, 160, 238),
     pinned=(70, 76, 86), changed=(150, 88, 190),
     matched=(51, 160, 238), missed=(245, 246, 248), false=(255, 140, 70), ghost=(170, 140, 255),
 )  # fmt: skip

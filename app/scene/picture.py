@@ -41,6 +41,11 @@ class Picture:
     lines: dict[str, Lines]
     bounds: Bounds
 
+    @property
+    def nodes(self) -> list[str]:
+        """The names of all that is to be seen."""
+        return [name for name, shape in (*self.points.items(), *self.lines.items()) if len(shape.xyz)]
+
 
 def picture(
     view: View,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -74,7 +74,7 @@ def _candidate_colours(found: Findings, candidates: tuple[int, ...]) -> Colours:
 
 def decision_geometry(found: Findings, step: int, theme: Theme) -> tuple[dict[str, Points], dict[str, Lines]]:
     """The window under test, the fitted line with its ε band, P and P′ with the beam, and the candidate point."""
-    decision, scan = found.trace[step], found.scan
+    decision, scan = _as_compared(found, found.trace[step]), found.scan
     points: dict[str, Points] = {}
     lines: dict[str, Lines] = {}
     refused = found.trace.vocabulary.jump_of(decision.kind) in ("refusal", "drop")
@@ -93,7 +93,7 @@ def decision_geometry(found: Findings, step: int, theme: Theme) -> tuple[dict[st
             lines["band"] = band(start, end, decision.line, width, theme)
     if decision.other is not None and is_line(decision.other):
         start, end = span(scan.xy[inside], decision.other)
-        lines["band"] = lines_between(start, end, theme.candidate)
+        lines["other"] = lines_between(start, end, theme.other)
     if decision.beam >= 0 and is_line(decision.line):
         points["predicted"], lines["ray"] = prediction(scan, decision, theme)
     if decision.ends is not None:
@@ -102,6 +102,15 @@ def decision_geometry(found: Findings, step: int, theme: Theme) -> tuple[dict[st
         lines["ray"] = lines_between(outermost, np.reshape(decision.ends, (2, 2)), theme.candidate)
         points["candidate"] = points_at(outermost, theme.candidate)
     return points, lines
+
+
+def _as_compared(found: Findings, decision: Decision) -> Decision:
+    """A cut with its lines as they were compared, before they were fitted to what each of them keeps."""
+    lines = {line.candidate: line for line in found.trace.lines_at(decision.index - 1)} if decision.other else {}
+    one, two = lines.get(decision.candidate), lines.get(decision.partner)
+    if decision.kind != "overlap cut" or one is None or two is None:
+        return decision
+    return replace(decision, line=one.line, other=two.line)
 
 
 def band_width(found: Findings, decision: Decision, start: NDArray, end: NDArray) -> NDArray[np.float64]:
@@ -124,7 +133,9 @@ def prediction(scan: Scan, decision: Decision, theme: Theme) -> tuple[Points, Li
     beam = lines_between((0.0, 0.0), end, theme.faint)
     other_end = predicted if decision.check == "delta" else foot(point, decision.line)
     measured = lines_between(point, other_end, theme.candidate)
-    return points_at(predicted if near else NO_XY, theme.strong), joined(beam, measured)
+    if decision.other is not None:
+        measured = joined(measured, lines_between(point, foot(point, decision.other), theme.candidate))
+    return points_at(predicted if near else NO_XY, theme.predicted), joined(beam, measured)
 
 
 def band(start: NDArray, end: NDArray, line: Line, width: NDArray, theme: Theme) -> Lines:

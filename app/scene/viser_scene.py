@@ -27,7 +27,7 @@ PICK_PIXELS = 20.0
 # name: (size on the screen [pixels], which viser draws about twice as wide; shape)
 CLOUDS: dict[str, tuple[float, Literal["circle", "diamond"]]] = {
     "points": (2.2, "circle"),
-    "seeds": (3.2, "diamond"),
+    "seeds": (3.2, "square"),
     "endpoints": (4.5, "circle"),
     "window": (4.0, "circle"),
     "predicted": (5.0, "diamond"),
@@ -49,6 +49,7 @@ LINES = {
     "normals": 1.5,
     "laser": 2.0,
     "growing": 3.5,
+    "other": 3.5,
     "band": 1.5,
     "ray": 1.5,
     "selected ray": 1.5,
@@ -58,7 +59,8 @@ LINES = {
 LEVEL = 0.02
 HEIGHTS = {name: LEVEL * level for level, name in enumerate([
     "grid", "pinned", "invalid", "truth", "laser", "ray", "selected ray", "dropped", "band", "missed", "ghosts",
-    "points", "segments", "matched", "false", "normals", "growing", "seeds", "endpoints", "window", "predicted",
+    "points", "segments", "matched", "false", "normals", "other", "growing",
+    "seeds", "endpoints", "window", "predicted",
     "candidate", "selected",
 ])}  # fmt: skip
 

@@ -72,7 +72,8 @@ class Composer:
         drawing = picture(view, recording, found, bounds, pinned, judgement, ghosts)
         label = self._library.label(view.recording)
         clock = self._clock(recording)
-        state = state_of(view, recording, label, found, bounds, reference, clock.at(frame), pinned, judgement)
+        since, nodes = clock.at(frame), drawing.nodes
+        state = state_of(view, recording, label, found, bounds, reference, since, pinned, judgement, nodes)
         return Content(view, found, drawing, state, clock)
 
     def _bounds_of(self, view: View, recording: Recording) -> Bounds:

@@ -12,9 +12,11 @@ from lineseg.extractors import EXTRACTORS
 from lineseg.params import Params
 from lineseg.readers import open_recording
 from lineseg.scan import Scan
+from lineseg.tracing.glossary import TERMS
 
 from ..bounds import Name, Number, sentence
 from ..places import data_folder
+from ..told.answers import ExplainedTerm
 from .lesson_goals import accepted
 from .lesson_numbers import METHOD, Numbers
 
@@ -60,10 +62,18 @@ class Named(Find):
     params: dict[Name, Number] | None = None
 
 
-class Step(Part):
+class Looked(Part):
+    """What a text looks at: near: beams whose points fill the stage where no decision is shown; none: all of them.
+    names: words for beams, written beside their points."""
+
+    near: tuple[Beam, ...] = ()
+    names: dict[Annotated[str, Field(max_length=40)], Beam] = {}
+
+
+class Step(Looked):
     """One text and what the page shows with it: the decision found, or the whole result.
 
-    near: beams whose points fill the stage; none: all of them. params: override those of the lesson. method: shows the
+    params: override those of the lesson. method: shows the
     whole result of this method, with its default thresholds, instead of region growing; it cannot be combined with find
     or params.
     """
@@ -73,7 +83,6 @@ class Step(Part):
     find: Find | None = None
     params: dict[Name, Number] = {}
     selected: Beam | None = None
-    near: tuple[Beam, ...] = ()
 
     @model_validator(mode="after")
     def _of_one_method(self) -> Step:
@@ -103,7 +112,7 @@ class Goal(Part):
     count: tuple[Find, int, int] | None = None
 
 
-class Task(Part):
+class Task(Looked):
     """text: what to do; hint: shown on request; done: shown when it is done."""
 
     text: Words
@@ -142,10 +151,11 @@ class NamedLesson(Lesson):
 
 
 class Lessons(BaseModel):
-    """broken: one sentence for each file that is not a valid lesson."""
+    """broken: one sentence for each file that is not a valid lesson. terms: all that texts use, explained."""
 
     lessons: list[NamedLesson]
     broken: list[str]
+    terms: list[ExplainedTerm]
 
 
 def lesson_files() -> list[Path]:
@@ -162,7 +172,18 @@ def read_lessons(files: list[Path]) -> Lessons:
             broken.append(f"{file.name}: {sentence(error)}")
         except (OSError, ValueError) as error:
             broken.append(f"{file.name}: {error}")
-    return Lessons(lessons=lessons, broken=broken)
+    terms = [ExplainedTerm(**term._asdict()) for term in TERMS]
+    return Lessons(lessons=lessons, broken=broken, terms=terms)
+
+
+def looked_at(id: str, page: int) -> tuple[str, Looked] | None:
+    """The recording of a lesson, and what one of its pages looks at; the task comes after the steps."""
+    file = data_folder("sample_scans") / "lessons" / f"{id}.json"
+    try:
+        lesson = _read(file.stem, file.read_text("utf-8"))
+    except (OSError, ValueError):
+        return None
+    return lesson.recording, lesson.steps[page] if page < len(lesson.steps) else lesson.task
 
 
 @lru_cache(maxsize=64)
@@ -187,7 +208,9 @@ def _check_beams(lesson: Lesson, beams: int) -> None:
     """Raises ValueError, naming the place, for a beam that the scan does not have."""
     goal = lesson.task.goal
     pairs = [beam for pair in (*goal.together, *goal.either, *goal.apart) for beam in pair]
-    places = {f"step {k}": [*step.near, step.selected or 0] for k, step in enumerate(lesson.steps, 1)}
+    looked = {f"step {k}": step for k, step in enumerate(lesson.steps, 1)} | {"task": lesson.task}
+    places = {place: [*each.near, *each.names.values()] for place, each in looked.items()}
+    places |= {f"step {k}": [*places[f"step {k}"], step.selected or 0] for k, step in enumerate(lesson.steps, 1)}
     places["goal"] = [*pairs, *goal.inside, *goal.outside, *goal.selected]
     for place, named in places.items():
         for beam in named:

@@ -16,6 +16,16 @@ from .words import Words
 Job = Literal["curves", "map", "auto", "fit"]
 
 
+class ExplainedTerm(TypedDict):
+    """A term or symbol. forms: how texts write it; equation: of the paper, lesson: the id of one about it, or ""."""
+
+    name: str
+    text: str
+    forms: tuple[str, ...]
+    equation: str
+    lesson: str
+
+
 class WhatIfs(TypedDict):
     """The threshold changes that would change the answer for the selected beam, and that answer."""
 

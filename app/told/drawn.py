@@ -192,6 +192,36 @@ class Account(TypedDict):
     believable: bool
 
 
+class Named(TypedDict):
+    """A name at a place of the scan [m]."""
+
+    text: str
+    at: Point
+
+
+class Measured(TypedDict):
+    """A distance between two places [m]. beside: drawn beside them."""
+
+    text: str
+    start: Point
+    end: Point
+    beside: bool
+
+
+class Framing(TypedDict):
+    """The part of the plan that shows a decision.
+
+    box: as drawn [m]. factor: distances along the unit vector `normal` are drawn so many times as long, about `at`.
+    """
+
+    box: Box
+    factor: int
+    normal: Point
+    at: Point
+    names: list[Named]
+    measures: list[Measured]
+
+
 class Scene(TypedDict):
     """What is on the screen.
 
@@ -203,8 +233,9 @@ class Scene(TypedDict):
     the first scan of the file [s], null if the stamps cannot be believed. covered: number of `valid` beams in segments.
     steps: number of decisions. difference: fates of the lines of A. truth: whether the recording has its true walls.
     agreement: in the mode Inspect if the truth is known; labels: in the mode Inspect if the recording can have labels.
-    references: available references; judgedBy: the one in use, "" without truth. extent: box around the points of the
-    frame, bounds: of the recording [m]. extractionUs: time of the extraction [µs].
+    framing: of the decision on the screen, ahead: of the next one without its outcome; null where the whole plan is
+    shown. nodes: what the scene shows. references: available references; judgedBy: the one in use, "" without truth.
+    extent: box around the points of the frame, bounds: of the recording [m]. extractionUs: time of the extraction [µs].
     """
 
     view: Annotated[dict[str, Any], As("View")]
@@ -245,6 +276,9 @@ class Scene(TypedDict):
     segments: list[Segment]
     dropped: list[Dropped]
     decision: Decision | None
+    framing: Framing | None
+    ahead: Framing | None
+    nodes: list[str]
     explanation: Explanation | None
     histograms: dict[str, Histogram]
     truth: bool

@@ -50,17 +50,3 @@ export function lengthOf(trace, first, last, line) {
   const [x2, y2] = foot(other, line);
   return Math.hypot(x2 - x1, y2 - y1);
 }
-
-/** The points of a decision, with some room around them. @param {Trace} trace @param {import("./trace.js").Event} event @returns {import("../wire.js").Box} */
-export function boxAround(trace, { first, last, beam }) {
-  const points = [...trace.span(first, last), beam].map((each) => trace.point(each)).filter((point) => point !== null);
-  return boxOf(points, 0.5);
-}
-
-/** A box around points, with some room. @param {Point[]} points @param {number} least least room [m] @returns {import("../wire.js").Box} */
-export function boxOf(points, least) {
-  const [xs, ys] = [points.map(([x]) => x), points.map(([, y]) => y)];
-  const [left, right, bottom, top] = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];
-  const room = least + 0.15 * Math.hypot(right - left, top - bottom);
-  return [left - room, bottom - room, right + room, top + room];
-}

@@ -4,13 +4,14 @@ import { createOverlay } from "../stage/overlay.js";
 import { h, setText } from "../widgets/dom.js";
 import { createCharts } from "./charts.js";
 import { fetchInto } from "./fetched.js";
+import { Glossary } from "./glossary.js";
 import { createFormulas } from "./formulas.js";
-import { boxAround, boxOf } from "./geometry.js";
 import { termAt } from "./hit.js";
 import { Ladder } from "./ladder.js";
 import { Lessons } from "./lessons.js";
 import { Listing } from "./listing.js";
 import { shapeOf } from "./shapes.js";
+import { shapeOfQuestion } from "./question.js";
 import { createPredict } from "./predict.js";
 import { Stepper } from "./stepper.js";
 import { Trace } from "./trace.js";
@@ -25,8 +26,8 @@ import { compared, variables } from "./values.js";
  *            onHover: (listener: (at: [number, number] | null) => void) => void, fit: (box: import("../wire.js").Box) => void}} PlanView */
 /** @typedef {{stage: HTMLElement, view: PlanView, dock: HTMLElement, panel: HTMLElement}} Places */
 /** @typedef {{tune: typeof import("../text/page.js").pageText.tune, learn: typeof import("../text/learn.js").learnText}} Words */
-/** @typedef {{onStep: (step: number | null) => void, onChange: (patch: Patch, gesture?: string | null) => void,
- *            onDraw: () => void, settled: () => boolean, session: () => string}} Handlers */
+/** @typedef {{onChange: (patch: Patch, gesture?: string | null) => void,
+ *            onDraw: () => void, closeUp: {toggle: () => void, ask: (asked: boolean) => void}, settled: () => boolean, session: () => string}} Handlers */
 
 const VIEWS = /** @type {const} */ (["step", "all"]);
 
@@ -53,6 +54,7 @@ class Learn {
   #trail;
   #views;
   #lessons;
+  #glossary;
   /** @type {Listing | null} */ #listing = null;
   #listingPlace = h("div", { class: "listing-place" });
   #other = h("p", { class: "hint other-method", hidden: true });
@@ -60,7 +62,7 @@ class Learn {
   /** @param {Places} places @param {Words} words @param {Handlers} handlers */
   constructor({ stage, view, dock, panel }, words, handlers) {
     const text = words.learn;
-    const { onStep, onChange, onDraw, settled, session } = handlers;
+    const { onChange, onDraw, settled, session } = handlers;
     this.#text = text;
     this.#view = view;
     this.#dock = dock;
@@ -90,16 +92,18 @@ class Learn {
     this.#trail.title = text.views.trailHelp;
     this.#views = new Map(VIEWS.map((name) => [name, switchButton(text.views[name], () => this.#chooseView(name))]));
     const views = h("span", { class: "chips", role: "group", "aria-label": text.views.label }, ...this.#views.values());
+    this.#glossary = new Glossary(text.glossary, (id) => this.#lessons.open(id));
     this.stepper = new Stepper(dock, text, {
-      onStep,
+      mark: (words) => this.#glossary.page()(words),
+      onStep: (step) => onChange({ step }),
       onBeam: (beam) => this.#choose(beam),
-      onZoom: () => this.zoom(),
+      onCloseUp: handlers.closeUp.toggle,
       settled,
       mayStep: (next) => this.#mayStep(next),
       answers: this.#predict.buttons,
       extras: [views, this.#trail, this.#predict.toggle, this.#predict.score],
     });
-    this.#lessons = new Lessons(words, { onChange, onDraw, onGo, onFrame: (near, state) => this.#frame(near, state) });
+    this.#lessons = new Lessons(words, this.#glossary, { onChange, onDraw, onGo });
     panel.setAttribute("aria-label", text.panel);
     const method = h("div", { class: "method" }, this.#other, this.#listingPlace, this.#formulas.element);
     panel.append(this.#lessons.element, method);
@@ -163,9 +167,8 @@ class Learn {
     if (!question) return true;
     this.stepper.say(question);
     this.#dock.classList.add("asking");
-    const onePoint = event.beam >= 0 && event.phase === "growth";
-    const beams = onePoint ? [event.beam] : trace.span(event.first, event.last);
-    this.#overlay.set("question", { dots: beams.map((beam) => trace.point(beam)).filter((point) => point !== null) });
+    this.#handlers.closeUp.ask(true);
+    this.#overlay.set("question", shapeOfQuestion(event, trace, this.#params));
     return false;
   }
 
@@ -200,24 +203,14 @@ class Learn {
     this.#overlay.set("term", null);
     this.#overlay.set("trail", trailing && explained && this.#trace ? trailOf(this.#trace, explained) : null);
     if (asked && asked.index !== (this.#step ?? -2) + 1) this.#predict.drop();
-    if (!this.#predict.asked) this.#overlay.set("question", null);
+    if (!this.#predict.asked && this.#overlay.has("question")) {
+      this.#overlay.set("question", null);
+      this.#handlers.closeUp.ask(false);
+    }
     this.#dock.classList.toggle("asking", this.#predict.asked !== null);
     this.#formulas.set(explained, this.#trace, this.#params);
     this.#charts.set(explained, this.#trace, this.#params);
     this.#listing?.set(explained, event ? variables(event) : [], event ? compared(event, this.#knobs) : "");
-  }
-
-  /** Shows the points of the decision, with some room around them. */
-  zoom() {
-    const event = this.#event;
-    if (event && this.#trace) this.#view.fit(boxAround(this.#trace, event));
-  }
-
-  /** Fills the stage with these beams, or with the whole scan. @param {readonly number[]} near @param {State} state */
-  #frame(near, state) {
-    const points = near.map((beam) => this.#trace?.point(beam) ?? null).filter((point) => point !== null);
-    const box = points.length ? boxOf(points, 0) : (state.bounds ?? state.extent);
-    if (box) this.#view.fit(box);
   }
 
   /** @param {boolean} yes */
@@ -241,6 +234,7 @@ class Learn {
     this.#lessons.setView(view);
     if (view.mode !== "learn") return this.stepper.stop();
     this.stepper.setStep(view.step);
+    this.stepper.setCloseUp(view.closeup === "on");
     return this.#show();
   }
 

@@ -3,7 +3,7 @@
 import { drawText } from "../text/draw.js";
 import { h } from "../widgets/dom.js";
 import { icon } from "../widgets/icon.js";
-import { symbols } from "./symbols.js";
+import { symbols } from "../widgets/symbols.js";
 
 /** @typedef {import("./lessons.js").Lesson} Lesson */
 
@@ -21,9 +21,10 @@ export class LessonList {
 
   /**
    * @param {typeof import("../text/learn.js").learnText.lesson} text
+   * @param {import("./glossary.js").Glossary} glossary
    * @param {{onOpen: (id: string) => void, onDraw: () => void}} handlers onDraw: the user wants to draw a world
    */
-  constructor(text, { onOpen, onDraw }) {
+  constructor(text, glossary, { onOpen, onDraw }) {
     this.#text = text;
     this.#onOpen = onOpen;
     const drawing = h(
@@ -35,7 +36,7 @@ export class LessonList {
     this.element = h(
       "div",
       { class: "lesson-overview" },
-      h("h2", {}, text.overview),
+      h("div", { class: "overview-head" }, h("h2", {}, text.overview), glossary.button()),
       h("p", { class: "hint" }, text.overviewHint),
       this.trouble,
       this.#broken,

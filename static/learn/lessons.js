@@ -17,9 +17,8 @@ import { Reader } from "./reader.js";
 /** @typedef {import("../wire.js").Find} Find */
 /** @typedef {import("../wire.js").Step} LessonStep */
 /** @typedef {import("../wire.js").NamedLesson} Lesson */
-/** @typedef {{lessons: Lesson[], broken: string[]}} Told */
-/** @typedef {{onChange: (patch: Patch, gesture?: string | null) => void, onGo: (step: number | null) => void, onDraw: () => void,
- *            onFrame: (near: readonly number[], state: State) => void}} Handlers onFrame: these beams, or all, are to fill the stage */
+/** @typedef {{lessons: Lesson[], broken: string[], terms: import("../wire.js").ExplainedTerm[]}} Told */
+/** @typedef {{onChange: (patch: Patch, gesture?: string | null) => void, onGo: (step: number | null) => void, onDraw: () => void}} Handlers */
 
 // Every lesson is about this method; a step may show another for comparison.
 const METHOD = "region-growing";
@@ -42,13 +41,13 @@ export class Lessons {
   #list;
   #reader;
 
-  /** @param {import("./learn.js").Words} words @param {Handlers} handlers */
-  constructor(words, handlers) {
+  /** @param {import("./learn.js").Words} words @param {import("./glossary.js").Glossary} glossary @param {Handlers} handlers */
+  constructor(words, glossary, handlers) {
     this.#words = words;
     this.#handlers = handlers;
     const text = words.learn.lesson;
-    this.#list = new LessonList(text, { onOpen: (id) => this.open(id), onDraw: handlers.onDraw });
-    this.#reader = new Reader(text, {
+    this.#list = new LessonList(text, glossary, { onOpen: (id) => this.open(id), onDraw: handlers.onDraw });
+    this.#reader = new Reader(text, glossary, {
       onLeave: () => this.#leave(),
       onBack: () => this.#turn(this.#at - 1),
       onNext: () => this.#forward(),
@@ -61,6 +60,7 @@ export class Lessons {
       this.#reader.element,
     );
     fetchInto(this.#list.trouble, "/api/lessons", text, (/** @type {Told} */ told) => {
+      glossary.set(told.terms, told.lessons);
       this.#list.set(told.lessons, told.broken);
       this.#come("lessons");
     });
@@ -70,16 +70,27 @@ export class Lessons {
   #come(what) {
     if (!this.#awaited.delete(what) || this.#awaited.size) return;
     const wanted = new URL(location.href).searchParams.get("lesson");
-    if (!wanted) return;
-    this.#handlers.onChange({ mode: "learn" });
-    this.open(wanted);
+    if (wanted) {
+      const url = new URL(location.href);
+      url.searchParams.delete("lesson");
+      history.replaceState(null, "", url);
+      this.#handlers.onChange({ mode: "learn" });
+      this.open(wanted);
+    } else if (this.#view) this.#adopt(this.#view);
   }
 
-  /** @param {string} id */
+  /** Opens a lesson at its first page. @param {string} id */
   open(id) {
     const chosen = this.#list.lessons.find((each) => each.id === id);
     if (!chosen) return this.#list.complain(this.#words.learn.lesson.unknown(id));
     if (!this.#lesson && this.#view) this.#before = settingsOf(this.#view);
+    this.#show(chosen);
+    this.#turn(0);
+    return this.#reader.focus();
+  }
+
+  /** @param {Lesson} chosen */
+  #show(chosen) {
     this.#lesson = chosen;
     this.#list.element.hidden = true;
     this.#sliders = new Map(
@@ -92,9 +103,20 @@ export class Lessons {
       `${number} · ${chosen.title}`,
       [...this.#sliders.values()].map((slider) => slider.element),
     );
-    putInAddress(id);
-    this.#turn(0);
-    return this.#reader.focus();
+  }
+
+  /** Shows the lesson and the page of a View that came from elsewhere: a link, or the presenter. @param {Readonly<View>} view */
+  #adopt({ lesson, page, recording }) {
+    if (this.#awaited.size || (lesson === (this.#lesson?.id ?? null) && (!lesson || page === this.#at))) return;
+    const chosen = this.#list.lessons.find((each) => each.id === lesson);
+    if (lesson && !chosen) return this.#list.complain(this.#words.learn.lesson.unknown(lesson));
+    if (!chosen) return this.#close();
+    if (chosen !== this.#lesson) this.#show(chosen);
+    // A link that names no more than the lesson.
+    if (recording !== chosen.recording) return this.#turn(page);
+    this.#at = Math.min(page, chosen.steps.length);
+    this.#pending = null;
+    this.#read(chosen);
   }
 
   /** @param {Knob} knob */
@@ -106,13 +128,17 @@ export class Lessons {
 
   #leave() {
     // Whoever has gone elsewhere, by a link or the menu, stays there.
-    if (this.#before && this.#view?.recording === this.#lesson?.recording) this.#handlers.onChange(this.#before);
+    const back = this.#before && this.#view?.recording === this.#lesson?.recording ? this.#before : {};
+    this.#close();
+    this.#handlers.onChange({ ...back, lesson: null });
+  }
+
+  #close() {
     this.#lesson = null;
     this.#pending = null;
     this.#before = null;
     this.#reader.close();
     this.element.dataset.page = "";
-    putInAddress(null);
     this.#list.element.hidden = false;
     this.#list.show();
   }
@@ -133,8 +159,18 @@ export class Lessons {
   /** @param {number} to */
   #turn(to) {
     if (!this.#lesson || !this.#view) return;
-    const { steps, task } = this.#lesson;
+    const { steps } = this.#lesson;
     this.#at = Math.min(Math.max(to, 0), steps.length);
+    const step = steps.at(this.#at) ?? null;
+    this.#read(this.#lesson);
+    this.#pending = { find: step?.find ?? null };
+    // Without a change nothing is drawn, so nothing would be shown.
+    this.#handlers.onChange(this.#patchFor(this.#lesson, step, this.#view));
+  }
+
+  /** Shows the text of the page. @param {Lesson} lesson */
+  #read(lesson) {
+    const { steps, task } = lesson;
     const step = steps.at(this.#at) ?? null;
     this.#solved = false;
     this.element.dataset.page = step ? "step" : "task";
@@ -145,19 +181,18 @@ export class Lessons {
       sliders: !step || Object.keys(step.params).length > 0,
       at: this.#at,
       count: steps.length + 1,
-      next: this.#nextWords(this.#lesson),
+      next: this.#nextWords(lesson),
     });
-    this.#pending = { find: step?.find ?? null };
-    // Without a change nothing is drawn, so nothing would be shown.
-    this.#handlers.onChange(this.#patchFor(this.#lesson, step, this.#view));
   }
 
   /** @param {Lesson} lesson @param {LessonStep | null} step @param {Readonly<View>} view @returns {Patch} */
-  #patchFor({ recording, frame }, step, view) {
+  #patchFor({ id, recording, frame }, step, view) {
     const { method, params } = this.#wanted();
     const elsewhere =
       view.recording !== recording || view.frame !== frame || view.method !== method || !same(params, view.params);
     return {
+      lesson: id,
+      page: this.#at,
       method,
       selected: step?.selected ?? null,
       ...(method === METHOD ? { params } : {}),
@@ -192,6 +227,7 @@ export class Lessons {
   /** @param {Readonly<View>} view */
   setView(view) {
     this.#view = view;
+    this.#adopt(view);
     for (const [name, slider] of this.#sliders) if (view.params[name] !== undefined) slider.set(view.params[name]);
   }
 
@@ -203,7 +239,6 @@ export class Lessons {
     if (this.#pending && state.method === method && same(params, state.params)) {
       const target = this.#pending.find;
       this.#pending = null;
-      this.#handlers.onFrame(lesson.steps.at(this.#at)?.near ?? [], state);
       const index = target ? find(trace, target) : -1;
       this.#handlers.onGo(index >= 0 ? index : null);
     }
@@ -224,14 +259,6 @@ export class Lessons {
     if (this.#solved) this.#list.markDone(id);
     return undefined;
   }
-}
-
-/** The lesson in the address, so that a link opens it. @param {string | null} id */
-function putInAddress(id) {
-  const url = new URL(location.href);
-  if (id) url.searchParams.set("lesson", id);
-  else url.searchParams.delete("lesson");
-  history.replaceState(null, "", url);
 }
 
 /** What a lesson changes. @param {Readonly<View>} view @returns {Patch} */

@@ -2,7 +2,7 @@
 // The pseudocode; the line of the current decision is highlighted (listing.json says which).
 import { h, setText } from "../widgets/dom.js";
 import { tooltip } from "../widgets/tooltip.js";
-import { symbols } from "./symbols.js";
+import { symbols } from "../widgets/symbols.js";
 import { eventName } from "./trace.js";
 
 /** @typedef {import("./trace.js").Event} Event */

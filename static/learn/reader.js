@@ -2,7 +2,7 @@
 // One page of a lesson: a text or the task, sliders, and the buttons to the next page.
 import { h, setText } from "../widgets/dom.js";
 import { iconButton } from "../widgets/icon.js";
-import { symbols } from "./symbols.js";
+import { symbols } from "../widgets/symbols.js";
 
 /**
  * @typedef {object} Page
@@ -16,6 +16,8 @@ import { symbols } from "./symbols.js";
 
 export class Reader {
   #text;
+  #glossary;
+  #mark;
   #title = h("h2", { class: "lesson-title", tabIndex: -1 });
   #body = h("div", { class: "lesson-body", "aria-live": "polite" });
   #sliders = h("div", { class: "thresholds lesson-knobs" });
@@ -30,10 +32,13 @@ export class Reader {
 
   /**
    * @param {typeof import("../text/learn.js").learnText.lesson} text
+   * @param {import("./glossary.js").Glossary} glossary
    * @param {{onLeave: () => void, onBack: () => void, onNext: () => void, onHint: () => void}} handlers
    */
-  constructor(text, { onLeave, onBack, onNext, onHint }) {
+  constructor(text, glossary, { onLeave, onBack, onNext, onHint }) {
     this.#text = text;
+    this.#glossary = glossary;
+    this.#mark = glossary.page();
     this.#hint = h("button", { type: "button", class: "button quiet", onclick: onHint }, text.hint);
     this.#back = h("button", { type: "button", class: "button", onclick: onBack }, text.back);
     this.#next = h("button", { type: "button", class: "button primary", onclick: onNext }, text.next);
@@ -41,7 +46,7 @@ export class Reader {
     this.element = h(
       "div",
       { class: "lesson-reader", hidden: true },
-      h("div", { class: "lesson-head" }, this.#title, iconButton("close", text.close, onLeave)),
+      h("div", { class: "lesson-head" }, this.#title, glossary.button(), iconButton("close", text.close, onLeave)),
       this.#scroll,
       h("div", { class: "lesson-foot" }, this.#back, this.#count, spacer, this.#hint, this.#next),
     );
@@ -64,9 +69,10 @@ export class Reader {
 
   /** @param {Page} page */
   show({ words, isTask, sliders, at, count, next }) {
+    this.#mark = this.#glossary.page();
     this.#body.replaceChildren(
       ...(isTask ? [h("h3", {}, this.#text.task)] : []),
-      ...words.split("\n\n").map((paragraph) => h("p", {}, ...symbols(paragraph))),
+      ...words.split("\n\n").map((paragraph) => h("p", {}, ...this.#mark(paragraph))),
     );
     this.#task.hidden = this.#hint.hidden = !isTask;
     this.#sliders.hidden = !sliders;
@@ -82,7 +88,7 @@ export class Reader {
 
   /** @param {string} words */
   hint(words) {
-    this.#hintWords.replaceChildren(...symbols(words));
+    this.#hintWords.replaceChildren(...this.#mark(words));
     this.#hintWords.hidden = false;
     this.#hintWords.scrollIntoView({ block: "nearest" });
   }
@@ -90,7 +96,7 @@ export class Reader {
   /** Whether the task is done, and what is missing. @param {boolean} solved @param {string} words */
   judge(solved, words) {
     this.#verdict.classList.toggle("solved", solved);
-    this.#verdict.replaceChildren(...symbols(words));
+    this.#verdict.replaceChildren(...this.#mark(words));
     this.#next.classList.toggle("primary", solved);
   }
 }

@@ -58,16 +58,7 @@ export function shapeOf(name, event, trace) {
         }
       );
     case "normal":
-      return (
-        line && {
-          lines: [
-            [
-              [0, 0],
-              [-line[2] * line[0], -line[2] * line[1]],
-            ],
-          ],
-        }
-      );
+      return line && { lines: normalOf(line, here) };
     case "mean": {
       const n = points.length / 2;
       const sum = dots.reduce(([sx, sy], [x, y]) => [sx + x, sy + y], [0, 0]);
@@ -78,4 +69,23 @@ export function shapeOf(name, event, trace) {
     default:
       return null;
   }
+}
+
+/** The normal of a line: from the laser to the line, and beside its points. @param {import("./trace.js").Line} line @param {[Point, Point] | null} here @returns {[Point, Point][]} */
+function normalOf([a, b, c], here) {
+  /** @type {[Point, Point]} */
+  const whole = [
+    [0, 0],
+    [-c * a, -c * b],
+  ];
+  if (!here) return [whole];
+  const [[x1, y1], [x2, y2]] = here;
+  const [x, y, long] = [(x1 + x2) / 2, (y1 + y2) / 2, Math.hypot(x2 - x1, y2 - y1) / 4];
+  return [
+    whole,
+    [
+      [x, y],
+      [x + long * a, y + long * b],
+    ],
+  ];
 }

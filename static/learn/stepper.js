@@ -22,7 +22,8 @@ const LEVELS = /** @type {Level[]} */ (["decision", "phase", "line"]);
  * @typedef {object} Handlers
  * @property {(step: number | null) => void} onStep
  * @property {(beam: number) => void} onBeam
- * @property {() => void} onZoom
+ * @property {import("./glossary.js").Mark} mark for the sentence of the decision
+ * @property {() => void} onCloseUp
  * @property {() => boolean} settled
  * @property {(next: number) => boolean} mayStep asked before one step forward; false makes it wait
  * @property {HTMLElement} answers beside the sentence
@@ -38,6 +39,7 @@ export class Stepper {
   /** @type {Level} */ #level = "decision";
   #loop = new Loop();
   #looping;
+  #closeUp;
   #marks = createMarks();
   #mayStep;
   /** @type {import("../wire.js").Knob[]} */ #knobs = [];
@@ -48,11 +50,12 @@ export class Stepper {
    * @param {typeof import("../text/learn.js").learnText} words
    * @param {Handlers} handlers
    */
-  constructor(dock, words, { onStep, onBeam, onZoom, settled, mayStep, extras, answers }) {
+  constructor(dock, words, { onStep, onBeam, mark, onCloseUp, settled, mayStep, extras, answers }) {
     this.#words = words;
     this.#mayStep = mayStep;
     const text = words.steps;
     this.#decision = new Decision(text.leave, () => this.go(null), h("span", {}, answers));
+    this.#decision.explainWith(mark);
     this.#steps = new Steps(
       {
         speed: text.speed,
@@ -71,6 +74,7 @@ export class Stepper {
         loopStart: () => this.#loop.start,
       },
     );
+    this.#closeUp = iconButton("zoom", text.closeUp, onCloseUp);
     this.#looping = iconButton("loop", text.loopStart, () => this.#toggleLoop());
     const { buttons, speed, scrubber } = this.#steps;
     const controls = h(
@@ -80,7 +84,7 @@ export class Stepper {
       this.#createLevels(),
       speed,
       this.#looping,
-      iconButton("zoom", text.zoom, onZoom),
+      this.#closeUp,
       createBeamField(text, { beams: () => this.#trace?.beams ?? 0, onBeam }),
       h("span", { class: "spacer" }),
       this.#dressJumps(),
@@ -225,6 +229,11 @@ export class Stepper {
     if (step !== this.#steps.at) this.#instead = null;
     this.#steps.setAt(step);
     this.#show();
+  }
+
+  /** @param {boolean} on whether decisions are shown from near by */
+  setCloseUp(on) {
+    this.#closeUp.setAttribute("aria-pressed", String(on));
   }
 
   /** @param {number} count lines of the whole result */

@@ -1,20 +1,23 @@
 // @ts-check
-// The visible part of the plan: a whole recording when it is opened, or what a link says.
+// The visible part of the plan: a whole recording when it is opened, a decision from near by, or what a link says.
+import { createCloseUp } from "./close_up.js";
 import { iconButton } from "../widgets/icon.js";
 
 /** @typedef {import("../view/store.js").Look} Look */
+/** @typedef {import("../wire.js").Framing} Framing */
 
 /**
  * @param {import("../page.js").Page} page
  * @param {import("./stage.js").Stage} stage
  * @param {typeof import("../text/page.js").pageText.stage} text
- * @param {{drawing: () => boolean, names: (recording: string) => boolean, onLook: () => void}} handlers
- *   drawing: the recording is a world that is being drawn; names: the recording is the one in the link; onLook: the visible part changed
+ * @param {{drawing: () => boolean, names: (recording: string) => boolean, onLook: () => void, onFraming: (framing: Framing | null) => void}} handlers
+ *   drawing: the recording is a world that is being drawn; names: the recording is the one in the link; onLook: the visible part changed; onFraming: as of the close-up
  */
-export function createCamera(page, stage, text, { drawing, names, onLook }) {
+export function createCamera(page, stage, text, { drawing, names, onLook, onFraming }) {
   /** The part of the plan that a link shows, until the plan is loaded. @type {Look | null} */
   let wanted = null;
   let fitted = "";
+  const closeUp = createCloseUp(page, stage, { whole: fit, onFraming });
   const fitButton = iconButton("fit", text.fit, fit);
   const freeButton = iconButton("cube", text.free, toggle);
   stage.onMove(() => {
@@ -36,6 +39,7 @@ export function createCamera(page, stage, text, { drawing, names, onLook }) {
     buttons: [fitButton, freeButton],
     fit,
     toggle,
+    closeUp,
     /** Sets the part to show once the plan is loaded. @param {Look | null} look */
     want(look) {
       wanted = look;
@@ -47,13 +51,15 @@ export function createCamera(page, stage, text, { drawing, names, onLook }) {
       freeButton.setAttribute("aria-label", camera === "free" ? text.plan : text.free);
     },
     /** @param {import("../wire.js").State} state */
-    setState({ recording, place: scans }) {
+    setState({ recording, place: scans, framing }) {
       // A drawn world stays where it is while it changes.
       const place = drawing() ? "drawn" : scans;
       if (place !== fitted) {
         fitted = place;
+        closeUp.forget();
         fit();
       }
+      closeUp.set(framing);
       if (!wanted || !names(recording)) return;
       stage.lookAt(wanted);
       wanted = null;

@@ -4,7 +4,7 @@ import { svg } from "../widgets/dom.js";
 
 /** @typedef {[number, number]} Point */
 /** Of labels that would touch, the first one is drawn. @typedef {{at: Point, text: string}} Label */
-/** @typedef {{dots?: Point[], lines?: [Point, Point][], labels?: Label[]}} Shape */
+/** @typedef {{dots?: Point[], lines?: [Point, Point][], thin?: [Point, Point][], labels?: Label[]}} Shape */
 /** project: where a point of the plan is on the stage [px], null if it cannot be seen @typedef {{project: (x: number, y: number) => Point | null, onMove: (listener: () => void) => void}} Seen */
 
 const HEIGHT_PX = 14;
@@ -25,6 +25,8 @@ export function createOverlay(stage, view) {
   view.onMove(() => shapes.size && draw());
 
   return {
+    /** @param {string} name */
+    has: (name) => shapes.has(name),
     /** @param {string} name @param {Shape | null} shape */
     set(name, shape) {
       if (!shape && !shapes.has(name)) return;
@@ -36,12 +38,13 @@ export function createOverlay(stage, view) {
 }
 
 /** @param {string} name @param {Shape} shape @param {Seen["project"]} project */
-function drawn(name, { lines = [], dots = [], labels = [] }, project) {
+function drawn(name, { lines = [], thin = [], dots = [], labels = [] }, project) {
   const group = svg("g", { class: `overlay-shape overlay-${name}` });
-  for (const [from, to] of lines) {
+  for (const [from, to] of [...lines, ...thin]) {
     const [one, other] = [project(...from), project(...to)];
     if (one && other) group.append(svg("line", { x1: one[0], y1: one[1], x2: other[0], y2: other[1] }));
   }
+  for (const line of [...group.children].slice(lines.length)) line.classList.add("thin");
   for (const dot of dots) {
     const at = project(...dot);
     if (at) group.append(svg("circle", { cx: at[0], cy: at[1], r: 8 }));

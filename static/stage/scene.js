@@ -3,7 +3,9 @@
 import { createExplanation } from "../tune/explanation.js";
 import { h } from "../widgets/dom.js";
 import { createCamera } from "./camera.js";
+import { createKey } from "./key.js";
 import { createLayers } from "./layers.js";
+import { createNames } from "./names.js";
 import { createPointing } from "./pointing.js";
 import { mountNotices } from "./notices.js";
 import { Stage } from "./stage.js";
@@ -20,11 +22,18 @@ export function mountScene(
   page,
   holder,
   text,
-  { onKey, onFrame, onCancel, onRetry, drawing, names, onLook, onLight, onThreshold },
+  { onKey, onFrame, onCancel, onRetry, drawing, names: isNamed, onLook, onLight, onThreshold },
 ) {
   const stage = new Stage(holder, text.stage, { onKey, onFrame });
   const notices = mountNotices(holder, text.stage, { onCancel, onRetry });
-  const camera = createCamera(page, stage, text.stage, { drawing, names, onLook });
+  const names = createNames(holder, stage);
+  const key = createKey(text.stage.key);
+  const camera = createCamera(page, stage, text.stage, {
+    drawing,
+    names: isNamed,
+    onLook,
+    onFraming: (framing) => names.set(framing?.names ?? [], framing?.measures ?? [], framing?.normal),
+  });
   const layers = createLayers(text, (switched) => page.change({ layers: switched }));
   const pointing = createPointing(page, holder, stage, { onLight, onThreshold, label: text.stage.beam });
   const explanation = createExplanation(text.explanation, stage, pointing, {
@@ -32,10 +41,10 @@ export function mountScene(
     onChange: (name, value) => page.change({ params: { [name]: value } }),
   });
   const tools = h("div", { class: "stage-tools" }, ...camera.buttons, layers.button);
-  holder.append(tools, layers.list, explanation.element);
+  holder.append(key.element, tools, layers.list, explanation.element);
   holder.setAttribute("aria-label", text.stage.label);
   return {
-    parts: [notices, layers, camera, pointing, explanation],
+    parts: [notices, layers, camera, key, pointing, explanation],
     stage,
     notices,
     camera,

@@ -1,11 +1,26 @@
 // @ts-check
 // The scene: viser's page in a frame of the same origin. Its camera is set here; picking is the server's.
-import { h, setText } from "../widgets/dom.js";
+import { h } from "../widgets/dom.js";
 import { closePopovers } from "../widgets/menu.js";
-import { cameraIn, hasContent, clip, lockPlan, NEAREST, onScreen, PLAN_FOV_DEG, planOf, rad, unlock } from "./viser.js";
+import { createScale } from "./scale.js";
+import {
+  bend,
+  cameraIn,
+  clip,
+  hasContent,
+  lockPlan,
+  NEAREST,
+  onScreen,
+  PLAN_FOV_DEG,
+  planOf,
+  rad,
+  stretched,
+  unlock,
+} from "./viser.js";
 
 /** @typedef {import("../wire.js").Box} Box */
 /** @typedef {import("./viser.js").Plan} Plan */
+/** @typedef {import("./viser.js").Stretch} Stretch */
 /** @typedef {import("../view/store.js").Look} Look */
 /**
  * onKey: a key pressed in the scene, true if the page took it; onFrame: a scene was loaded
@@ -16,7 +31,11 @@ const MARGIN = 1.12;
 // What is gone to fills this share of the stage, unless it can be seen already.
 const SHARE = 0.25;
 const EASILY_SEEN_PX = 60;
-const BAR_PX = 110;
+// The smallest half of a whole plan [m].
+const LEAST = 0.5;
+// Around a close-up there is room for names; the smallest half of one [m].
+const CLOSE_MARGIN = 1.35;
+const CLOSE_LEAST = 0.02;
 const CAMERA_KEYS = new Set(["KeyW", "KeyA", "KeyS", "KeyD", "KeyQ", "KeyE"]);
 // viser's own panel and notices go, because the page shows connection and values; its slow fade-in goes, too.
 const OVERRULED = `
@@ -33,28 +52,32 @@ export class Stage {
   #plan = null;
   /** The plan after a fit. @type {Plan | null} */
   #whole = null;
-  /** @type {Box | null} */
+  /** How the plan is drawn. @type {Stretch | null} */
+  #stretch = null;
+  /** A fit to repeat once the camera exists. @type {(() => void) | null} */
   #pendingFit = null;
   /** @type {any} */
   #locked = null;
   #source = "";
   /** Whether a person may have moved the camera. */
   #touched = false;
+  /** Whether the plan is no longer where a close-up put it. */
+  #away = true;
   /** @type {(() => void)[]} */
   #moveListeners = [];
   /** @type {((at: [number, number] | null) => void)[]} */
   #hoverListeners = [];
   #handlers;
-  #barWords = h("span");
-  #bar = h("div", { class: "scale-bar", "aria-hidden": "true", hidden: true }, this.#barWords);
+  #scaleMark;
 
   /** @param {HTMLElement} holder @param {typeof import("../text/page.js").pageText.stage} text @param {Handlers} handlers */
   constructor(holder, text, handlers) {
     this.#handlers = handlers;
     this.frame = h("iframe", { class: "scene", title: text.scene, allow: "" });
     this.frame.addEventListener("load", () => this.#loaded());
-    holder.append(this.frame, this.#bar);
-    new ResizeObserver(() => this.#drawBar()).observe(this.frame);
+    this.#scaleMark = createScale(text.across);
+    holder.append(this.frame, this.#scaleMark.element);
+    new ResizeObserver(() => this.#tellMoved()).observe(this.frame);
   }
 
   #loaded() {
@@ -106,7 +129,7 @@ export class Stage {
       this.#locked = found.control;
       this.#locked.addEventListener("update", () => this.#moved());
     }
-    if (this.#pendingFit) this.fit(this.#pendingFit);
+    if (this.#pendingFit) this.#pendingFit();
     else this.#applyPlan();
   }
 
@@ -119,21 +142,26 @@ export class Stage {
       if (!now || (!this.#touched && this.#plan && isApart(now, this.#plan))) return this.#applyPlan();
       this.#plan = now;
       clip(found, now.height);
+      bend(found, this.#stretch, now.height);
     }
-    this.#drawBar();
+    this.#tellMoved();
     return undefined;
   }
 
   #applyPlan() {
     const found = cameraIn(this.frame);
     if (!found || !this.#plan) return;
-    if (this.#mode === "plan") lockPlan(found, this.#plan);
+    if (this.#mode === "plan") {
+      bend(found, this.#stretch, this.#plan.height);
+      lockPlan(found, this.#plan);
+    }
     this.#show();
   }
 
   #unlock() {
     const found = cameraIn(this.frame);
     if (!found) return;
+    bend(found, null, null);
     unlock(found, this.#plan ?? { x: 0, y: 0, height: 100 });
     this.#show();
   }
@@ -147,17 +175,13 @@ export class Stage {
   #show() {
     if (hasContent(this.frame)) this.frame.classList.add("ready");
     else requestAnimationFrame(() => this.#show());
-    this.#drawBar();
+    this.#tellMoved();
   }
 
-  #drawBar() {
+  #tellMoved() {
     for (const listener of this.#moveListeners) listener();
     const scale = this.#mode === "plan" ? this.#scale : null;
-    this.#bar.hidden = scale === null;
-    if (!scale) return;
-    const metres = niceLength(BAR_PX / scale.pxPerMetre);
-    this.#bar.style.width = `${Math.round(metres * scale.pxPerMetre)}px`;
-    setText(this.#barWords, metres >= 1 ? `${metres} m` : `${Math.round(metres * 100)} cm`);
+    this.#scaleMark.set(scale?.pxPerMetre ?? null, this.#stretch);
   }
 
   /** The scale of the plan; null before it is loaded and in the free view. */
@@ -176,14 +200,29 @@ export class Stage {
   }
 
   /** Shows the whole box. @param {Box} box */
-  fit = (box) => {
+  fit = (box) => this.#fit(box, null, MARGIN, LEAST);
+
+  /** Shows the box from near by, with its plan stretched. @param {Box} box as drawn @param {Stretch} stretch */
+  closeUp(box, stretch) {
+    this.#fit(box, stretch.factor === 1 ? null : stretch, CLOSE_MARGIN, CLOSE_LEAST);
+  }
+
+  /** @param {Box} box @param {Stretch | null} stretch @param {number} margin @param {number} least */
+  #fit(box, stretch, margin, least) {
     const [xmin, ymin, xmax, ymax] = box;
     const aspect = this.frame.clientWidth / Math.max(1, this.frame.clientHeight);
-    const half = MARGIN * Math.max((ymax - ymin) / 2, (xmax - xmin) / 2 / aspect, 0.5);
+    const half = Math.max(margin * Math.max((ymax - ymin) / 2, (xmax - xmin) / 2 / aspect, least), NEAREST * TAN);
+    this.#stretch = stretch;
+    this.#away = margin === MARGIN;
     this.#plan = this.#whole = { x: (xmin + xmax) / 2, y: (ymin + ymax) / 2, height: half / TAN };
-    this.#pendingFit = cameraIn(this.frame) ? null : box;
+    this.#pendingFit = cameraIn(this.frame) ? null : () => this.#fit(box, stretch, margin, least);
     this.#apply();
-  };
+  }
+
+  /** Whether the plan is not where the last close-up put it. */
+  get moved() {
+    return this.#away || this.look !== null;
+  }
 
   /** The visible part of the plan, if a person has moved it. @returns {Look | null} */
   get look() {
@@ -209,6 +248,7 @@ export class Stage {
     const [wide, high] = [xmax - xmin, ymax - ymin];
     if (inside && Math.max(wide, high) * (this.#scale?.pxPerMetre ?? 0) > EASILY_SEEN_PX) return;
     const span = Math.max(high, (wide * clientHeight) / Math.max(1, clientWidth), 0.5) / SHARE;
+    this.#stretch = null;
     this.lookAt({ x: (xmin + xmax) / 2, y: (ymin + ymax) / 2, span });
   };
 
@@ -225,7 +265,8 @@ export class Stage {
     if (!this.#scale) return null;
     const { plan, pxPerMetre } = this.#scale;
     const { clientWidth, clientHeight } = this.frame;
-    return [clientWidth / 2 + (x - plan.x) * pxPerMetre, clientHeight / 2 - (y - plan.y) * pxPerMetre];
+    const [left, up] = stretched(this.#stretch, [x, y]);
+    return [clientWidth / 2 + (left - plan.x) * pxPerMetre, clientHeight / 2 - (up - plan.y) * pxPerMetre];
   };
 
   /** The point of the plan at a place on the stage [px]; null in the free view. @param {number} left @param {number} top @returns {[number, number] | null} */
@@ -233,7 +274,8 @@ export class Stage {
     if (!this.#scale) return null;
     const { plan, pxPerMetre } = this.#scale;
     const { clientWidth, clientHeight } = this.frame;
-    return [plan.x + (left - clientWidth / 2) / pxPerMetre, plan.y - (top - clientHeight / 2) / pxPerMetre];
+    const drawn = [plan.x + (left - clientWidth / 2) / pxPerMetre, plan.y - (top - clientHeight / 2) / pxPerMetre];
+    return stretched(this.#stretch, /** @type {[number, number]} */ (drawn), true);
   };
 
   /** Passes to the scene a wheel event that an element over it received. @param {WheelEvent} event */
@@ -269,11 +311,4 @@ export class Stage {
 /** Whether the camera is not where it was set. @param {Plan} now @param {Plan} wanted */
 function isApart(now, wanted) {
   return Math.hypot(now.x - wanted.x, now.y - wanted.y, now.height - wanted.height) > 1e-3 * now.height;
-}
-
-/** The largest of 1, 2, 5 · 10ⁿ that is at most `most`. @param {number} most */
-function niceLength(most) {
-  const power = 10 ** Math.floor(Math.log10(most));
-  const factor = most / power >= 5 ? 5 : most / power >= 2 ? 2 : 1;
-  return Number((factor * power).toPrecision(1));
 }

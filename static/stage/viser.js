@@ -7,7 +7,11 @@
 export const PLAN_FOV_DEG = 10;
 const FREE_FOV_DEG = 45;
 /** The smallest distance of the camera from the plan [m]. */
-export const NEAREST = 0.5;
+export const NEAREST = 0.2;
+/** How high the drawing may be, as a part of the camera's height: what lies higher is drawn farther out. */
+const FLAT = 0.002;
+/** The height of the drawing (app/scene/viser_scene.py) [m]. */
+const DRAWN_HEIGHT = 0.5;
 const WHEEL_SPEED = 1;
 // camera-controls' actions
 const ACTION = { ROTATE: 1, TRUCK: 2, DOLLY: 16, TOUCH_ROTATE: 64, TOUCH_TRUCK: 128, TOUCH_DOLLY_TRUCK: 4096 };
@@ -44,6 +48,60 @@ export function clip({ camera }, height) {
   camera.near = height / 4;
   camera.far = height * 4;
   camera.updateProjectionMatrix();
+}
+
+/**
+ * How the plan is drawn: distances along the unit vector `normal` are `factor` times as long, about the point `at`.
+ * @typedef {{factor: number, normal: [number, number], at: [number, number]}} Stretch
+ */
+
+/** Shows the plan stretched and flat; null: as it is, in space. @param {Found} found @param {Stretch | null} stretch @param {number | null} height */
+export function bend({ camera, mutable }, stretch, height) {
+  const flat = height === null ? 1 : Math.min(1, (FLAT * height) / DRAWN_HEIGHT);
+  const [u, v, w] = toThree([...(stretch?.normal ?? [0, 1]), 0]);
+  const k = (stretch?.factor ?? 1) - 1;
+  const at = toThree([...(stretch?.at ?? [0, 0]), 0]);
+  const linear = [
+    [1 + k * u * u, k * u * v, k * u * w],
+    [k * v * u, flat + k * v * v, k * v * w],
+    [k * w * u, k * w * v, 1 + k * w * w],
+  ];
+  const rows = linear.flatMap((row, i) => [
+    ...row,
+    at[i] * (i === 1 ? 0 : 1) - row.reduce((sum, part, j) => sum + part * at[j], 0),
+  ]);
+  rememberBend(
+    camera,
+    camera.matrixWorld
+      .clone()
+      .set(...rows, 0, 0, 0, 1)
+      .invert(),
+  );
+  mutable.requestRender();
+}
+
+/** Makes the camera see the world moved by the inverse of `back`. @param {any} camera @param {any} back */
+function rememberBend(camera, back) {
+  const first = !camera.userData.back;
+  camera.userData.back = back;
+  if (!first) return;
+  for (const name of ["updateMatrixWorld", "updateWorldMatrix"]) {
+    const usual = camera[name];
+    camera[name] = (/** @type {any[]} */ ...given) => {
+      usual.apply(camera, given);
+      camera.matrixWorld.premultiply(camera.userData.back);
+      camera.matrixWorldInverse.copy(camera.matrixWorld).invert();
+    };
+  }
+}
+
+/** A point of the plan as it is drawn, or with `back` the other way. @param {Stretch | null} stretch @param {[number, number]} point @param {boolean} [back] @returns {[number, number]} */
+export function stretched(stretch, [x, y], back = false) {
+  if (!stretch) return [x, y];
+  const [a, b] = stretch.normal;
+  const aside = a * (x - stretch.at[0]) + b * (y - stretch.at[1]);
+  const more = aside * ((back ? 1 / stretch.factor : stretch.factor) - 1);
+  return [x + more * a, y + more * b];
 }
 
 /** Allows only panning and zooming. @param {Found} found @param {Plan} plan */

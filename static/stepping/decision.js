@@ -13,6 +13,7 @@ export class Decision {
   #sentence = h("p", { class: "decision", "aria-live": "polite", "aria-atomic": "true" });
   #versus = createVersus();
   /** @type {import("../widgets/words.js").Pointing | null} */ #pointing = null;
+  #mark = (/** @type {string} */ words) => /** @type {(Node | string)[]} */ ([words]);
 
   /** @param {string} leave words of the way back to the whole result @param {() => void} onLeave @param {...Node} answers beside the sentence */
   constructor(leave, onLeave, ...answers) {
@@ -33,12 +34,18 @@ export class Decision {
     this.#pointing = pointing;
   }
 
+  /** Terms in plain sentences are explained. @param {(words: string) => (Node | string)[]} mark */
+  explainWith(mark) {
+    this.#mark = mark;
+  }
+
   /** @param {string} phase @param {string | import("../wire.js").Words} sentence @param {Compared} compared */
   set(phase, sentence, compared) {
     setText(this.#phase, steppingText.phases[phase] ?? sentenceCase(phase));
     this.#phase.dataset.phase = phase;
     if (this.#pointing && typeof sentence !== "string") fillWords(this.#sentence, sentence, this.#pointing);
-    else setText(this.#sentence, plain(sentence));
+    else if (this.#sentence.textContent !== plain(sentence))
+      this.#sentence.replaceChildren(...this.#mark(plain(sentence)));
     this.#versus.set(compared);
   }
 

@@ -12,7 +12,7 @@ export const learnText = {
   panel: "Learn",
   keys: {
     jumps: "in Learn: next refusal, merge, cut",
-    zoom: "in Learn: zoom to the decision",
+    closeUp: "in Learn: show decisions from near by, or the whole plan",
     answer: "in Learn: answer a prediction",
   },
   otherMethod: (/** @type {string} */ label, /** @type {string} */ citation) =>
@@ -39,7 +39,7 @@ export const learnText = {
       cut: "cut",
     },
     jumpTo: (/** @type {string} */ what, /** @type {number} */ n) => `Next ${what} (${n} in this frame)`,
-    zoom: "Zoom to this decision (Z)",
+    closeUp: "Show each decision from near by (Z)",
     loopStart: "Start the loop here",
     loopEnd: "End the loop here",
     loopClear: "Remove the loop",
@@ -68,6 +68,12 @@ export const learnText = {
     right: "Done.",
     notYet: "Not yet.",
     doneMark: "done",
+  },
+  glossary: {
+    title: "Terms and symbols",
+    open: "Terms",
+    close: "Close",
+    lesson: (/** @type {number} */ number) => `Lesson ${number}`,
   },
   goals: {
     nothingChanged: "All thresholds still have the values that this lesson gave them.",

@@ -22,7 +22,7 @@ OF_EACH_OTHER = View(
 )  # fmt: skip
 LINK_KEYS = {
     "mode", "recording", "topic", "reading", "frame", "method", "step", "beam", "camera", "score", "against", "weights",
-    "reference", "layers", "speed", EACH,
+    "reference", "layers", "speed", "closeup", "lesson", "page", EACH,
 }  # fmt: skip
 
 

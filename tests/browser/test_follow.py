@@ -26,6 +26,15 @@ def test_a_class_follows_its_teacher_leaves_and_returns(new_tab):
     assert teacher.state["step"] == step
     pupil.page.get_by_role("button", name="Follow again").click()
     pupil.until(f"s.step === {step}")
+    teacher.page.bring_to_front()
+    teacher.page.locator("[data-lesson='02_delta']").click()
+    teacher.page.locator(".lesson-foot .primary").click()
+    shown = teacher.until("s.view.page === 1 && s.step !== null")
+    assert pupil.until("s.view.page === 1 && s.step !== null")["step"] == shown["step"]
+    pupil.page.locator(".lesson-foot", has_text="2 of 6").wait_for()
+    assert pupil.page.locator(".lesson-body").text_content() == teacher.page.locator(".lesson-body").text_content()
+    teacher.page.get_by_role("button", name="Back to the list of lessons").click()
+    pupil.page.locator(".lesson-foot").wait_for(state="hidden")
     teacher.page.close()
     pupil.until("s.following === 'away'")
     pupil.page.get_by_text("who is away at the moment").wait_for()

@@ -162,7 +162,7 @@ def test_a_refused_merge_says_how_badly_it_fits(new_tab):
 
 
 def test_geometry_under_the_pointer_lights_its_term(new_tab):
-    tab = learn(new_tab, "lesson:8_noise_burst", step=0, max_occluder=0)
+    tab = learn(new_tab, "lesson:8_noise_burst", step=0, max_occluder=0, closeup="off")
     for _ in range(3):
         tab.page.keyboard.press("x")
     tab.until("s.decision.kind === 'seed rejected'")
@@ -244,6 +244,42 @@ def test_a_lesson_continues_after_a_step_with_another_method(new_tab):
     assert text_of(tab, ".lesson-foot .muted") == "2 of 5"
 
 
+def test_a_link_keeps_lesson_and_step(new_tab):
+    tab = learn(new_tab, "sample:hallway", step=0)
+    tab.page.locator("[data-lesson='02_delta']").click()
+    tab.until("s.recording === 'lesson:2_grazing_wall'")
+    for page in (1, 2):
+        tab.page.locator(".lesson-foot .primary").click()
+        tab.until(f"s.view.page === {page} && s.step !== null")
+    there = tab.state
+    tab.eventually(lambda: "page=2" in tab.page.url, "the address does not have the page")
+    link = tab.page.url
+    tab.page.goto("about:blank")
+    tab.page.goto(link)
+    assert tab.until("s.view.page === 2 && s.step !== null")["step"] == there["step"]
+    tab.eventually(lambda: text_of(tab, ".lesson-foot .muted") == "3 of 6", "the lesson is at another page")
+    assert "predicted point" in text_of(tab, ".lesson-body")
+    assert tab.state["framing"] == there["framing"]
+
+
+def test_terms_are_explained_where_they_are_used_and_in_a_list(new_tab):
+    tab = learn(new_tab, "sample:hallway", step=0)
+    tab.page.locator("[data-lesson='02_delta']").click()
+    tab.until("s.recording === 'lesson:2_grazing_wall'")
+    tab.page.locator(".lesson-foot .primary").click()
+    term = tab.page.locator(".lesson-body .term", has_text="ε").first
+    term.wait_for()
+    term.hover()
+    tab.page.locator(".tooltip", has_text="(Eq. 3)").wait_for()
+    term.click()
+    lit = tab.page.locator(".glossary-entry.lit")
+    lit.wait_for()
+    assert "Distance to the line" in (lit.text_content() or "").replace("distance", "Distance")
+    lit.get_by_role("button", name="Lesson 7").click()
+    tab.until("s.view.lesson === '07_epsilon'")
+    tab.page.get_by_text("7 · ε: how far is too far").wait_for()
+
+
 def test_leaving_a_lesson_gives_back_what_was_set_before_it(new_tab):
     tab = learn(new_tab, "sample:hallway", step=7, epsilon=0.05)
     tab.until("s.step === 7")
@@ -260,6 +296,10 @@ def test_predictions_are_asked_before_the_decision_and_counted(new_tab):
     tab.page.keyboard.press("ArrowRight")
     assert text_of(tab, "#stepper .decision").startswith("Beam 15: does it join")
     assert tab.state["step"] == 0
+    # The point, the line and both edges of the band are to be seen, but not how far apart they are.
+    tab.eventually(lambda: tab.page.locator(".overlay-question line").count() == 3, "no line and band")
+    tab.eventually(lambda: tab.page.locator(".scene-name", has_text="P, beam n = 15").count() == 1, "no name")
+    assert tab.page.locator(".scene-name", has_text="d =").count() == 0
     tab.page.keyboard.press("1")
     tab.until("s.step === 1")
     assert text_of(tab, "#stepper .decision").startswith("Right.")
@@ -270,12 +310,23 @@ def test_predictions_are_asked_before_the_decision_and_counted(new_tab):
     assert text_of(tab, ".predict-score") == "1 of 2 right"
 
 
-def test_z_shows_the_points_of_the_decision_from_near_by(new_tab):
+def test_decisions_are_shown_from_near_by_and_z_shows_the_whole_plan(new_tab):
     tab = learn(new_tab, "lesson:1_perfect_corner", step=0)
     metre = "lineseg.project(1, 0)[0] - lineseg.project(0, 0)[0]"
-    before = tab.page.evaluate(metre)
+    tab.eventually(lambda: tab.page.locator(".scene-name", has_text="i = 9").count() == 1, "no names")
+    near = tab.page.evaluate(metre)
     tab.page.keyboard.press("z")
-    tab.eventually(lambda: tab.page.evaluate(metre) > 1.5 * before, "Z shows nothing nearer")
+    tab.until("s.framing === null")
+    tab.eventually(lambda: 2 * tab.page.evaluate(metre) < near, "Z does not show the whole plan")
+    assert tab.page.locator(".scene-name").count() == 0
+    tab.page.keyboard.press("z")
+    tab.until("s.framing !== null")
+    tab.eventually(lambda: tab.page.evaluate(metre) == near, "Z does not show the decision again")
+    # What was moved by hand comes back.
+    tab.page.keyboard.press("f")
+    tab.eventually(lambda: 2 * tab.page.evaluate(metre) < near, "F does not show the whole plan")
+    tab.page.keyboard.press("z")
+    tab.eventually(lambda: tab.page.evaluate(metre) == near, "Z does not show the decision again")
 
 
 def test_the_picture_of_a_threshold_takes_a_click_back_to_its_value(new_tab):

@@ -79,7 +79,13 @@ def expected_at(scan: Scan, traced: Trace, decision: Decision) -> dict[str, Any]
     if decision.ends:
         exactly["growing"] = list(decision.ends)
     fitted = np.isfinite(decision.line).all() and np.hypot(*decision.line[:2]) > 0.5
-    return {"exactly": exactly, "onLine": list(decision.line) if fitted else None}
+    compared = decision.line
+    if decision.kind == "overlap cut":
+        # The lines as they were compared, before each was fitted to what it keeps.
+        (compared,) = (
+            line.line for line in traced.lines_at(decision.index - 1) if line.candidate == decision.candidate
+        )
+    return {"exactly": exactly, "onLine": list(compared) if fitted else None}
 
 
 @pytest.mark.parametrize("name", ["1_perfect_corner", "3_collinear_overlap", "7_doorway"])

@@ -1,5 +1,5 @@
 // @ts-check
-import { h } from "../widgets/dom.js";
+import { h } from "./dom.js";
 
 const SYMBOL = /((?<!\w)[A-Za-zαγ]′?_[a-z0-9]+|\b[ijkdn]\b(?!')|[εδρθκ]′?|\bP′)/u;
 

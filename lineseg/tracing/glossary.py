@@ -1,0 +1,172 @@
+"""The terms and symbols of region growing, each explained once: on the page, in lessons and in its list of terms."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from ..params import Params
+
+
+class Term(NamedTuple):
+    """A term, or a symbol of the paper.
+
+    name: as it is listed. text: its explanation. forms: how texts write it, as whole words. equation: where the paper
+    has it, "" if nowhere. lesson: id of the lesson that explains it, or "".
+    """
+
+    name: str
+    text: str
+    forms: tuple[str, ...]
+    equation: str = ""
+    lesson: str = ""
+
+
+# Where the paper and the lessons explain each threshold.
+_THRESHOLDS = {
+    "epsilon": ("Eq. 3", "07_epsilon"),
+    "delta": ("Eqs. 4–6", "02_delta"),
+    "seed_points": ("Algorithm 1", "01_seed"),
+    "min_points": ("Algorithm 2", "08_how_much"),
+    "min_length": ("Algorithm 2", "08_how_much"),
+    "max_dropout": ("", "11_doorway"),
+    "merge_angle": ("", "04_collinear"),
+    "merge_rms": ("", "09_shallow"),
+}
+
+
+def _thresholds() -> tuple[Term, ...]:
+    """The thresholds, explained by their declarations."""
+    terms = []
+    for name, _, knob in Params.knobs():
+        equation, lesson = _THRESHOLDS.get(name, ("", ""))
+        origin = " Not in the paper." if knob.extension else ""
+        label = f"{knob.label[0].upper()}{knob.label[1:]}."
+        terms.append(Term(knob.symbol, f"{label} {knob.help}{origin}", (knob.symbol,), equation, lesson))
+    return tuple(terms)
+
+
+TERMS = (
+    Term(
+        "beam",
+        "One measurement of the laser in one direction. Beams are numbered from 0 in the order of the scan; a beam "
+        "that hits something gives a point.",
+        ("beam", "beams"),
+        lesson="01_seed",
+    ),
+    Term(
+        "return",
+        "A beam has a return if its light came back, so that its range is known. A beam without one has no point.",
+        ("return", "returns"),
+        lesson="11_doorway",
+    ),
+    Term("range", "The distance that a beam measured, ρ.", ("range", "ranges", "ρ"), "Eq. 4", "02_delta"),
+    Term(
+        "ρ′",
+        "The range that a beam would have if its point lay on the line: from the laser to P′.",
+        ("ρ′",),
+        "Eqs. 4–6",
+        "02_delta",
+    ),
+    Term("bearing", "The direction of a beam, θ, as an angle from the laser's x axis.", ("bearing", "θ"), "Eq. 4"),
+    Term("P", "The point under test: where its beam hit something.", ("P",), "Eq. 3", "02_delta"),
+    Term(
+        "P′",
+        "The predicted point of a beam: where the beam meets the line. P and P′ lie on one beam, so they are |ρ − ρ′| "
+        "apart.",
+        ("P′", "predicted point"),
+        "Eqs. 4–6",
+        "02_delta",
+    ),
+    Term("i, j", "Positions of the first and the last point of a window.", ("i", "j"), "Algorithm 1", "01_seed"),
+    Term(
+        "k",
+        "Position of the point under test in a window, or of the first point after a cut.",
+        ("k",),
+        "Algorithms 1, 3",
+        "01_seed",
+    ),
+    Term("n", "Position of the point that would join a growing line next.", ("n",), "Algorithm 2", "03_growth"),
+    Term(
+        "P_b, P_f",
+        "First (backmost) and last (foremost) point of a growing line.",
+        ("P_b", "P_f"),
+        "Algorithm 2",
+        "03_growth",
+    ),
+    Term("P_l", "Number of points in a line; at least P_min are needed.", ("P_l",), "Algorithm 2", "03_growth"),
+    Term(
+        "L_l", "Length of a line between its endpoints; at least L_min is needed.", ("L_l",), "Algorithm 2", "03_growth"
+    ),
+    Term(
+        "line",
+        "The straight line through some points that has the smallest sum of squared distances: a·x + b·y + c = 0.",
+        ("line", "lines", "fitted line"),
+        "Eqs. 1, 2",
+        "03_growth",
+    ),
+    Term(
+        "(a, b, c)",
+        "The numbers of a line: (a, b) is its normal, of length 1, and |c| its distance from the laser.",
+        ("(a, b, c)", "normal"),
+        "Eq. 1",
+        "06_endpoints",
+    ),
+    Term(
+        "fit",
+        "To find the line with the smallest sum of squared distances. Distances are measured across the line "
+        "(total least squares), so walls of every direction are treated alike.",
+        ("fit", "fitted", "refit", "refitted"),
+        "Eq. 2",
+        "03_growth",
+    ),
+    Term("d", "Distance from a point to a line, measured across the line.", ("d", "d_1", "d_2"), "Eq. 3", "05_corner"),
+    Term("window", "S_num points in a row that are tried as a seed.", ("window", "windows"), "Algorithm 1", "01_seed"),
+    Term(
+        "seed",
+        "A window whose points all lie near the line fitted to them. A line grows from it.",
+        ("seed", "seeds"),
+        "Algorithm 1",
+        "01_seed",
+    ),
+    Term(
+        "growth",
+        "A line takes in its next neighbouring point, first forward, then backward, as long as the point lies nearer "
+        "than ε.",
+        ("growth", "grow", "grows", "grown", "grew"),
+        "Algorithm 2",
+        "03_growth",
+    ),
+    Term("forward", "In the order of the scan, towards higher beam numbers; backward is the other way.",
+         ("forward", "backward"), "Algorithm 2", "03_growth"),
+    Term(
+        "shared points",
+        "Points that two neighbouring lines both contain: their overlap. The lines are merged, or cut at one point.",
+        ("shared points", "overlap", "share points", "shared point"),
+        "Algorithm 3",
+        "05_corner",
+    ),
+    Term("merge", "To make one line of two neighbours with nearly the same direction.",
+         ("merge", "merged", "merging"), "Algorithm 3", "04_collinear"),
+    Term("cut", "To divide the points that two lines share, at the first one that is not nearer to the first line.",
+         ("cut",), "Algorithm 3", "05_corner"),
+    Term("candidate", "A line that has grown, before it is kept or dropped.", ("candidate", "candidates"),
+         lesson="08_how_much"),
+    Term("dropped", "Refused as a whole: a line with fewer points than P_min or shorter than L_min.",
+         ("dropped", "drop", "drops"), "Algorithm 2", "08_how_much"),
+    Term("endpoint", "An end of a segment: its outermost point, moved across the line onto it (x_s from x_0).",
+         ("endpoint", "endpoints", "x_0", "x_s"), "Eqs. 7, 8", "06_endpoints"),
+    Term("segment", "A line that was kept, between its two endpoints.", ("segment", "segments"), lesson="06_endpoints"),
+    Term("noise", "How much ranges scatter when the same wall is measured again, σ.", ("noise", "σ"),
+         lesson="07_epsilon"),
+    Term("grazing angle", "A beam that runs nearly along a wall meets it at a grazing angle.", ("grazing angle",),
+         lesson="02_delta"),
+    Term("threshold", "A number that a method compares with; its slider changes it.", ("threshold", "thresholds"),
+         lesson="08_how_much"),
+    Term("extension", "A threshold that the paper does not have. With all of them off, the method is the paper's.",
+         ("extension", "extensions")),
+    Term("decision", "One step of the method, with the measured value and the limit it was compared with.",
+         ("decision", "decisions")),
+    Term("rms", "Root mean square distance of the points of a line from it: how far they typically are.", ("rms",),
+         lesson="09_shallow"),
+    *_thresholds(),
+)  # fmt: skip

@@ -1,0 +1,50 @@
+// @ts-check
+// The view from near by: of the decision on the screen, or of the next one while a question about it is open.
+
+/** @typedef {import("../wire.js").Framing} Framing */
+
+/**
+ * @param {import("../page.js").Page} page
+ * @param {import("./stage.js").Stage} stage
+ * @param {{whole: () => void, onFraming: (framing: Framing | null) => void}} handlers whole: shows the whole plan; onFraming: another decision is shown
+ */
+export function createCloseUp(page, stage, { whole, onFraming }) {
+  /** Of the decision on the screen. @type {Framing | null} */
+  let framing = null;
+  /** Where the stage was put. */
+  let framed = "";
+
+  /** @param {Framing | null} next null: the whole plan */
+  function show(next) {
+    onFraming(next);
+    const key = next ? JSON.stringify([next.box, next.factor, next.at]) : "";
+    if (key === framed) return;
+    framed = key;
+    if (next) stage.closeUp(next.box, next);
+    else whole();
+  }
+
+  return {
+    /** @param {Framing | null} next */
+    set(next) {
+      framing = next;
+      show(framing);
+    },
+    /** The stage shows something else. */
+    forget() {
+      framed = "";
+    },
+    /** Shows what a question is about; afterwards the decision on the screen again. @param {boolean} asked */
+    ask(asked) {
+      show(asked ? (page.drawn?.ahead ?? framing) : framing);
+    },
+    /** Shows the decision from near by again; if it is shown so, the whole plan. */
+    toggle() {
+      const { closeup } = page.view;
+      if (closeup === "off" || !framing || !stage.moved)
+        return page.change({ closeup: closeup === "on" ? "off" : "on" });
+      framed = "";
+      return show(framing);
+    },
+  };
+}
