@@ -8,6 +8,7 @@ from .bench import bench
 from .compare import compare
 from .extract import extract
 from .info import info
+from .node import node
 from .params import params
 from .record import record
 from .score import score
@@ -17,6 +18,7 @@ from .view import view
 
 COMMANDS: dict[str, Callable[..., None]] = {
     "view": view,
+    "node": node,
     "extract": extract,
     "info": info,
     "params": params,

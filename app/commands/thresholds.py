@@ -57,7 +57,10 @@ class Choice:
     def thresholds(self, flags: Any) -> Thresholds:
         """The defaults, overridden by the file, overridden by the flags."""
         kind = self.extractor.params_type
-        base = kind() if self.params is None else read_file(self.params, kind)
+        return self.overriding(kind() if self.params is None else read_file(self.params, kind), flags)
+
+    def overriding(self, base: Thresholds, flags: Any) -> Thresholds:
+        """`base`, overridden by the flags."""
         return changed(base, flags, **dict(map(_pair, self.set)))
 
 

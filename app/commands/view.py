@@ -11,6 +11,7 @@ from tyro.conf import OmitArgPrefixes, Positional, arg
 
 from .flag_types import File, Several, Switch, Unset
 from .reading import ReadingFlags, reading_of
+from .sources import address_of, list_topics
 
 MOST_KEPT = 20_000
 
@@ -32,7 +33,8 @@ def view(
 
     Args:
         file: recording to open: a bag, MCAP, log, NPZ, JSON, CSV or other text, also compressed (default: a sample).
-            Or, to watch a robot live, its address: ws://robot:9090 (rosbridge), ws://robot:8765 (Foxglove).
+            Or, to watch a robot live, its address: ws://robot:9090 (rosbridge), ws://robot:8765 (Foxglove), ros2:/scan
+            or ros2://DOMAIN/scan (DDS; ros2: lists the topics).
         reading: how to read the file; of a robot, only the topic can be chosen.
         keep: number of a robot's scans to keep; older ones are dropped.
         host: address to listen on; any but the loopback requires a token.
@@ -46,7 +48,7 @@ def view(
     """
     from lineseg.readers import Reading
 
-    from ..live.address import Address, check_address, is_address
+    from ..live.address import check_address, is_address
     from ..server import Settings, serve
 
     files, robots = (), ()
@@ -56,7 +58,10 @@ def view(
             raise ValueError(
                 f"{', '.join(others)} cannot be used with a robot, which says how its scans are to be read."
             )
-        robots = (Address(file, how.topic),)
+        address = address_of(file, how.topic)
+        if list_topics(address):
+            return
+        robots = (address,)
         how = Reading()
     elif file is not None:
         path = Path(file)

@@ -1,4 +1,4 @@
-"""Addresses of robots: the WebSocket of a bridge, and a topic."""
+"""Addresses of robots: how to reach one, and a topic."""
 
 from __future__ import annotations
 
@@ -6,36 +6,73 @@ import re
 from dataclasses import dataclass
 from urllib.parse import urlsplit
 
+SOCKETS = ("ws", "wss")
+# Robots that are found by the name of a topic; `//PLACE` is optional.
+NAMED = re.compile(r"(ros2):(?://([^/]*))?(/.*)?", re.IGNORECASE | re.DOTALL)
+TOPIC = re.compile(r"(/[A-Za-z_][A-Za-z0-9_]*)+")
+LARGEST_DOMAIN = 232
+SOCKET_EXAMPLES = "ws://robot:9090 (rosbridge) or ws://robot:8765 (Foxglove)"
+EXPECTED = f"give one like ros2:/scan, ros2://DOMAIN/scan, {SOCKET_EXAMPLES}"
+
 
 @dataclass(frozen=True)
 class Address:
-    """url: ws://host:port of a robot's bridge; topic: of its scans, None for the first."""
+    """url: ws://host:port of a robot's bridge, or ros2://DOMAIN; topic: of its scans, None for the first.
+
+    The topic may also be part of a URL that begins with ros2. Raises ValueError if it is not an address.
+    """
 
     url: str
     topic: str | None = None
 
     def __post_init__(self) -> None:
-        check_address(self.url)
+        named = NAMED.fullmatch(self.url)
+        if named is None:
+            check_address(self.url)
+            return
+        scheme, place, topic = named[1].lower(), named[2], (named[3] or "").rstrip("/") or None
+        if topic and self.topic and topic != self.topic:
+            raise ValueError(f"{self.url[:80]} and --topic {self.topic[:80]} name two topics; name one")
+        topic = topic or self.topic
+        if topic and not TOPIC.fullmatch(topic):
+            raise ValueError(f"{topic[:80]!r} is not a topic of ROS; give one like /scan or /robot1/scan")
+        if place is not None:
+            place = checked_domain(place, f"the domain in {self.url[:80]!r}")
+        object.__setattr__(self, "url", f"{scheme}:" if place is None else f"{scheme}://{place}")
+        object.__setattr__(self, "topic", topic)
+
+    @property
+    def scheme(self) -> str:
+        return self.url.partition(":")[0].lower()
+
+    @property
+    def place(self) -> str:
+        """The part that says where, as people know it."""
+        return self.url.rstrip(":") if self.scheme not in SOCKETS else urlsplit(self.url).netloc
+
+    @property
+    def domain(self) -> int | None:
+        """The domain of DDS; None if the environment says it."""
+        return int(self.url.partition("//")[2]) if "//" in self.url and self.scheme not in SOCKETS else None
 
     @property
     def id(self) -> str:
-        return f"live:{urlsplit(self.url).netloc}{self.topic or ''}"
+        return f"live:{self.place.replace('//', '')}{self.topic or ''}"
 
 
 def is_address(text: str) -> bool:
-    return text.lower().startswith(("ws://", "wss://"))
+    return text.lower().startswith(("ws://", "wss://", "ros2:"))
 
 
 def check_address(url: str) -> None:
     """Raises ValueError if `url` is not the address of a WebSocket."""
-    expected = "give one like ws://robot:9090 (rosbridge) or ws://robot:8765 (Foxglove)"
     try:
         parts = urlsplit(url)
-        known = is_address(url) and parts.hostname and (parts.port is None or parts.port > 0)
+        known = parts.scheme.lower() in SOCKETS and parts.hostname and (parts.port is None or parts.port > 0)
     except ValueError:
         known = False
     if not known or re.search(r"[\s\x00-\x1f]", url) or len(url) > 300:
-        raise ValueError(f"{url[:80]!r} is not the address of a robot; {expected}")
+        raise ValueError(f"{url[:80]!r} is not the address of a robot; give one like {SOCKET_EXAMPLES}")
 
 
 def place_of(url: str) -> tuple[str, str, int, str]:
@@ -44,3 +81,10 @@ def place_of(url: str) -> tuple[str, str, int, str]:
     parts = urlsplit(url)
     scheme = parts.scheme.lower()
     return scheme, parts.hostname or "", parts.port or {"ws": 80, "wss": 443}[scheme], parts.path.rstrip("/")
+
+
+def checked_domain(text: str, where: str) -> int:
+    """The number of a domain. Raises ValueError if it is none."""
+    if not re.fullmatch(r"[0-9]{1,9}", text) or int(text) > LARGEST_DOMAIN:
+        raise ValueError(f"{where} is {text[:80]!r}; a domain of DDS is a whole number from 0 to {LARGEST_DOMAIN}")
+    return int(text)

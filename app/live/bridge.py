@@ -1,4 +1,4 @@
-"""The interface of every bridge protocol, and words for failed connections."""
+"""The interface of every way to a robot, and words for failed connections."""
 
 from __future__ import annotations
 
@@ -8,7 +8,8 @@ from typing import Protocol
 from websockets.exceptions import ConnectionClosed, InvalidHandshake
 
 from lineseg.readers.laser_scan import LaserScan
-from lineseg.segment import Extraction
+
+from .outgoing import Message
 
 OPEN_SECONDS = 5.0
 LARGEST_MESSAGE = 4 * 1024 * 1024
@@ -19,21 +20,34 @@ class Told(Protocol):
 
     def topic_is(self, topic: str) -> None: ...
     def waits(self, why: str) -> None: ...
-    def hand(self, decode: Callable[[], LaserScan]) -> None: ...
+    def misses(self, why: str) -> None:
+        """The connection holds, but scans no longer come."""
+
+    def hand(self, decode: Callable[[], LaserScan], newest: bool = True) -> None:
+        """newest: whether no later scan has arrived already."""
 
 
 class Bridge(Protocol):
-    """A protocol on an open connection."""
+    """An open connection. `scans` runs in one thread; `close`, from any other, ends it."""
 
-    name: str
+    @property
+    def name(self) -> str:
+        """What it speaks."""
+        ...
 
     def scans(self, topic: str | None, told: Told) -> None:
         """Hand over each scan of the topic until the connection ends. Raises ValueError if the topic has no scans."""
         ...
 
-    def publish(self, topic: str, extraction: Extraction, scan: LaserScan) -> None:
-        """Send segments as a MarkerArray. Raises ValueError if the robot does not accept them."""
+    def announce(self, topic: str, message: type[Message]) -> None:
+        """Say that such messages will be published, so that the first one already has its receivers."""
         ...
+
+    def publish(self, topic: str, message: Message) -> None:
+        """Raises ValueError if the robot does not accept it."""
+        ...
+
+    def close(self) -> None: ...
 
 
 def why_not(place: str, error: Exception) -> str:

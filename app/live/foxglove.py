@@ -11,11 +11,9 @@ from websockets.sync.connection import Connection
 from websockets.typing import Subprotocol
 
 from lineseg.readers.decoders import ENCODINGS, Decoder, decoder_of, is_laser
-from lineseg.readers.laser_scan import LaserScan
-from lineseg.segment import Extraction
 
 from .bridge import Told
-from .markers import MARKER_ARRAY, MARKER_ENCODERS
+from .outgoing import Message, encoded
 
 SUBPROTOCOLS = [Subprotocol("foxglove.sdk.v1"), Subprotocol("foxglove.websocket.v1")]
 MESSAGE_DATA = 1
@@ -47,20 +45,25 @@ class Foxglove:
                     assert decode is not None
                     told.hand(lambda decode=decode, data=data: decode(data[HEADER.size :]))
 
-    def publish(self, topic: str, extraction: Extraction, scan: LaserScan) -> None:
+    def announce(self, topic: str, message: type[Message]) -> None:
+        """Nothing to do before `publish`: the robot says only after a while what it accepts."""
+
+    def publish(self, topic: str, message: Message) -> None:
         if "clientPublish" not in self._server.get("capabilities", []):
             raise ValueError("the robot accepts no messages; enable clientPublish on its Foxglove server")
         supported = self._server.get("supportedEncodings") or []
-        encoding = next((name for name in MARKER_ENCODERS if name in supported), None)
+        encoding = next((name for name in message.encodings if name in supported), None)
         if encoding is None:
             taken = ", ".join(supported) or "nothing"
-            raise ValueError(f"the robot accepts messages as {taken}; this server sends {', '.join(MARKER_ENCODERS)}")
+            raise ValueError(f"the robot accepts messages as {taken}; this server sends {', '.join(message.encodings)}")
         if topic not in self._advertised:
             id = self._advertised[topic] = len(self._advertised) + 1
-            channel = {"id": id, "topic": topic, "encoding": encoding, "schemaName": MARKER_ARRAY}
+            channel = {"id": id, "topic": topic, "encoding": encoding, "schemaName": message.type}
             self._send(op="advertise", channels=[channel])
-        payload = MARKER_ENCODERS[encoding](extraction, scan)
-        self._socket.send(struct.pack("<BI", MESSAGE_DATA, self._advertised[topic]) + payload)
+        self._socket.send(struct.pack("<BI", MESSAGE_DATA, self._advertised[topic]) + encoded(message, encoding))
+
+    def close(self) -> None:
+        self._socket.close()
 
     def _hear(self, message: dict[str, Any], topic: str | None, told: Told) -> None:
         match message.get("op"):

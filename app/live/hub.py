@@ -30,9 +30,7 @@ class Live:
         self._most = most
         self._listeners: list[Callable[[], None]] = []
         self._lock = threading.Lock()
-        self._robots = {
-            address.id: Robot(address.id, address.url, Ring(most), self._arrived, address.topic) for address in robots
-        }
+        self._robots = {address.id: Robot(address, Ring(most), self._arrived) for address in robots}
         self._pushed: dict[str, Source] = {}
 
     def __iter__(self) -> Iterator[Source]:

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import json
-from collections.abc import Callable
-from functools import cache
-from typing import Any
+from dataclasses import dataclass
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -13,90 +11,84 @@ from lineseg.colours import segment_colours
 from lineseg.readers.laser_scan import LaserScan
 from lineseg.segment import Extraction
 
-# Both versions of ROS accept the short type name.
-MARKER_ARRAY = "visualization_msgs/MarkerArray"
+from .cdr import CdrWriter
+from .outgoing import header_fields, write_header
+
 LINE_LIST, ADD, DELETE = 5, 0, 2
 WIDTH = 0.04
+NAMESPACE = "lineseg"
 
 
-def marker_array(extraction: Extraction, scan: LaserScan, ros1: bool = False) -> dict[str, Any]:
-    """One LINE_LIST of all segments as a JSON object; without segments, deletes the previous one.
+@dataclass(frozen=True)
+class Markers:
+    """One LINE_LIST of all segments; without segments, deletes the previous one."""
 
-    ros1: rosbridge of ROS 1 has other names for the parts of a stamp.
-    """
-    names = ("secs", "nsecs") if ros1 else ("sec", "nanosec")
-    stamp = dict(zip(names, (scan.seconds, scan.nanoseconds), strict=True))
-    ends = [end for segment in extraction.segments for end in (segment.start, segment.end)]
-    colours = np.repeat(segment_colours(extraction.segments), 2, axis=0) / 255
-    return {
-        "markers": [
-            {
-                "header": {"stamp": stamp, "frame_id": scan.frame_id},
-                "ns": "lineseg",
-                "id": 0,
-                "type": LINE_LIST,
-                "action": ADD if ends else DELETE,
-                "pose": {"position": _xyz(), "orientation": _xyz() | {"w": 1.0}},
-                "scale": _xyz(x=WIDTH),
-                "color": {"r": 1.0, "g": 1.0, "b": 1.0, "a": 1.0},
-                "points": [_xyz(x=float(x), y=float(y)) for x, y in ends],
-                "colors": [dict(zip("rgba", (*map(float, rgb), 1.0), strict=True)) for rgb in colours.tolist()],
-            }
-        ]
-    }
+    extraction: Extraction
+    scan: LaserScan
+    type: ClassVar[str] = "visualization_msgs/MarkerArray"
+    # JSON first, because it does not depend on the version of the message.
+    encodings: ClassVar[tuple[str, ...]] = ("json", "cdr", "ros1")
 
+    def fields(self, ros1: bool = False) -> dict[str, Any]:
+        ends, colours = self._lines()
+        return {
+            "markers": [
+                {
+                    "header": header_fields(self.scan, ros1),
+                    "ns": NAMESPACE,
+                    "id": 0,
+                    "type": LINE_LIST,
+                    "action": ADD if len(ends) else DELETE,
+                    "pose": {"position": _xyz(), "orientation": _xyz() | {"w": 1.0}},
+                    "scale": _xyz(WIDTH),
+                    "color": {"r": 1.0, "g": 1.0, "b": 1.0, "a": 1.0},
+                    "points": [_xyz(*end) for end in ends.tolist()],
+                    "colors": [dict(zip("rgba", rgba, strict=True)) for rgba in colours.tolist()],
+                }
+            ]
+        }
 
-def _xyz(x: float = 0.0, y: float = 0.0) -> dict[str, float]:
-    return {"x": x, "y": y, "z": 0.0}
+    def cdr(self) -> bytes:
+        """As visualization_msgs defines it since ROS 2 Humble."""
+        ends, colours = self._lines()
+        cdr = CdrWriter()
+        cdr.numbers("I", 1)
+        write_header(cdr, self.scan)
+        cdr.text(NAMESPACE)
+        cdr.numbers("3i", 0, LINE_LIST, ADD if len(ends) else DELETE)
+        cdr.numbers("7d", *[0.0] * 6, 1.0)
+        cdr.numbers("3d", WIDTH, 0.0, 0.0)
+        cdr.numbers("4f", 1.0, 1.0, 1.0, 1.0)
+        cdr.numbers("2i", 0, 0)  # lifetime: forever
+        cdr.numbers("?", False)  # frame_locked
+        cdr.sequence(ends)
+        cdr.sequence(colours.astype(np.float32))
+        _write_no_texture_and_no_mesh(cdr)
+        return cdr.bytes()
 
-
-def _as_json(extraction: Extraction, scan: LaserScan) -> bytes:
-    return json.dumps(marker_array(extraction, scan)).encode()
-
-
-def _as_cdr(extraction: Extraction, scan: LaserScan) -> bytes:
-    store = _store("ROS2_HUMBLE")
-    return bytes(store.serialize_cdr(_message(store, marker_array(extraction, scan)), _TYPE))
-
-
-def _as_ros1(extraction: Extraction, scan: LaserScan) -> bytes:
-    store = _store("ROS1_NOETIC")
-    return bytes(store.serialize_ros1(_message(store, marker_array(extraction, scan)), _TYPE))
-
-
-# Encoding → bytes; JSON first, because it does not depend on the version of the message.
-MARKER_ENCODERS: dict[str, Callable[[Extraction, LaserScan], bytes]] = {
-    "json": _as_json,
-    "cdr": _as_cdr,
-    "ros1": _as_ros1,
-}
-_TYPE = "visualization_msgs/msg/MarkerArray"
-
-
-@cache
-def _store(name: str) -> Any:
-    from rosbags.typesys import Stores, get_typestore
-
-    return get_typestore(Stores[name])
+    def _lines(self) -> tuple[np.ndarray, np.ndarray]:
+        """Both ends of each segment (2n, 3) [m], and their colours (2n, 4)."""
+        segments = self.extraction.segments
+        ends = np.zeros((2 * len(segments), 3))
+        ends[:, :2] = np.array([(segment.start, segment.end) for segment in segments]).reshape(-1, 2)
+        colours = np.ones((2 * len(segments), 4))
+        colours[:, :3] = np.repeat(segment_colours(segments), 2, axis=0) / 255
+        return ends, colours
 
 
-def _message(store: Any, values: dict[str, Any], type: str = _TYPE) -> Any:
-    """A message of `type` with these values; missing fields are empty."""
-    fields = {name: _field(store, kind, values.get(name)) for name, kind in store.fielddefs[type][1]}
-    return store.types[type](**fields)
+def _xyz(x: float = 0.0, y: float = 0.0, z: float = 0.0) -> dict[str, float]:
+    return {"x": x, "y": y, "z": z}
 
 
-def _field(store: Any, kind: tuple[Any, Any], value: Any) -> Any:
-    """One field: base types have (name, size), named types their name, and sequences (element, most)."""
-    from rosbags.interfaces import Nodetype
-
-    node, detail = kind
-    if node is Nodetype.NAME:
-        return _message(store, value or {}, detail)
-    if node in (Nodetype.ARRAY, Nodetype.SEQUENCE):
-        (inner, of), items = detail[0], value or []
-        if inner is Nodetype.NAME:
-            return [_message(store, item, of) for item in items]
-        return np.array(items, dtype=np.dtype(of[0]))
-    base = detail[0]
-    return value if value is not None else "" if base == "string" else False if base == "bool" else 0
+def _write_no_texture_and_no_mesh(cdr: CdrWriter) -> None:
+    """texture_resource, texture, uv_coordinates, text, mesh_resource, mesh_file, mesh_use_embedded_materials."""
+    cdr.text("")
+    cdr.numbers("2I", 0, 0)
+    cdr.text("")
+    cdr.text("")
+    cdr.numbers("2I", 0, 0)
+    cdr.text("")
+    cdr.text("")
+    cdr.text("")
+    cdr.numbers("I", 0)
+    cdr.numbers("?", False)

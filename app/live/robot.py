@@ -1,40 +1,40 @@
-"""A robot on a WebSocket; reconnects whenever the connection is lost."""
+"""A robot that is watched; reconnects whenever the connection is lost."""
 
 from __future__ import annotations
 
 import logging
 import random
 import threading
+import time
 from collections.abc import Callable
-from urllib.parse import urlsplit
+from contextlib import AbstractContextManager
 
 from websockets.exceptions import WebSocketException
-from websockets.sync.client import connect
-from websockets.sync.connection import Connection
 
-from lineseg import EXTRACTORS, Scan
+from lineseg import EXTRACTORS
 from lineseg.readers.laser_scan import LaserScan
 
-from .bridge import LARGEST_MESSAGE, OPEN_SECONDS, Bridge, why_not
-from .foxglove import SUBPROTOCOLS, Foxglove
+from .address import Address
+from .bridge import OPEN_SECONDS, Bridge, why_not
+from .cloud import Cloud
+from .markers import Markers
 from .ring import Ring
-from .rosbridge import RosBridge
-from .source import Publishing, Source
+from .source import Published, Publishing, Source
+from .websocket import open_websocket
 
 log = logging.getLogger(__name__)
 FIRST_PAUSE, LONGEST_PAUSE = 0.5, 15.0
 
 
 class Robot(Source):
-    """Receives scans in its own thread. The robot decides the protocol: a Foxglove server accepts its subprotocol."""
+    """Receives scans in its own thread."""
 
-    def __init__(self, id: str, url: str, ring: Ring, arrived: Callable[[], None], topic: str | None = None) -> None:
-        self._url, self._topic = url, topic
-        self._place = urlsplit(url).netloc
-        super().__init__(id, f"{self._place} {topic or ''}".strip(), ring, arrived)
-        self.ring.topic = topic or ""
+    def __init__(self, address: Address, ring: Ring, arrived: Callable[[], None]) -> None:
+        self._address = address
+        self._place = address.place
+        super().__init__(address.id, f"{self._place} {address.topic or ''}".strip(), ring, arrived)
+        self.ring.topic = address.topic or ""
         self._bridge: Bridge | None = None
-        self._socket: Connection | None = None
         self._pause = FIRST_PAUSE
         self._closing = threading.Event()
         self._thread = threading.Thread(target=self._run, name=f"robot {self._place}", daemon=True)
@@ -46,9 +46,9 @@ class Robot(Source):
     def close(self) -> None:
         """Disconnect; blocks until the thread has ended."""
         self._closing.set()
-        socket = self._socket
-        if socket is not None:
-            socket.close()
+        bridge = self._bridge
+        if bridge is not None:
+            bridge.close()
         if self._thread.is_alive():
             self._thread.join(timeout=OPEN_SECONDS + 1)
 
@@ -80,26 +80,28 @@ class Robot(Source):
     def _converse(self) -> str:
         """Connect and receive scans until the connection ends; returns the reason."""
         try:
-            with connect(
-                self._url,
-                subprotocols=SUBPROTOCOLS,
-                open_timeout=OPEN_SECONDS,
-                max_size=LARGEST_MESSAGE,
-                proxy=None,
-            ) as socket:
-                self._socket = socket
-                named = (socket.subprotocol or "").startswith("foxglove.")
-                self._bridge = Foxglove(socket) if named else RosBridge(socket)
-                self.say("open", f"connected to {self._place} by {self._bridge.name}; waiting for scans")
-                self._bridge.scans(self._topic, self)
+            with self._open() as bridge:
+                self._bridge = bridge
+                if self._closing.is_set():
+                    return ""
+                self._announce(bridge)
+                self.say("open", f"connected to {self._place} by {bridge.name}; waiting for scans")
+                bridge.scans(self._address.topic, self)
         except (OSError, WebSocketException, ValueError) as error:
             return why_not(self._place, error)
         except Exception as error:
             log.exception("%s sent a message that cannot be understood", self._place)
             return f"{self._place} sent a message that cannot be understood ({type(error).__name__}: {error})"
         finally:
-            self._socket = self._bridge = None
+            self._bridge = None
         return f"{self._place} closed the connection"
+
+    def _open(self) -> AbstractContextManager[Bridge]:
+        if self._address.scheme == "ros2":
+            from .dds import open_dds
+
+            return open_dds(self._address.domain)
+        return open_websocket(self._address.url)
 
     def topic_is(self, topic: str) -> None:
         self.ring.topic = topic
@@ -108,7 +110,10 @@ class Robot(Source):
     def waits(self, why: str) -> None:
         self.say("open", why)
 
-    def hand(self, decode: Callable[[], LaserScan]) -> None:
+    def misses(self, why: str) -> None:
+        self.say("lost", why)
+
+    def hand(self, decode: Callable[[], LaserScan], newest: bool = True) -> None:
         """Add one scan. A message that is not a scan is reported, and receiving continues."""
         try:
             scan = decode()
@@ -119,21 +124,32 @@ class Robot(Source):
         self._pause = FIRST_PAUSE
         if self._message or self._connection != "open":
             self.say("open", "")
-        self._publish(scan)
+        if newest:
+            self._publish(scan)
+        elif self.publishing is not None:
+            self.left_out += 1
+
+    def _announce(self, bridge: Bridge) -> None:
+        to = self.publishing
+        if to is not None:
+            bridge.announce(to.topic, Markers)
+            if to.cloud:
+                bridge.announce(to.cloud, Cloud)
 
     def _publish(self, received: LaserScan) -> None:
         to, bridge = self.publishing, self._bridge
         if to is None or bridge is None:
             return
-        scan = Scan.regular(
-            received.ranges,
-            received.angle_min,
-            received.angle_increment,
-            range_min=received.range_min,
-            range_max=received.range_max,
-        )
+        scan = received.beams()
+        began = time.perf_counter()
+        extraction = EXTRACTORS[to.method].extract(scan, to.params)
+        elapsed = time.perf_counter() - began
         try:
-            bridge.publish(to.topic, EXTRACTORS[to.method].extract(scan, to.params), received)
-            self.published += 1
+            bridge.publish(to.topic, Markers(extraction, received))
+            if to.cloud:
+                bridge.publish(to.cloud, Cloud(extraction, received, scan, to.noise))
         except ValueError as error:
             self.publishing, self.publish_trouble = None, str(error)
+            return
+        self.published += 1
+        self.last_published = Published(scan, extraction, elapsed)

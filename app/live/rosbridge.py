@@ -12,10 +12,9 @@ from typing import Any
 from websockets.sync.connection import Connection
 
 from lineseg.readers.laser_scan import TYPES, LaserScan, decode_json
-from lineseg.segment import Extraction
 
 from .bridge import Told
-from .markers import MARKER_ARRAY, marker_array
+from .outgoing import Message, as_json
 
 # Both versions of ROS accept the short type name.
 LASER_SCAN = "sensor_msgs/LaserScan"
@@ -74,11 +73,17 @@ class RosBridge:
         self._ros1 = "secs" in message.get("header", {}).get("stamp", {})
         return scan
 
-    def publish(self, topic: str, extraction: Extraction, scan: LaserScan) -> None:
+    def announce(self, topic: str, message: type[Message]) -> None:
         if topic not in self._advertised:
-            self._send(op="advertise", topic=topic, type=MARKER_ARRAY)
+            self._send(op="advertise", topic=topic, type=message.type)
             self._advertised.add(topic)
-        self._send(op="publish", topic=topic, msg=marker_array(extraction, scan, self._ros1))
+
+    def publish(self, topic: str, message: Message) -> None:
+        self.announce(topic, type(message))
+        self._send(op="publish", topic=topic, msg=message.fields(self._ros1))
+
+    def close(self) -> None:
+        self._socket.close()
 
     def _laser_topic(self, wanted: str | None) -> str:
         """The topic to use, checked with rosapi; if rosapi is not running, the wanted topic unchecked."""
@@ -103,7 +108,7 @@ class RosBridge:
         raise ValueError(f"the robot has no topic {wanted}; its laser topics: {', '.join(lasers) or 'none'}")
 
     def _send(self, **message: Any) -> None:
-        self._socket.send(json.dumps(message))
+        self._socket.send(as_json(message))
 
 
 def _object(data: str | bytes) -> dict[str, Any]:

@@ -6,11 +6,12 @@ import threading
 import time
 from collections import deque
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from lineseg import Thresholds
+from lineseg import Extraction, Scan, Thresholds
+from lineseg.covariance import Noise
 from lineseg.readers.laser_scan import LaserScan
 
 from ..told.messages import Connection, LiveStatus
@@ -24,12 +25,26 @@ FOREIGN_CLOCK = 3600.0
 
 @dataclass(frozen=True)
 class Publishing:
-    """Publishing of segments to the robot: with which thresholds, and to which topic."""
+    """Publishing of segments to the robot: with which thresholds, and to which topic.
+
+    cloud: topic of the segments as a PointCloud2, "" for none; noise: of the laser, for their covariance.
+    """
 
     owner: str
     topic: str
     method: str
     params: Thresholds
+    cloud: str = ""
+    noise: Noise | None = None
+
+
+@dataclass(frozen=True)
+class Published:
+    """What was published last; elapsed: time that the extraction took [s]."""
+
+    scan: Scan
+    extraction: Extraction
+    elapsed: float
 
 
 class Source:
@@ -40,6 +55,8 @@ class Source:
         self.first_scan = threading.Event()
         self.publishing: Publishing | None = None
         self.published = 0
+        self.last_published: Published | None = None
+        self.left_out = 0
         self.publish_trouble = ""
         self._arrived = arrived
         self._times: deque[float] = deque(maxlen=512)
@@ -78,7 +95,17 @@ class Source:
         """Update the thresholds of the publishing tab."""
         now = self.publishing
         if now is not None and now.owner == owner and (now.method, now.params) != (method, params):
-            self.publishing = Publishing(owner, now.topic, method, params)
+            self.publishing = replace(now, method=method, params=params)
+
+    @property
+    def message(self) -> str:
+        """What is to be said of the connection; "" if nothing."""
+        return self._message
+
+    @property
+    def delay(self) -> float | None:
+        """From the stamp of the last scan to its arrival [s]; None if the clocks are unrelated."""
+        return self._delay
 
     @property
     def note(self) -> str:

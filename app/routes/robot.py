@@ -65,7 +65,7 @@ def add_back(app: FastAPI, library: Library, sessions: Sessions, named: Sequence
         if source is None:
             raise HTTPException(400, "segments can only be published for a live source; open a robot first")
         try:
-            topic = _ros_name("topic", asked.topic)
+            topic = ros_name("topic", asked.topic)
             source.publish(session.id, Publishing(session.id, topic, view.method, view.params) if asked.on else None)
         except ValueError as error:
             raise HTTPException(400, str(error)) from None
@@ -74,7 +74,7 @@ def add_back(app: FastAPI, library: Library, sessions: Sessions, named: Sequence
     @app.post("/api/robot/params")
     async def params(asked: SendAsked) -> dict[str, list[Sent]]:
         try:
-            node = _ros_name("node", asked.node)
+            node = ros_name("node", asked.node)
             params = Params().but(**asked.params)
             address = _named(asked.address, named)
             sent = await sending.run(send_params, address, node, params, asked.ros, asked.extensions)
@@ -96,7 +96,7 @@ def _named(address: str, named: Sequence[str]) -> str:
     return found
 
 
-def _ros_name(what: str, name: str) -> str:
+def ros_name(what: str, name: str) -> str:
     """Checks for an absolute ROS name."""
     if not ROS_NAME.fullmatch(name):
         raise ValueError(f"{what} is {name[:80]!r}; give an absolute ROS name such as /line_extraction")

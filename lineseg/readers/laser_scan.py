@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..scan import Floats
+from ..scan import Floats, Scan
 
 ROS1_HEADER = struct.Struct("<IIII")
 CDR_HEADER, NUMBERS = ({order: struct.Struct(order + form) for order in "<>"} for form in ("iII", "7fI"))
@@ -33,6 +33,18 @@ class LaserScan(NamedTuple):
     def stamp(self) -> float:
         """The stamp [s], to about a microsecond for present-day times."""
         return self.seconds + 1e-9 * self.nanoseconds
+
+    def beams(self) -> Scan:
+        """The same as a `Scan`."""
+        return Scan.regular(
+            self.ranges,
+            self.angle_min,
+            self.angle_increment,
+            range_min=self.range_min,
+            range_max=self.range_max,
+            stamp=self.stamp,
+            frame_id=self.frame_id,
+        )
 
 
 def decode_ros1(data: bytes) -> LaserScan:

@@ -28,6 +28,11 @@ def read_params(text: str, kind: type[T] = Params) -> T:
     kind: type of the method's thresholds. Names may be those of the ROS program (`least_thresh`) or of the fields
     (`epsilon`). Raises ValueError, with the line if known, for an unknown name or a value that is not allowed.
     """
+    return kind(**given_params(text, kind))
+
+
+def given_params(text: str, kind: type[Thresholds] = Params) -> dict[str, int | float]:
+    """The same, but only the values in the text, by field."""
     if len(text) > MOST_CHARACTERS:
         raise ValueError(f"the text has {len(text)} characters; a file of thresholds has at most {MOST_CHARACTERS}.")
     try:
@@ -41,12 +46,12 @@ def read_params(text: str, kind: type[T] = Params) -> T:
         return _read(text, start, kind)
 
 
-def _read(text: str, start: str, kind: type[T]) -> T:
+def _read(text: str, start: str, kind: type[Thresholds]) -> dict[str, int | float]:
     known = {alias: name for name, _, knob in kind.knobs() for alias in (name, knob.ros) if alias}
     found = list(_finder(text, start)(text.removeprefix("\ufeff"), known))
     if not found:
         raise ValueError(f"there is no threshold in the text; give some of {_names(kind)}.")
-    return _params(found, kind, known)
+    return _values(found, kind, known)
 
 
 def _finder(text: str, start: str) -> Callable[[str, Known], Iterator[Found]]:
@@ -57,7 +62,7 @@ def _finder(text: str, start: str) -> Callable[[str, Known], Iterator[Found]]:
     return _in_flags if re.search(r"(?<!\S)--[a-z]", text) else _in_yaml
 
 
-def _params(found: list[Found], kind: type[T], known: Known) -> T:
+def _values(found: list[Found], kind: type[Thresholds], known: Known) -> dict[str, int | float]:
     values: dict[str, int | float] = {}
     for written, value, line in found:
         where = f"line {line}: " if line else ""
@@ -70,7 +75,7 @@ def _params(found: list[Found], kind: type[T], known: Known) -> T:
             alias = f" (written {written})" if written != name else ""
             raise ValueError(f"{where}{error}{alias}.") from None
         values[name] = value
-    return kind(**values)
+    return values
 
 
 def _number(value: Any) -> Any:

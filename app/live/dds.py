@@ -1,0 +1,244 @@
+"""Topics of ROS 2 on DDS, by Cyclone DDS; no ROS is needed.
+
+ROS 2 puts `rt` before the name of a topic. Scans stay bytes until they are decoded with numpy.
+"""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import Any
+
+from cyclonedds.builtin import BuiltinDataReader, BuiltinTopicDcpsPublication
+from cyclonedds.core import DDSException, InstanceState, ReadCondition, SampleState, ViewState, WaitSet
+from cyclonedds.domain import DomainParticipant
+from cyclonedds.pub import DataWriter
+from cyclonedds.qos import Policy, Qos
+from cyclonedds.sub import DataReader
+from cyclonedds.topic import Topic
+from cyclonedds.util import duration
+
+from lineseg.readers.decoders import plain_type
+from lineseg.readers.laser_scan import TYPES, decode_cdr
+
+from .bridge import Told
+from .dds_domain import join
+from .dds_types import serialised_type
+from .outgoing import Message, full_type
+
+LASER_SCAN = TYPES[1]
+PREFIX = "rt"
+MOST_WAITING = 64
+LOOK_SECONDS = 0.1
+# After so long without a match, two participants that know of each other do not fit.
+MATCH_SECONDS = 1.0
+LEAVE_SECONDS = 1.0
+POLICIES = {2: "durability", 4: "deadline", 5: "latency budget", 6: "ownership", 8: "liveliness", 10: "partition",
+            11: "reliability", 12: "destination order", 23: "data representation"}  # fmt: skip
+ENCODED = Policy.DataRepresentation(use_cdrv0_representation=True)
+EITHER = Policy.DataRepresentation(use_cdrv0_representation=True, use_xcdrv2_representation=True)
+# Kept for those who come late: a reader of any kind can take it.
+OFFERED = Qos(
+    Policy.Reliability.Reliable(duration(milliseconds=20)),
+    Policy.Durability.TransientLocal,
+    Policy.History.KeepLast(1),
+    ENCODED,
+)
+
+
+@dataclass(frozen=True)
+class Offer:
+    """What a publisher offers. type: as ROS 2 names it."""
+
+    topic: str
+    type: str
+    reliable: bool
+    kept: bool
+
+    @property
+    def is_laser(self) -> bool:
+        return self.type == LASER_SCAN
+
+
+@contextmanager
+def open_dds(domain: int | None) -> Iterator[Dds]:
+    """Take part in a domain; None: that of the environment. Raises OSError or ValueError if that cannot be."""
+    bridge = Dds(join(domain))
+    try:
+        yield bridge
+    finally:
+        bridge.leave()
+
+
+def laser_topics(domain: int | None, seconds: float) -> list[Offer]:
+    """The publishers of scans that show up within a time, sorted by topic."""
+    bridge = Dds(join(domain))
+    time.sleep(seconds)
+    return sorted({offer for offer in bridge.offers() if offer.is_laser}, key=lambda offer: offer.topic)
+
+
+class Dds:
+    """A participant. `scans` takes one topic; its reader asks for what all publishers of the topic offer."""
+
+    name = "DDS"
+
+    def __init__(self, participant: DomainParticipant) -> None:
+        self._participant = participant
+        self._discovered = BuiltinDataReader(participant, BuiltinTopicDcpsPublication)
+        self._topics: dict[str, Topic[Any]] = {}
+        self._writers: dict[str, DataWriter[Any]] = {}
+        self._closing = threading.Event()
+
+    def close(self) -> None:
+        self._closing.set()
+
+    def leave(self) -> None:
+        """Wait a moment for receivers that have not confirmed the last message, and take everything back."""
+        for writer in self._writers.values():
+            writer.wait_for_acks(duration(seconds=LEAVE_SECONDS))
+        self._writers.clear()
+        self._topics.clear()
+
+    def offers(self) -> list[Offer]:
+        """All publishers of ROS topics that are known at present."""
+        found = self._discovered.read(1000)
+        return [
+            _offer(each)
+            for each in found
+            if each.sample_info.instance_state == InstanceState.Alive and each.topic_name.startswith(f"{PREFIX}/")
+        ]
+
+    def scans(self, topic: str | None, told: Told) -> None:
+        while not self._closing.is_set():
+            offers = self._wait_for(topic, told)
+            if offers:
+                told.topic_is(offers[0].topic)
+                told.waits(f"subscribed to {offers[0].topic}; waiting for its first scan")
+                self._receive(offers, told)
+
+    def announce(self, topic: str, message: type[Message]) -> None:
+        if topic not in self._writers:
+            try:
+                to = self._topic(topic, full_type(message.type))
+                self._writers[topic] = DataWriter(self._participant, to, qos=OFFERED)
+            except DDSException as error:
+                raise ValueError(f"nothing can be published to {topic}: {error.msg}") from None
+
+    def publish(self, topic: str, message: Message) -> None:
+        self.announce(topic, type(message))
+        writer = self._writers[topic]
+        try:
+            writer.write(writer.data_type(message.cdr()))
+        except DDSException as error:
+            if error.code != DDSException.DDS_RETCODE_TIMEOUT:  # a slow receiver, which misses this one
+                raise ValueError(f"nothing can be published to {topic}: {error.msg}") from None
+
+    def _wait_for(self, wanted: str | None, told: Told) -> list[Offer]:
+        """The offers of the topic, or of the first laser topic, as soon as there are some; [] on closing."""
+        while not self._closing.is_set():
+            offers = self.offers()
+            lasers = sorted({offer.topic for offer in offers if offer.is_laser})
+            chosen = wanted or next(iter(lasers), None)
+            if chosen in lasers:
+                return [offer for offer in offers if offer.is_laser and offer.topic == chosen]
+            told.waits(_why_none(wanted, offers, lasers))
+            self._closing.wait(LOOK_SECONDS)
+        return []
+
+    def _receive(self, offers: list[Offer], told: Told) -> None:
+        """Hand over scans until the topic is offered in another way, or on closing."""
+        topic, asked = offers[0].topic, _asked(offers)
+        reader = DataReader(self._participant, self._topic(topic, LASER_SCAN), qos=asked)
+        ready = ReadCondition(reader, SampleState.NotRead | ViewState.Any | InstanceState.Any)
+        waiting = WaitSet(self._participant)
+        waiting.attach(ready)
+        watch = _Watch(topic, time.monotonic())
+        while not self._closing.is_set():
+            if waiting.wait(duration(seconds=LOOK_SECONDS)):
+                samples = [each for each in reader.take(MOST_WAITING) if each.sample_info.valid_data]
+                for index, sample in enumerate(samples, 1):
+                    told.hand(lambda data=sample.data: decode_cdr(data), newest=index == len(samples))
+            now = time.monotonic()
+            if now < watch.looks:
+                continue
+            watch.looks = now + LOOK_SECONDS
+            there = [offer for offer in self.offers() if offer.is_laser and offer.topic == topic]
+            if there and _asked(there) != asked:
+                break
+            watch.tell(bool(there), reader, told, now)
+        waiting.detach(ready)
+
+    def _topic(self, name: str, type: str) -> Topic[Any]:
+        if name not in self._topics:
+            self._topics[name] = Topic(self._participant, PREFIX + name, serialised_type(type))
+        topic = self._topics[name]
+        if topic.data_type is not serialised_type(type):
+            raise ValueError(f"{name} has messages of another type; choose another topic for {type}")
+        return topic
+
+
+@dataclass
+class _Watch:
+    """Tells when the publisher of a topic is gone, or does not fit."""
+
+    topic: str
+    since: float
+    looks: float = 0.0
+    said: str = ""
+
+    def tell(self, offered: bool, reader: DataReader[Any], told: Told, now: float) -> None:
+        matched = bool(reader.get_matched_publications())
+        if matched or (offered and now - self.since < MATCH_SECONDS):
+            self.said = ""
+            self.since = now if matched else self.since
+            return
+        why = _why_no_match(self.topic, reader) if offered else f"{self.topic} is no longer published; waiting for it"
+        if why != self.said:
+            self.said = why
+            told.misses(why)
+
+
+def _offer(found: Any) -> Offer:
+    qos = found.qos
+    return Offer(
+        found.topic_name.removeprefix(PREFIX),
+        plain_type(found.type_name),
+        isinstance(qos[Policy.Reliability], Policy.Reliability.Reliable),
+        qos[Policy.Durability] is Policy.Durability.TransientLocal,
+    )
+
+
+def _asked(offers: list[Offer]) -> Qos:
+    """What every one of these publishers can give."""
+    reliable, kept = all(offer.reliable for offer in offers), all(offer.kept for offer in offers)
+    return Qos(
+        Policy.Reliability.Reliable(duration(milliseconds=100)) if reliable else Policy.Reliability.BestEffort,
+        Policy.Durability.TransientLocal if kept else Policy.Durability.Volatile,
+        Policy.History.KeepLast(MOST_WAITING),
+        Policy.TypeConsistency.AllowTypeCoercion(ignore_member_names=True),
+        EITHER,
+    )
+
+
+def _why_none(topic: str | None, offers: list[Offer], lasers: list[str]) -> str:
+    others = f"; its laser topics: {', '.join(lasers[:8])}" if lasers else "; it has no sensor_msgs/LaserScan topic"
+    if topic is None:
+        there = sorted({f"{offer.topic} ({offer.type})" for offer in offers})
+        return f"nobody publishes a sensor_msgs/LaserScan yet; topics there: {', '.join(there[:8]) or 'none'}"
+    named = [offer.type for offer in offers if offer.topic == topic]
+    if named:
+        return (
+            f"{topic} is {named[0]}; choose a sensor_msgs/LaserScan topic{f', such as {lasers[0]}' if lasers else ''}"
+        )
+    return f"nobody publishes {topic} yet{others if offers else ', nor any other topic; check the domain'}"
+
+
+def _why_no_match(topic: str, reader: DataReader[Any]) -> str:
+    status = reader.get_requested_incompatible_qos_status()
+    if status is not None and status.total_count:
+        policy = POLICIES.get(status.last_policy_id, f"policy {status.last_policy_id}")
+        return f"{topic} is published, but its {policy} does not fit; give it the usual QoS of sensor data"
+    return f"{topic} is published, but with another definition of sensor_msgs/LaserScan, or in another partition"

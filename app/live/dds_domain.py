@@ -1,0 +1,84 @@
+"""The domain of DDS and how it is set up, from the variables of the environment that ROS 2 has for it."""
+
+from __future__ import annotations
+
+import os
+import re
+import socket
+from collections.abc import Mapping
+from functools import cache
+
+from cyclonedds.core import DDSException
+from cyclonedds.domain import Domain, DomainParticipant
+
+from .address import checked_domain
+
+RANGES = ("LOCALHOST", "SUBNET", "OFF", "SYSTEM_DEFAULT")
+PARTICIPANTS = "<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>32</MaxAutoParticipantIndex>"
+
+
+def join(domain: int | None) -> DomainParticipant:
+    """A new participant; `domain` None: that of ROS_DOMAIN_ID, or 0.
+
+    Raises ValueError for a variable that cannot be, OSError if the network cannot be used.
+    """
+    id = domain_of(os.environ) if domain is None else domain
+    uri = os.environ.get("CYCLONEDDS_URI", "")
+    config = ",".join(filter(None, (discovery(os.environ), uri)))
+    try:
+        if config:
+            _domain(id, config)
+        return DomainParticipant(id)
+    except DDSException as error:
+        raise OSError(f"domain {id} cannot be joined: {_why(uri) or error.msg or error}") from None
+
+
+def domain_of(environ: Mapping[str, str]) -> int:
+    return checked_domain(environ.get("ROS_DOMAIN_ID") or "0", "ROS_DOMAIN_ID")
+
+
+def discovery(environ: Mapping[str, str]) -> str:
+    """Cyclone DDS's configuration for where to look for others, as ROS 2 would have it; "" for its usual way."""
+    only_here = environ.get("ROS_LOCALHOST_ONLY") == "1"
+    range = "LOCALHOST" if only_here else environ.get("ROS_AUTOMATIC_DISCOVERY_RANGE") or "SUBNET"
+    if range not in RANGES:
+        raise ValueError(f"ROS_AUTOMATIC_DISCOVERY_RANGE is {range[:80]!r}; choose from {', '.join(RANGES)}")
+    peers = [] if only_here or range in ("OFF", "SYSTEM_DEFAULT") else _peers(environ.get("ROS_STATIC_PEERS", ""))
+    if range == "LOCALHOST":
+        peers.insert(0, "localhost")
+    general = "<Interfaces><NetworkInterface address='127.0.0.1'/></Interfaces>" if only_here else ""
+    if range in ("LOCALHOST", "OFF"):
+        general += "<AllowMulticast>false</AllowMulticast>"
+    found = "".join(f"<Peer Address='{peer}'/>" for peer in peers)
+    parts = f"<General>{general}</General>" if general else ""
+    if range == "OFF":
+        parts += f"<Discovery><Tag>off-{os.getpid()}</Tag></Discovery>"
+    elif found:
+        parts += f"<Discovery>{PARTICIPANTS}<Peers>{found}</Peers></Discovery>"
+    return f"<CycloneDDS><Domain>{parts}</Domain></CycloneDDS>" if parts else ""
+
+
+def _peers(text: str) -> list[str]:
+    """ROS_STATIC_PEERS: addresses with semicolons between."""
+    peers = [peer.strip() for peer in text.split(";") if peer.strip()]
+    for peer in peers:
+        if not re.fullmatch(r"[A-Za-z0-9.:_\[\]-]+", peer):
+            raise ValueError(f"ROS_STATIC_PEERS has {peer[:80]!r}; give addresses with semicolons between")
+    return peers
+
+
+@cache
+def _domain(id: int, config: str) -> Domain:
+    """A domain is set up once in a process."""
+    return Domain(id, config)
+
+
+def _why(uri: str) -> str:
+    """The most common reason: a configuration that names an interface which this machine does not have."""
+    here = [name for _, name in socket.if_nameindex()]
+    missing = [
+        name for name in re.findall(r"NetworkInterface\b[^>]*\bname\s*=\s*[\"']([^\"']+)", uri) if name not in here
+    ]
+    if missing:
+        return f"CYCLONEDDS_URI names the interface {missing[0]}; this machine has {', '.join(here) or 'none'}"
+    return f"check CYCLONEDDS_URI, which is {uri[:200]!r}" if uri else ""

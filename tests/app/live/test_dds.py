@@ -1,0 +1,319 @@
+"""Scans from ROS 2 on DDS and segments back, with participants in other processes, on the loopback interface alone."""
+
+from __future__ import annotations
+
+import itertools
+import json
+import re
+import signal
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+pytest.importorskip("cyclonedds", reason="DDS needs the extra ros2")
+
+from dds_peer import DOMAIN, SECONDS, URI, Peer, loopback
+from lineseg_app.__main__ import main
+from lineseg_app.live.address import Address
+from lineseg_app.live.dds_domain import discovery, domain_of, join
+from lineseg_app.live.node import OWNER, Node
+from lineseg_app.live.source import Publishing
+from live import page_of
+from processes import lineseg
+from robots import nearest, wall, watching
+
+from lineseg import Params, extract, open_recording
+from lineseg.covariance import Noise, covariances
+from lineseg.readers.laser_scan import LaserScan
+
+SAMPLES = Path(__file__).parents[3] / "sample_scans"
+numbers = itertools.count(1)
+
+
+@pytest.fixture(scope="module")
+def peer() -> Iterator[Peer]:
+    with loopback():
+        peer = Peer()
+        yield peer
+        peer.close()
+
+
+@pytest.fixture
+def topic() -> str:
+    return f"/robot{next(numbers)}/scan"
+
+
+def publishing(topic: str, **fields: Any) -> Publishing:
+    return Publishing(OWNER, f"{topic}/markers", "region-growing", Params(), f"{topic}/cloud", **fields)
+
+
+@contextmanager
+def running(topic: str, newest: Callable[[], Params] = Params, **fields: Any) -> Iterator[list[str]]:
+    """A node on the topic, in a thread; yields what it tells."""
+    told: list[str] = []
+    node = Node(Address(f"ros2:{topic}"), publishing(topic, **fields), newest, told.append)
+    thread = threading.Thread(target=node.run)
+    thread.start()
+    try:
+        yield told
+    finally:
+        node.stop()
+        thread.join(SECONDS)
+    assert not thread.is_alive()
+
+
+def eventually(condition: Callable[[], Any]) -> Any:
+    end = time.monotonic() + SECONDS
+    while not (found := condition()):
+        assert time.monotonic() < end, "it never came true"
+        time.sleep(0.02)
+    return found
+
+
+def said(told: list[str], words: str) -> None:
+    eventually(lambda: any(words in line for line in told))
+
+
+def opened(peer: Peer, topic: str, **qos: bool) -> None:
+    """A publisher of scans, and readers of what comes back."""
+    peer.ask("open", topic=topic, kind="LaserScan", write=True, **qos)
+    peer.ask("open", topic=f"{topic}/markers", kind="MarkerArray", write=False, reliable=True)
+    peer.ask("open", topic=f"{topic}/cloud", kind="PointCloud2", write=False, reliable=True)
+    peer.until("matched", topic=topic)
+    peer.until("matched", topic=f"{topic}/markers")
+    peer.until("matched", topic=f"{topic}/cloud")
+
+
+def segments_back(peer: Peer, topic: str, **scan: Any) -> tuple[dict[str, Any], dict[str, Any]]:
+    """The markers and the cloud that answer a scan, which is sent until they come, for best effort may lose it."""
+    end = time.monotonic() + SECONDS
+    while time.monotonic() < end:
+        peer.ask("scan", topic=topic, **scan)
+        for _ in range(20):
+            markers = peer.ask("take", topic=f"{topic}/markers")
+            if markers:
+                return markers[0], peer.until("take", topic=f"{topic}/cloud")[0]
+            time.sleep(0.01)
+    raise AssertionError("no segments came back")
+
+
+def answer(peer: Peer, topic: str, second: int) -> dict[str, Any]:
+    """The message on a topic whose stamp has these seconds."""
+
+    def found() -> dict[str, Any] | None:
+        for message in peer.ask("take", topic=topic):
+            header = message["header"] if "header" in message else message["markers"][0]["header"]
+            if header["stamp"]["sec"] == second:
+                return message
+        return None
+
+    return eventually(found)
+
+
+def test_markers_and_cloud_have_the_segments_the_stamp_and_the_frame_of_their_scan(peer: Peer, topic: str):
+    ranges = [*wall(2.0)[:45], *[3.0] * 5, *wall(4.0)[50:]]
+    noise = Noise(0.01, 0.001)
+    with running(topic, noise=noise):
+        opened(peer, topic)
+        markers, cloud = segments_back(peer, topic, ranges=ranges, second=7)
+    angles = np.float32([-0.7853982, 0.017453292]).tolist()
+    scan = LaserScan(7, 123456789, "laser", *angles, 0.0, 30.0, np.float32(ranges)).beams()
+    expected = extract(scan)
+    assert len(expected.segments) == 2
+
+    (marker,) = markers["markers"]
+    header = {"stamp": {"sec": 7, "nanosec": 123456789}, "frame_id": "laser"}
+    assert (marker["header"], marker["ns"], marker["type"], marker["action"]) == (header, "lineseg", 5, 0)
+    assert marker["pose"]["orientation"] == {"x": 0, "y": 0, "z": 0, "w": 1}
+    assert marker["scale"]["x"] == pytest.approx(0.04)
+    assert [(p["x"], p["y"], p["z"]) for p in marker["points"]] == [
+        (*end, 0.0) for segment in expected.segments for end in (segment.start, segment.end)
+    ]
+    assert len(marker["colors"]) == 4 and all(colour["a"] == 1 for colour in marker["colors"])
+
+    assert (cloud["header"], cloud["height"], cloud["width"], cloud["is_dense"]) == (header, 1, 2, True)
+    kinds = {5: "<i4", 7: "<f4"}
+    described = np.dtype(
+        {
+            "names": [field["name"] for field in cloud["fields"]],
+            "formats": [kinds[field["datatype"]] for field in cloud["fields"]],
+            "offsets": [field["offset"] for field in cloud["fields"]],
+            "itemsize": cloud["point_step"],
+        }
+    )
+    points = np.frombuffer(bytes(cloud["data"]), described)
+    assert cloud["row_step"] == len(cloud["data"]) == points.nbytes
+    for point, segment, matrix in zip(points, expected.segments, covariances(scan, expected, noise), strict=True):
+        row = dict(zip(described.names or (), point.tolist(), strict=True))
+        assert (row["first"], row["last"], row["points"]) == (segment.first, segment.last, segment.points)
+        assert [row[name] for name in ("x", "y", "z", "x2", "y2", "rho", "theta", "length", "rms")] == pytest.approx(
+            [*segment.start, 0.0, *segment.end, segment.rho, segment.theta, segment.length, segment.rms], rel=1e-6
+        )
+        assert [row["var_rho"], row["cov_rho_theta"], row["var_theta"]] == pytest.approx(
+            [matrix[0, 0], matrix[0, 1], matrix[1, 1]], rel=1e-6
+        )
+
+
+@pytest.mark.parametrize("qos", [{"reliable": True}, {"reliable": True, "kept": True}, {"xcdr2": True}])
+def test_every_usual_quality_of_service_is_received(peer: Peer, topic: str, qos: dict[str, bool]):
+    with running(topic):
+        opened(peer, topic, **qos)
+        assert segments_back(peer, topic, ranges=wall(2.0))[1]["width"] == 1
+
+
+def test_a_scan_that_its_publisher_keeps_is_received_by_a_node_that_comes_later(peer: Peer, topic: str):
+    peer.ask("open", topic=topic, kind="LaserScan", write=True, reliable=True, kept=True)
+    peer.ask("scan", topic=topic, ranges=wall(2.0), second=42)
+    peer.ask("open", topic=f"{topic}/markers", kind="MarkerArray", write=False, reliable=True, kept=True)
+    with running(topic):
+        (markers,) = peer.until("take", topic=f"{topic}/markers")
+    assert markers["markers"][0]["header"]["stamp"]["sec"] == 42
+
+
+def test_a_topic_that_cannot_be_used_is_told(peer: Peer, topic: str):
+    with running(topic) as told:
+        said(told, f"nobody publishes {topic} yet")
+        peer.ask("open", topic=topic, kind="String", write=True)
+        said(told, f"{topic} is std_msgs/msg/String; choose a sensor_msgs/LaserScan topic")
+
+
+def test_a_quality_of_service_that_does_not_fit_is_told(peer: Peer, topic: str):
+    with running(topic) as told:
+        peer.ask("open", topic=topic, kind="LaserScan", write=True, exclusive=True)
+        said(told, f"{topic} is published, but its ownership does not fit")
+
+
+def test_a_publisher_may_die_and_return(peer: Peer, topic: str):
+    other = Peer()
+    with running(topic) as told:
+        opened(other, topic)
+        segments_back(other, topic, ranges=wall(2.0))
+        other.close()
+        said(told, f"{topic} is no longer published; waiting for it")
+        opened(peer, topic)
+        assert segments_back(peer, topic, ranges=wall(3.0))[1]["width"] == 1
+
+
+def test_a_recording_that_is_replayed_gives_exactly_the_segments_of_extract(peer: Peer, topic: str):
+    recording = open_recording(SAMPLES / "hallway.mcap")
+    with running(topic):
+        opened(peer, topic, reliable=True)
+        for frame in range(0, len(recording), len(recording) // 5):
+            scan = recording[frame]
+            angles = float(recording.angle_min[frame]), float(recording.angle_increment[frame])
+            limits = scan.range_min, scan.range_max
+            peer.ask("scan", topic=topic, ranges=scan.ranges.tolist(), second=frame, angles=angles, limits=limits)
+            (marker,) = answer(peer, f"{topic}/markers", second=frame)["markers"]
+            ends = [end for segment in extract(scan).segments for end in (segment.start, segment.end)]
+            assert [(point["x"], point["y"]) for point in marker["points"]] == ends
+
+
+def test_the_page_shows_scans_and_publishes_segments(peer: Peer, topic: str, tmp_path: Path):
+    with watching(f"ros2:{topic}", tmp_path, topic=None) as server, page_of(server) as page:
+        page.say(type="hello")
+        session = {"session": page.hear_a("welcome")["session"]}
+        peer.ask("open", topic=topic, kind="LaserScan", write=True, reliable=True)
+        peer.ask("open", topic=f"{topic}/segments", kind="MarkerArray", write=False, reliable=True)
+        peer.until("matched", topic=topic)
+        for second, distance in enumerate((4.0, 3.0, 2.0)):
+            peer.ask("scan", topic=topic, ranges=wall(distance), second=second)
+        state = page.until(lambda state: abs(nearest(state) - 2.0) < 0.01)
+        assert (state["frame"], state["frames"], state["live"], state["topic"]) == (2, 3, True, topic)
+        assert nearest(page.change(frame=0)) == pytest.approx(4.0, abs=1e-3)
+        asked = {**session, "on": True, "topic": f"{topic}/segments"}
+        server.post("/api/robot/segments", json=asked).raise_for_status()
+        peer.ask("scan", topic=topic, ranges=wall(2.5), second=9)
+        peer.until("matched", topic=f"{topic}/segments")
+        peer.ask("scan", topic=topic, ranges=wall(2.5), second=10)
+        assert peer.until("take", topic=f"{topic}/segments")
+
+
+def test_the_command_follows_its_file_and_ends_on_sigterm(peer: Peer, topic: str, tmp_path: Path):
+    file = tmp_path / "tuned.yaml"
+    file.write_text("/**:\n  ros__parameters:\n    min_line_points: 10\n")
+    out = ("--markers", f"{topic}/markers", "--cloud", f"{topic}/cloud")
+    process = lineseg("node", f"ros2:{topic}", "--params", file, *out)
+    opened(peer, topic, reliable=True)
+    assert segments_back(peer, topic, ranges=wall(2.0))[1]["width"] == 1
+    file.write_text("/**:\n  ros__parameters:\n    min_line_points: 92\n")
+    peer.ask("scan", topic=topic, ranges=wall(2.0), second=99)
+    assert answer(peer, f"{topic}/cloud", second=99)["width"] == 0
+    process.send_signal(signal.SIGTERM)
+    output, errors = process.communicate(timeout=SECONDS)
+    assert (process.returncode, output) == (0, "")
+    assert f"{file}: min_points 10 → 92" in errors
+
+
+def test_once_publishes_one_scan_and_prints_it(peer: Peer, topic: str, capsys: pytest.CaptureFixture[str]):
+    done = threading.Event()
+
+    def send() -> None:
+        opened(peer, topic, reliable=True)
+        while not done.wait(0.02):
+            peer.ask("scan", topic=topic, ranges=wall(2.0), second=3)
+
+    sending = threading.Thread(target=send)
+    sending.start()
+    code = main(["node", f"ros2:{topic}", "--once", "--markers", f"{topic}/markers", "--cloud", f"{topic}/cloud"])
+    done.set()
+    sending.join()
+    assert code == 0
+    (segment,) = json.loads(capsys.readouterr().out)["segments"]
+    assert segment["points"] == 91
+    assert len(peer.until("take", topic=f"{topic}/cloud")) == 1
+
+
+def test_the_laser_topics_are_listed(peer: Peer, topic: str, capsys: pytest.CaptureFixture[str]):
+    peer.ask("open", topic=topic, kind="LaserScan", write=True, reliable=True)
+    assert main(["view", "ros2:"]) == 0
+    assert f"ros2:{topic}  reliable, volatile\n" in capsys.readouterr().out
+
+
+def test_an_interface_that_is_not_there_is_named(peer: Peer, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setenv("CYCLONEDDS_URI", URI.format("elsewhere").replace("'lo'", "'eth99'"))
+    with pytest.raises(OSError, match=r"CYCLONEDDS_URI names the interface eth99; this machine has .*lo"):
+        join(DOMAIN + 1)
+
+
+@pytest.mark.parametrize(
+    ("environment", "expected"),
+    [
+        ({}, ""),
+        ({"ROS_AUTOMATIC_DISCOVERY_RANGE": "SUBNET"}, ""),
+        ({"ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}, "<AllowMulticast>false.*<Peer Address='localhost'/>"),
+        ({"ROS_LOCALHOST_ONLY": "1"}, "<NetworkInterface address='127.0.0.1'/>.*<Peer Address='localhost'/>"),
+        ({"ROS_STATIC_PEERS": "10.0.0.2;robot"}, "<Peer Address='10.0.0.2'/><Peer Address='robot'/>"),
+        ({"ROS_AUTOMATIC_DISCOVERY_RANGE": "OFF", "ROS_STATIC_PEERS": "robot"}, "<AllowMulticast>false.*<Tag>off-"),
+    ],
+)
+def test_the_environment_of_ros_says_where_to_look(environment: dict[str, str], expected: str):
+    assert re.search(expected, discovery(environment))
+    assert bool(discovery(environment)) == bool(expected)
+
+
+def test_a_variable_that_cannot_be_is_told():
+    with pytest.raises(ValueError, match="ROS_AUTOMATIC_DISCOVERY_RANGE is 'HERE'; choose from LOCALHOST"):
+        discovery({"ROS_AUTOMATIC_DISCOVERY_RANGE": "HERE"})
+    with pytest.raises(ValueError, match="ROS_STATIC_PEERS has 'a b'"):
+        discovery({"ROS_STATIC_PEERS": "a b"})
+    with pytest.raises(ValueError, match="ROS_DOMAIN_ID is '233'; a domain of DDS is a whole number from 0 to 232"):
+        domain_of({"ROS_DOMAIN_ID": "233"})
+
+
+def test_thousands_of_scans_take_no_more_memory_than_a_few(peer: Peer, topic: str):
+    psutil = pytest.importorskip("psutil", reason="the size of a process needs psutil")
+    process = psutil.Process()
+    with running(topic):
+        opened(peer, topic, reliable=True)
+        sizes = []
+        for _ in range(2):
+            peer.ask("scan", topic=topic, ranges=wall(2.0) * 5, times=1000)
+            peer.until("take", topic=f"{topic}/cloud")
+            sizes.append(process.memory_info().rss)
+    assert sizes[1] - sizes[0] < 8 << 20
