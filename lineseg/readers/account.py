@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from dataclasses import field as dataclass_field
-from typing import Any
+from functools import cached_property
+from typing import Any, NamedTuple
 
 from .reading import Reading, as_flags
 
@@ -53,25 +54,54 @@ class Skipped:
     why: str
 
 
-@dataclass(frozen=True)
+class Findings(NamedTuple):
+    """What takes a look at all ranges and stamps: the line, the notices and `stamp_trouble` of an `Account`."""
+
+    line: str = ""
+    notices: tuple[Notice, ...] = ()
+    stamp_trouble: str = ""
+
+
+@dataclass(frozen=True, eq=False)
 class Account:
     """What a file was taken for.
 
     given: the Reading that was asked for; used: the same with all that was found in the file or guessed.
-    line: one line that says it. skipped: some of the scans that could not be read; skips: how many there are.
-    stamp_trouble: why the stamps cannot be believed, in a few words, "" if they can.
+    skipped: some of the scans that could not be read; skips: how many there are.
     lasers: if several lasers share the topic, the values of frame_id, or of geometry, that choose one of them.
+    find: makes the findings when they are first asked for, so that opening a file does not wait for them.
     """
 
     given: Reading = dataclass_field(default_factory=Reading)
     used: Reading = dataclass_field(default_factory=Reading)
-    line: str = ""
     guesses: tuple[Guess, ...] = ()
-    notices: tuple[Notice, ...] = ()
     skipped: tuple[Skipped, ...] = ()
     skips: int = 0
-    stamp_trouble: str = ""
     lasers: Mapping[str, tuple[str, ...]] = dataclass_field(default_factory=dict)
+    find: Callable[[], Findings] = dataclass_field(default=Findings, repr=False)
+
+    @cached_property
+    def findings(self) -> Findings:
+        return self.find()
+
+    @property
+    def line(self) -> str:
+        """One line that says what the file was taken for."""
+        return self.findings.line
+
+    @property
+    def notices(self) -> tuple[Notice, ...]:
+        """What cannot be, or is worth knowing."""
+        return self.findings.notices
+
+    @property
+    def stamp_trouble(self) -> str:
+        """Why the stamps cannot be believed, in a few words, "" if they can."""
+        return self.findings.stamp_trouble
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Copies and pickles have their findings, and no arrays to make them from."""
+        return {**self.__dict__, "find": Findings, "findings": self.findings}
 
     @property
     def believable(self) -> bool:

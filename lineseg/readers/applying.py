@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from copy import copy
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..scan import Recording, Scan
-from .account import Account, Guess, Notes
+from .account import Account, Findings, Guess, Notes
 from .guessing import guess_limit, guess_unit, no_return_codes, sampled
 from .lasers import one_laser
 from .plausible import noticed, oddness, trouble_in, trouble_of
@@ -24,25 +26,29 @@ def applied(recording: Recording, reading: Reading, notes: Notes) -> Recording:
     recording = one_laser(recording, reading, notes)
     recording = _with_stamps(recording, reading, notes)
     recording, used = _in_metres_and_radians(recording, reading, notes)
-    recording = _with_limits(recording, used, notes)
-    odd = oddness(recording.stamps)
-    notices = (*notes.notices, *noticed(recording, used, notes.recorded is not None, odd))
-    trouble = trouble_in(recording.stamps, odd)
-    guesses, used = _without_present(tuple(notes.guesses), recording, used)
-    recording = _chosen_frames(recording, used)
-    recording = _chosen_beams(recording, used)
+    whole = _with_limits(recording, used, notes)
+    guesses, used = _without_present(tuple(notes.guesses), whole, used)
+    shown = _chosen_beams(_chosen_frames(whole, used), used)
     account = Account(
         given=reading,
         used=used,
         guesses=guesses,
-        notices=notices,
         skipped=tuple(notes.skipped),
         skips=notes.skips,
-        stamp_trouble=trouble,
         lasers=notes.lasers,
+        find=partial(_findings, whole, shown, used, guesses, notes),
     )
-    account = replace(account, line=line_of(recording, account, notes))
-    return replace(recording, account=account)
+    # A copy does not keep the scans and beams that were left out.
+    return replace(shown, account=account if shown is whole else copy(account))
+
+
+def _findings(whole: Recording, shown: Recording, used: Reading, guesses: tuple[Guess, ...], notes: Notes) -> Findings:
+    """What is told about the whole file, and the line about what is shown of it."""
+    # Damaged numbers may be anything.
+    with np.errstate(all="ignore"):
+        odd = oddness(whole.stamps)
+        notices = (*notes.notices, *noticed(whole, used, notes.recorded is not None, odd))
+        return Findings(line_of(shown, used, guesses, notes), notices, trouble_in(whole.stamps, odd))
 
 
 def _without_present(
@@ -111,7 +117,9 @@ def _angles(recording: Recording, change: Any) -> dict[str, Any]:
 
 def _with_geometry(recording: Recording, reading: Reading) -> Recording:
     given = {name: reading.given()[name] for name in ("angle_min", "angle_increment") if name in reading.given()}
-    if given and recording.bearings is not None:
+    if not given:
+        return recording
+    if recording.bearings is not None:
         raise ValueError(
             f"{recording.name}: {' and '.join(given)} cannot be used, because the file states the bearing of each beam."
         )

@@ -120,9 +120,13 @@ def _table(
 def _plain_table(rows: list[Row], dialect: Dialect, width: int) -> NDArray[np.float64] | None:
     """(rows, columns): the numbers of rows that have nothing else, all at once; None if they have."""
     width = width or (dialect.width(rows[0].text) if rows else 0)
-    if not rows or any(dialect.width(row.text) != width or b'"' in row.text for row in rows):
+    texts = [row.text for row in rows]
+    whole, mark = b"\n".join(texts), dialect.separator
+    # A mark too few or at the end of a row is a number too few in the end.
+    widths = {len(text.split()) for text in texts} if mark == b" " else {text.count(mark) + 1 for text in texts}
+    if widths - {width, width + 1} or len(widths) != 1 or b'"' in whole:
         return None
-    values = dialect.numbers(b"\n".join(row.text for row in rows))
+    values = dialect.numbers(whole)
     if values is None or len(values) != len(rows) * width:
         return None
     return np.asarray(values, np.float64).reshape(len(rows), width)

@@ -59,9 +59,9 @@ class CarmenLog(Reader):
             word = text.split(None, 1)[:1]
             laser = LASERS.get(word[0]) if word else None
             if laser:
-                decode = _decode_flaser if laser in WITHOUT_ANGLES else _decode_robotlaser
+                decode, tail = DECODERS[laser]
                 try:
-                    line = decode(text, TAILS[laser.rstrip("1234")])
+                    line = decode(text, tail)
                 except ValueError as error:
                     source.notes.skip(f"{source.name}:{number}", str(error))
                 else:
@@ -140,6 +140,12 @@ def _decode_robotlaser(text: bytes, tail: int) -> Line:
         step = _float(view, message) / (len(ranges) - 1)
     remissions = int(rest[0]) if rest and rest[0].isdigit() else 0
     return Line(ranges, angle_min, step, range_max, _stamp(rest, 1 + remissions + tail))
+
+
+DECODERS = {
+    laser: (_decode_flaser if laser in WITHOUT_ANGLES else _decode_robotlaser, TAILS[laser.rstrip("1234")])
+    for laser in LASERS.values()
+}
 
 
 def flaser_angles(count: int) -> tuple[float, float]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -19,9 +21,10 @@ OFTEN, FEW = 0.002, 3
 # A greatest value so many times as large as the next is no reading.
 ALONE, ENOUGH = 3.0, 100
 MOST_SAMPLED = 2_000
-GOLDEN = 0.6180339887498949
+SPREAD = np.arange(MOST_SAMPLED) * 0.6180339887498949 % 1.0  # by the golden ratio
 
 
+@lru_cache(maxsize=4)
 def sampled_at(count: int) -> NDArray[np.int64]:
     """The indices of `count` values, or of MOST_SAMPLED of them: evenly spread, but not at even steps.
 
@@ -29,7 +32,7 @@ def sampled_at(count: int) -> NDArray[np.int64]:
     """
     if count <= MOST_SAMPLED:
         return np.arange(count)
-    return (np.arange(MOST_SAMPLED) * GOLDEN % 1.0 * count).astype(np.int64)
+    return (SPREAD * count).astype(np.int64)
 
 
 def sampled(values: Floats) -> Floats:

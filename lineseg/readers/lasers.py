@@ -88,6 +88,8 @@ def _geometries(recording: Recording) -> np.ndarray:
         return np.zeros(frames, np.int64)
     ends = recording.angle_min + recording.angle_increment * (lengths - 1)
     rows = np.column_stack((lengths, np.rad2deg(recording.angle_min), np.rad2deg(ends)))
+    if (np.abs(rows - rows[0]) <= np.array((FEW_BEAMS * rows[0, 0], FEW_DEGREES, FEW_DEGREES))).all():
+        return np.zeros(frames, np.int64)
     leaders: list[np.ndarray] = []
     kinds = np.full(frames, -1, np.int64)
     while (left := np.flatnonzero(kinds < 0)).size and len(leaders) < MOST_LASERS:

@@ -10,6 +10,7 @@ from ..kernel import entry_kernel, kernel
 from ..scan import Floats
 
 SEPARATORS = re.compile(rb"[\s,;]+")
+BLANKS = bytes.maketrans(b",;", b"  ")
 WORD = re.compile(rb"[^\s,;]+")
 EXACT_POWERS = 10.0 ** np.arange(23)  # the powers of ten that a double represents exactly
 MOST_DIGITS = 15  # decimal digits that a double represents exactly
@@ -42,8 +43,15 @@ def leading_numbers(text: bytes, count: int) -> tuple[Floats, int]:
 def all_numbers(text: bytes) -> Floats | None:
     """All numbers of a line; None if one of its words is not a number."""
     text = text.strip(b" \t,;\r\n")
-    values, end = leading_numbers(text, len(text) // 2 + 1)
-    return values.copy() if end >= len(text) else None
+    values = np.empty(len(text) // 2 + 1)
+    found, end = _plain_decimals(np.frombuffer(text, np.uint8), values, EXACT_POWERS)
+    if end >= len(text):
+        return values[:found].copy()
+    try:
+        rest = list(map(float, text[end:].translate(BLANKS).split()))
+    except ValueError:
+        return None
+    return np.concatenate((values[:found], rest))
 
 
 def is_number(word: bytes) -> bool:

@@ -229,7 +229,7 @@ class Reading:
         for name in values:
             if name not in self.declared():
                 raise ValueError(f"a Reading has no {name!r}; it has {', '.join(self.declared())}")
-        return replace(self, **values)
+        return replace(self, **values) if values else self
 
     def given(self) -> dict[str, Any]:
         """The fields that are not None; `Reading(**given)` restores it, also from JSON."""

@@ -2,25 +2,28 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import numpy as np
 
 from ..scan import Recording
-from .account import Account, Notes
+from .account import Guess, Notes
 from .guessing import UNIT_NAMES
+from .reading import Reading
 
 GUESSED = " (guessed)"
 
 
-def line_of(recording: Recording, account: Account, notes: Notes) -> str:
+def line_of(recording: Recording, used: Reading, guesses: Iterable[Guess], notes: Notes) -> str:
     """Such as "CSV · 3 scans × 181 beams · millimetres · −90…90° counter-clockwise · stamps from column 1"."""
-    guessed = {guess.field for guess in account.guesses}
+    guessed = {guess.field for guess in guesses}
     kind = notes.kind or recording.format
-    unit = UNIT_NAMES[account.used.unit or "m"] + (GUESSED if "unit" in guessed else "")
+    unit = UNIT_NAMES[used.unit or "m"] + (GUESSED if "unit" in guessed else "")
     turn = GUESSED if guessed & {"direction", "angle_min", "angle_increment", "angle_unit", "columns"} else ""
     parts = [kind, _size(recording), unit, f"{_angles(recording)}{turn}"]
     parts.append(f"stamps from {notes.stamps}" if notes.stamps and recording.stamps.any() else _stamps(recording))
-    if account.skips:
-        parts.append(f"{account.skips} skipped")
+    if notes.skips:
+        parts.append(f"{notes.skips} skipped")
     return " · ".join(parts)
 
 
