@@ -16,6 +16,9 @@ from .flag_types import Files
 from .progress import open_with_progress
 from .reading import ReadingFlags, each_file, reading_of
 
+# No laser scatters by less [m]; the walls of such a recording do not show how its laser does.
+LEAST_NOISE = 5e-4
+
 
 def info(files: Positional[Files[str]], reading: OmitArgPrefixes[ReadingFlags]) -> None:  # type: ignore[valid-type]
     """Describe recordings, and say what each file was taken for.
@@ -75,6 +78,8 @@ def _noise(noise: RangeNoise, longest: list[float]) -> str:
     if not noise.known:
         return "unknown, because no straight wall was found"
     near, far = noise.at(1.0), noise.at(np.median(longest))
+    if near < LEAST_NOISE and far < LEAST_NOISE:
+        return "cannot be told: ranges differ by less than 0.5 mm from smooth walls, as in computed or constant scans"
     text = f"{1e3 * near:.0f} mm"
     if far > 1.2 * near:
         text += f" at 1 m, {1e3 * far:.0f} mm at {np.median(longest):.0f} m"

@@ -112,7 +112,7 @@ class Library:
         rows += [RecordingEntry(id=id, label=path.name, group="Command line") for id, path in self._files.items()]
         rows += [
             RecordingEntry(id=id, label=up.name, group="Uploads")
-            for up in self.uploads.all()
+            for up in reversed(self.uploads.all())
             if (id := f"upload:{up.id}") not in self._unread
         ]
         rows += [RecordingEntry(id=id, label=_title(self._samples[id]), group="Samples") for id in samples]

@@ -13,9 +13,10 @@ import { hideTooltip } from "./tooltip.js";
  * @param {string} [options.name] accessible name
  * @param {string} [options.className]
  * @param {boolean} [options.atEnd] whether the list ends, not begins, where the button does
+ * @param {boolean} [options.leaves] whether a choice gives the keys back to the page, so that Space plays
  * @param {() => Group[]} options.groups asked each time it opens
  */
-export function createMenu({ label, name, className = "", atEnd = false, groups }) {
+export function createMenu({ label, name, className = "", atEnd = false, leaves = false, groups }) {
   const words = h("span", { class: "menu-label" }, label);
   const button = h(
     "button",
@@ -45,7 +46,8 @@ export function createMenu({ label, name, className = "", atEnd = false, groups 
           disabled: item.disabled ?? false,
           onclick: () => {
             list.hidePopover();
-            button.focus();
+            if (leaves) button.blur();
+            else button.focus();
             item.run();
           },
         },
