@@ -19,7 +19,10 @@ from .account import Account, Guess, Notice, Skipped
 from .applying import applied
 from .arrays import Npy
 from .carmen import CarmenLog
+from .clouds import PointCloud
+from .dialect import labels_of
 from .folder import bag_of_metadata, recording_in
+from .foreign import foreign
 from .messages import EchoYaml, JsonMessages
 from .npz import Npz, save_npz
 from .pack import FailurePack
@@ -37,11 +40,12 @@ __all__ = [
 ]  # fmt: skip
 
 HEAD_BYTES = 1 << 16
+MOST_LINES = 100
 
 
 # Readers are asked in this order: a failure pack is a zip like NPZ, and text accepts any lines, so it comes last.
 READERS: tuple[type[Reader], ...] = (
-    Ros1Bag, Ros2Bag, Mcap, FailurePack, Npz, Npy, CarmenLog, PlayerLog, JsonMessages, EchoYaml, Text,
+    Ros1Bag, Ros2Bag, Mcap, FailurePack, Npz, Npy, PointCloud, CarmenLog, PlayerLog, JsonMessages, EchoYaml, Text,
 )  # fmt: skip
 
 
@@ -76,6 +80,8 @@ def _read(source: Source, stack: ExitStack) -> Recording:
     if path.is_dir() and reader is None:
         path = recording_in(path)
     if reader is None:
+        if path.is_file():
+            foreign(source.name, _head(path))
         path = unwrapped(path, stack, source.notes, source.progress)
     source = replace(source, path=path)
     reader = reader or (Ros2Bag if path.is_dir() else _reader(source, _head(path)))
@@ -133,8 +139,10 @@ def _recognised(head: bytes) -> type[Reader] | None:
 
 
 def _has_numbers(head: bytes) -> bool:
-    """Whether a line starts like a number, so that a .log may be a table after all."""
-    return any(line.lstrip()[:1] in b"+-.0123456789" for line in head.splitlines() if line.strip())
+    """Whether a line starts like a number, or has numbers with labels, so that a .log may be a table after all."""
+    return labels_of(head.splitlines()[:MOST_LINES]) is not None or any(
+        line.lstrip()[:1] in b"+-.0123456789" for line in head.splitlines() if line.strip()
+    )
 
 
 def _head(path: Path) -> bytes:

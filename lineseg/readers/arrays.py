@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..scan import Recording, Topic
+from .account import Notes
 from .beam_rows import beams_of
 from .guessing import angle_unit_of
 from .headers import Name, is_angle, is_distance, name_of
@@ -17,7 +19,7 @@ from .source import Reader, Source, Sweeps
 from .stamping import stamp_unit
 
 ANGLE_NAMES = ("ang", "bearing", "theta", "azimuth", "phi")
-STAMP_NAMES = ("stamp", "time", "t")
+STAMP_NAMES = ("stamp", "time")
 MOST_COLUMNS = 8
 
 
@@ -36,7 +38,7 @@ class Npy(Reader):
     def read(source: Source) -> Recording:
         source.progress(0, 1)
         try:
-            array = _loaded(source)
+            array = loaded(source.path, source.notes)
         except (ValueError, OSError, EOFError, MemoryError) as error:
             pickled = "pickle" in str(error) or "Python objects" in str(error)
             why = "Python objects, which are not loaded; save plain numbers" if pickled else str(error).rstrip(".")
@@ -47,19 +49,24 @@ class Npy(Reader):
         return recording_of_arrays(source, {"array": np.asarray(array)}, Npy.format)
 
 
-def _loaded(source: Source) -> NDArray:
+def loaded(path: Path, notes: Notes) -> NDArray:
     """The array; without its last rows if the file breaks off in them."""
-    with source.path.open("rb") as file:
-        major = np.lib.format.read_magic(file)[0]
-        header = np.lib.format.read_array_header_1_0 if major == 1 else np.lib.format.read_array_header_2_0
-        shape, fortran, kind = header(file)
-        start, left = file.tell(), source.path.stat().st_size - file.tell()
+    (shape, fortran, kind), start = header_of(path)
+    left = path.stat().st_size - start
     row = kind.itemsize * int(np.prod(shape[1:], dtype=np.int64))
     if kind.hasobject or fortran or not shape or not row or left // row >= shape[0] or left < row:
-        return np.load(source.path, mmap_mode="r", allow_pickle=False)
+        return np.load(path, mmap_mode="r", allow_pickle=False)
     rows = left // row
-    source.notes.notice("breaks off", f"The array announces {shape[0]} rows, but only {rows} are there.")
-    return np.memmap(source.path, kind, "r", start, (rows, *shape[1:]))
+    notes.notice("breaks off", f"The array announces {shape[0]} rows, but only {rows} are there.")
+    return np.memmap(path, kind, "r", start, (rows, *shape[1:]))
+
+
+def header_of(path: Path) -> tuple[tuple[tuple[int, ...], bool, np.dtype], int]:
+    """(shape, whether columns come first, type) of an array in a file, and where its values begin."""
+    with path.open("rb") as file:
+        major = np.lib.format.read_magic(file)[0]
+        header = np.lib.format.read_array_header_1_0 if major == 1 else np.lib.format.read_array_header_2_0
+        return header(file), file.tell()
 
 
 def is_exchange(arrays: Mapping[str, NDArray]) -> bool:
@@ -77,7 +84,7 @@ def recording_of_arrays(source: Source, arrays: Mapping[str, NDArray], format: s
     tables = {name: array for name, array in arrays.items() if _plain(array) and array.ndim == 2}
     rows = {name: array for name, array in arrays.items() if _plain(array) and array.ndim == 1}
     angles = next((name for name in rows if name.lower().startswith(ANGLE_NAMES)), None)
-    stamps = next((name for name in rows if name.lower().startswith(STAMP_NAMES)), None)
+    stamps = next((name for name in rows if name_of(name).plain == "t" or name.lower().startswith(STAMP_NAMES)), None)
     named = {name: array for name, array in rows.items() if name not in (angles, stamps)}
     if len(tables) > 1 and "ranges" in tables:
         tables = {"ranges": tables["ranges"]}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from itertools import pairwise
 from typing import NamedTuple
@@ -44,7 +44,8 @@ def read_beams(
 ) -> Recording:  # fmt: skip
     """The scans of rows that hold a beam each. names: of the columns, None to guess what they hold."""
     roles = None if names is None else _named(names)
-    return beams_of(source, reading, _table(source, rows, dialect, names, roles), names, guess_direction)
+    needed = None if roles is None else (roles.first, roles.second)
+    return beams_of(source, reading, table_of(source, rows, dialect, names, needed), names, guess_direction)
 
 
 def beams_of(
@@ -85,10 +86,10 @@ def _named(names: list[Name]) -> Roles:
     return Roles(False, x, y, scan, stamp)
 
 
-def _table(
-    source: Source, rows: Iterable[Row], dialect: Dialect, names: list[Name] | None, roles: Roles | None
+def table_of(
+    source: Source, rows: Iterable[Row], dialect: Dialect, names: list[Name] | None, needed: Sequence[int] | None
 ) -> NDArray[np.float64]:
-    """(rows, columns): the numbers of all rows, NaN for other words in columns that are not needed."""
+    """(rows, columns): the numbers of all rows, NaN for other words in columns that are not needed, None for all."""
     width = 0 if names is None else len(names)
     rows = list(rows)
     if (whole := _plain_table(rows, dialect, width)) is not None:
@@ -104,9 +105,8 @@ def _table(
             )
             continue
         values = [dialect.number(cell) for cell in cells[:width]]
-        needed = range(width) if roles is None else (roles.first, roles.second)
-        wrong = next((at for at in needed if values[at] is None), None)
-        if wrong is not None and (roles is not None or wrong < 2):
+        wrong = next((at for at in (range(2) if needed is None else needed) if values[at] is None), None)
+        if wrong is not None:
             shown = cells[wrong][:40].decode("utf-8", "replace")
             source.notes.skip(f"{source.name}:{row.number}", f"{shown!r} is not a number")
             continue

@@ -15,6 +15,8 @@ from .bounded import PIECE, expand, limit_of
 # Signature, flags, method, sizes of the data packed and unpacked, and of the name and what follows it.
 HEADER = struct.Struct("<4s2xHH8xIIHH")
 SIGNATURE, STORED, DEFLATED, SIZE_FOLLOWS = b"PK\x03\x04", 0, 8, 8
+# A size that is stated elsewhere.
+LONG = 0xFFFFFFFF
 # Behind data of a size that was not known before stand its sizes.
 MOST_BETWEEN = 64
 
@@ -35,8 +37,8 @@ def unpack_cut(path: Path, folder: Path, name: str) -> list[Part]:
         while len(head := raw.read(HEADER.size)) == HEADER.size and head.startswith(SIGNATURE):
             _, flags, method, packed, _, *lengths = HEADER.unpack(head)
             entry = raw.read(lengths[0]).decode("utf-8", "replace")
-            raw.seek(lengths[1], 1)
-            known = not flags & SIZE_FOLLOWS and packed != 0xFFFFFFFF
+            packed = _long_size(raw.read(lengths[1])) if packed == LONG else packed
+            known = not flags & SIZE_FOLLOWS and packed != LONG
             plain = PurePosixPath(entry.replace("\\", "/")).name
             if (
                 not plain
@@ -56,6 +58,17 @@ def unpack_cut(path: Path, folder: Path, name: str) -> list[Part]:
             behind = raw.read(MOST_BETWEEN)
             raw.seek(max(behind.find(SIGNATURE), 0) - len(behind), 1)
     return parts
+
+
+def _long_size(extra: bytes) -> int:
+    """The packed size that an entry states beside its header, as numpy does for all; LONG if it does not."""
+    at = 0
+    while at + 4 <= len(extra):
+        kind, size = struct.unpack_from("<HH", extra, at)
+        if kind == 1 and size >= 16 and at + 20 <= len(extra):
+            return struct.unpack_from("<8xQ", extra, at + 4)[0]
+        at += 4 + size
+    return LONG
 
 
 class _Data:

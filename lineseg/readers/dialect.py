@@ -21,7 +21,7 @@ PAIR = re.compile(
     rb"([A-Za-z_][\w ]*?)\s*[:=]\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(mm|cm|m|deg|rad)?(?![\w:])"
 )
 QUOTED = re.compile(rb'(?:^|(?<=[,;|]))\s*"([^"]*)"\s*(?=[,;|]|$)')
-INNERMOST = re.compile(rb"([^\[\](){}]*)[\[({]([^\[\](){}]*)[\])}]")
+BRACKET = re.compile(rb"([\[\](){}])")
 LIST = re.compile(
     rb"[\w\s.:=,+-]*(?:\('\w',\s*)?[\[({][\[({\s]*(?:[-+]?\.?(?:\d|nan|inf|None|True|False|float)[^:\"]*)?",
     re.IGNORECASE,
@@ -37,6 +37,7 @@ TIME = re.compile(
     rb"(?:(\d{4})[-/.](\d\d?)[-/.](\d\d?)[T /_-])?(\d\d?):(\d\d):(\d\d(?:[.,]\d+)?)\s*(?:Z|UTC|([-+]\d\d):?(\d\d))?"
 )
 LONGEST_ROW = 1 << 24
+FREE_NUMBER = re.compile(rb"(?<![\w.])[-+]?\d+\.?\d*(?:[eE][-+]?\d+)?")
 LEFT_OUT = (
     "'...' stands where numbers were left out; save all of them, with `ros2 topic echo --full-length`, or after "
     "numpy.set_printoptions(threshold=sys.maxsize)"
@@ -177,24 +178,26 @@ def bracketed(rows: Iterable[Row], name: str) -> Iterator[Row]:
 
     Raises ValueError for a list that its printer has shortened.
     """
-    pending, first = b"", 0
+    # What stands before the last bracket, that bracket, and the pieces after it.
+    before, last, held, size, first = b"", b"", [b""], 0, 0
     for number, text in rows:
         if b"..." in text:
             raise ValueError(f"{name}:{number}: {LEFT_OUT}.")
-        first = first if pending.strip() else number
         for word, plain in WORDS.items():
             text = re.sub(word, plain, text)
-        pending += b" " + text
-        end = 0
-        for match in INNERMOST.finditer(pending):
-            before = b" ".join(re.findall(rb"(?<![\w.])[-+]?\d+\.?\d*(?:[eE][-+]?\d+)?", match[1]))
-            for row in match[2].split(b";"):  # MATLAB parts rows so
-                if row.strip():
-                    yield Row(first, before + b" " + row.replace(b",", b" "))
-            end, first = match.end(), number
-        pending = pending[end:]
-        if len(pending) > LONGEST_ROW:
-            raise ValueError(f"{name}:{first}: a bracket is not closed.")
+        head, *rest = BRACKET.split(text)
+        held.append(head)
+        size += len(text)
+        for bracket, piece in zip(rest[::2], rest[1::2], strict=True):
+            inner = b" ".join(held)
+            if bracket in b"])}" and last and last in b"[({":
+                for row in inner.split(b";"):  # MATLAB parts rows so
+                    if row.strip():
+                        yield Row(first, b" ".join(FREE_NUMBER.findall(before)) + b" " + row.replace(b",", b" "))
+            first = number if bracket in b"[({" else first
+            before, last, held, size = inner, bracket, [piece], len(piece)
+        if size > LONGEST_ROW:
+            raise ValueError(f"{name}:{first or number}: a bracket is not closed.")
 
 
 def labels_of(lines: list[bytes]) -> list[bytes] | None:

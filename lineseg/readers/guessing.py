@@ -12,7 +12,7 @@ from .account import Notes
 from .range_limits import longest_return
 from .reading import AngleUnit, Reading, Unit
 
-UNIT_NAMES = {"m": "metres", "cm": "centimetres", "mm": "millimetres"}
+UNIT_NAMES = {"m": "metres", "cm": "centimetres", "mm": "millimetres", "in": "inches", "ft": "feet"}
 # Rooms and yards: a laser's median range is hardly ever outside of these [m].
 NEAR, FAR = 0.35, 60.0
 # What drivers write for "no return": the greatest numbers of 16, 15, 14, 13 and 12 bits in millimetres or centimetres.

@@ -8,16 +8,20 @@ from typing import NamedTuple
 
 from .reading import AngleUnit, Unit
 
-ANGLES = ("angle", "angles", "ang", "theta", "bearing", "azimuth", "phi", "winkel", "alpha")
+ANGLES = (
+    "angle", "angles", "ang", "theta", "thetas", "bearing", "bearings", "azimuth", "azimuths", "phi", "winkel", "alpha",
+)  # fmt: skip
 DISTANCES = (
-    "distance", "distances", "dist", "range", "ranges", "rho", "r", "d", "radius", "depth", "distanz", "abstand",
-    "entfernung", "länge", "laenge", "length",
+    "distance", "distances", "dist", "dists", "range", "ranges", "rho", "r", "d", "radius", "depth", "depths",
+    "distanz", "abstand", "entfernung", "länge", "laenge", "length",
 )  # fmt: skip
 STAMPS = ("stamp", "timestamp", "time", "t", "secs", "sec", "seconds", "zeit", "rosbagtimestamp", "datetime")
-SCANS = ("scan", "scan_id", "scan_number", "frame", "sweep", "turn", "revolution", "rev")
+BEAMS = ("beam", "beam_id", "beam_index", "beam_number", "beam_no", "ray", "point_id", "index", "idx", "i", "step")
+SCANS = ("scan", "scan_id", "scan_number", "frame", "sweep", "scan_index", "scan_no", "turn", "revolution", "rev")
 LENGTHS: dict[str, Unit] = {
     "m": "m", "metre": "m", "metres": "m", "meter": "m", "meters": "m",
     "cm": "cm", "centimetre": "cm", "centimetres": "cm", "centimeter": "cm", "centimeters": "cm",
+    "in": "in", "inch": "in", "inches": "in", "ft": "ft", "foot": "ft", "feet": "ft",
     "mm": "mm", "millimetre": "mm", "millimetres": "mm", "millimeter": "mm", "millimeters": "mm",
 }  # fmt: skip
 TURNS: dict[str, AngleUnit] = {
@@ -74,6 +78,11 @@ def is_distance(name: Name) -> bool:
     words = name.plain.split("_")
     known = words[0] in DISTANCES or words[-1] in DISTANCES
     return name.element < 0 and known and not name.ends("range_min", "range_max", "time")
+
+
+def is_beam(name: Name) -> bool:
+    """Whether a column numbers the beams of a scan."""
+    return name.element < 0 and name.plain in BEAMS
 
 
 def column_of(names: list[Name], test) -> int | None:

@@ -12,7 +12,7 @@ import numpy as np
 
 from .dialect import seconds_of
 from .guessing import angle_unit_of
-from .headers import LENGTHS, TIMES, TURNS, Name, name_of
+from .headers import LENGTHS, TIMES, TURNS, Name, is_angle, is_distance, name_of
 from .laser_scan import LaserScan, decode_json
 from .scan_rows import other_angles, usual_angles
 from .source import Source
@@ -94,7 +94,7 @@ def scan_of(source: Source, message: Mapping[str, Any]) -> LaserScan:
     found: dict[str, tuple[Name, Any]] = {}
     for key, value in message.items():
         name = name_of(key)
-        field = FIELD.get(name.plain) or FIELD.get(name.plain.removeprefix("scan_"))
+        field = FIELD.get(name.plain) or FIELD.get(name.plain.removeprefix("scan_")) or _listed(name, value)
         if field is not None and value is not None:
             found.setdefault(field, (name, value))
     plain = {field: value for field, (_, value) in found.items() if field not in ("angles", "stamp", "frame_id")}
@@ -111,6 +111,13 @@ def scan_of(source: Source, message: Mapping[str, Any]) -> LaserScan:
         return decode_json(plain | {"header": header | {"stamp": stamp}})
     scan = decode_json(plain | {"header": header})
     return scan if stamp is None else _with_time(source, scan, stamp, name)
+
+
+def _listed(name: Name, value: Any) -> str | None:
+    """The field that a list of numbers is by its name, such as dist_mm or azimuths; None if it is none."""
+    if not isinstance(value, list):
+        return None
+    return "ranges" if is_distance(name) else "angles" if is_angle(name) else None
 
 
 def _with_time(source: Source, scan: LaserScan, stamp: Any, name: Name) -> LaserScan:

@@ -21,7 +21,10 @@ from .stamping import stamp_unit
 MOST_DEPTH = 6
 LIST_KEYS = ("ranges", "distances", "range", "distance")
 LEAST_BEAMS = 8
-ECHO_LINES = (re.compile(rb"^\s*header:\s*$", re.MULTILINE), re.compile(rb"^\s*(?:angle_min|ranges):", re.MULTILINE))
+ECHO_LINES = (
+    re.compile(rb"^[ \t]*angle_(?:min|increment|step)[ \t]*[:=][ \t]*[-+.\d]", re.MULTILINE),
+    re.compile(rb"^[ \t]*ranges[ \t]*[:=][ \t]*(?:[-+.\d\[]|inf|nan|$)", re.MULTILINE),
+)
 
 Table = list[list[float]]
 
@@ -66,7 +69,7 @@ class JsonMessages(Reader):
 
 
 class EchoYaml(Reader):
-    """Messages as indented text, divided by lines of three dashes."""
+    """Messages as indented text, divided by lines of three dashes, or those of Gazebo; one scan as YAML or TOML."""
 
     format = "echo"
     suffixes = (".yaml", ".yml")
@@ -74,7 +77,8 @@ class EchoYaml(Reader):
 
     @staticmethod
     def recognises(head: bytes) -> bool:
-        return b"header:" in head and all(line.search(head) for line in ECHO_LINES)
+        found = [line.search(head) is not None for line in ECHO_LINES]
+        return all(found) or (any(found) and re.search(rb"^header:\s*$", head, re.MULTILINE) is not None)
 
     @staticmethod
     def read(source: Source) -> Recording:
@@ -137,11 +141,11 @@ def _messages(value: Any, topic: str, depth: int = 0) -> Iterator[tuple[str, Map
 
 
 def _ranges_key(value: Mapping[str, Any]) -> str | None:
-    return next((key for key, held in value.items() if isinstance(held, list) and _is_ranges(key, held)), None)
-
-
-def _is_ranges(key: str, held: list[Any]) -> bool:
-    return name_of(key).plain.split("_")[-1] in LIST_KEYS and not any(isinstance(each, list) for each in held[:2])
+    flat = [key for key, held in value.items() if isinstance(held, list) and not isinstance(next(iter(held), 0), list)]
+    named = [key for key in flat if name_of(key).plain.split("_")[-1] in LIST_KEYS]
+    # Elsewhere dist_m or depths; beside them stands another list, or an angle.
+    other = [key for key in flat if is_distance(name_of(key)) and isinstance(next(iter(value[key]), None), int | float)]
+    return next(iter(named or other), None)
 
 
 def _is_beam(value: Mapping[str, Any]) -> bool:
@@ -190,7 +194,7 @@ def _documents(source: Source) -> Iterator[tuple[int, dict[str, Any]]]:
     began, key, flow = 1, "", ""
     for number, line in chain(source.lines(), [(0, b"---")]):
         text = line.decode("utf-8", "replace").strip()
-        if text.startswith("---"):
+        if text.startswith("---") or (text == "header {" and "ranges" in message):
             if "ranges" in message and not (number == 0 and _is_cut(message)):
                 stamp = {name: header[name] for name in STAMP_KEYS if name in header}
                 yield began, message | {"header": {"stamp": stamp, "frame_id": header.get("frame_id", "")}}
@@ -203,8 +207,11 @@ def _documents(source: Source) -> Iterator[tuple[int, dict[str, Any]]]:
         elif text.startswith("- ") and key == "ranges":
             message["ranges"].append(_scalar(text[2:], source, number))
             continue
-        elif match := re.match(r"([A-Za-z_]\w*):\s*(.*)$", text):
-            key, value = match[1], match[2]
+        elif match := re.match(r"([A-Za-z_]\w*)\s*[:=]\s*(.*?);?$", text):
+            key, value = SAME_FIELDS.get(match[1], match[1]), match[2]
+            if key == "ranges" and value and not value.startswith("["):
+                message.setdefault("ranges", []).append(_scalar(value, source, number))
+                continue
             if key == "ranges":
                 message["ranges"] = []
             if value.startswith("["):
@@ -231,7 +238,9 @@ def _is_cut(message: Mapping[str, Any]) -> bool:
     return len(message["ranges"]) < round((high - low) / step)
 
 
-STAMP_KEYS = ("sec", "nanosec", "secs", "nsecs")
+STAMP_KEYS = ("sec", "nanosec", "secs", "nsecs", "nsec")
+# Gazebo's names.
+SAME_FIELDS = {"angle_step": "angle_increment", "frame": "frame_id"}
 
 
 def _scalar(word: str, source: Source, number: int) -> float | None:

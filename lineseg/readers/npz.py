@@ -14,8 +14,10 @@ from numpy.typing import NDArray
 
 from ..arguments import need_recording
 from ..scan import Recording, Topic
-from .arrays import is_exchange, recording_of_arrays
+from ..unfinished import temporary_folder
+from .arrays import header_of, is_exchange, loaded, recording_of_arrays
 from .bounded import too_large
+from .cut_zip import unpack_cut
 from .source import Reader, Source
 
 MOST_BYTES = 8 << 30
@@ -98,9 +100,32 @@ def _load(file: Path | BinaryIO, source: Source) -> dict[str, NDArray]:
         with np.load(file, allow_pickle=False) as archive:
             return {name: _array(archive, name) for name in archive.files}
     except (zipfile.BadZipFile, zlib.error, EOFError, OSError) as error:
+        if isinstance(file, Path) and (arrays := _of_cut(file, source)):
+            return arrays
         raise ValueError(f"{source.name}: a damaged NPZ file ({str(error).rstrip('.')}); save it again.") from None
     except (ValueError, NotImplementedError) as error:
         raise ValueError(f"{source.name}: {error}.") from None
+
+
+def _of_cut(path: Path, source: Source) -> dict[str, NDArray]:
+    """The arrays of a file that breaks off, as far as they are there; {} if there are none."""
+    arrays: dict[str, NDArray] = {}
+    with temporary_folder() as folder:
+        for part in unpack_cut(path, folder, source.name):
+            name = part.name.removesuffix(".npy")
+            try:
+                arrays[name] = np.array(loaded(part.file, source.notes))
+            except (ValueError, OSError, EOFError, MemoryError):
+                continue
+            announced, rows = header_of(part.file)[0][0][:1], arrays[name].shape[:1]
+            if announced != rows:
+                # What belongs to scans that are missing.
+                arrays = {each: array[: rows[0]] if array.shape[:1] == announced else array
+                          for each, array in arrays.items()}  # fmt: skip
+    if arrays and not any(notice.kind == "breaks off" for notice in source.notes.notices):
+        text = f"The file breaks off after {', '.join(arrays)}; other arrays may be missing."
+        source.notes.notice("breaks off", text)
+    return arrays
 
 
 def _array(archive: Mapping[str, NDArray], name: str) -> NDArray:

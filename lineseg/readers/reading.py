@@ -9,11 +9,11 @@ from dataclasses import dataclass, fields, replace
 from functools import cache
 from typing import Annotated, Any, Literal, NamedTuple, Self, get_args, get_type_hints
 
-Unit = Literal["m", "cm", "mm"]
+Unit = Literal["m", "cm", "mm", "in", "ft"]
 AngleUnit = Literal["rad", "deg"]
 Direction = Literal["counter-clockwise", "clockwise"]
 Stamps = Literal["message", "recorded", "none"]
-METRES: dict[str, float] = {"m": 1.0, "cm": 0.01, "mm": 0.001}
+METRES: dict[str, float] = {"m": 1.0, "cm": 0.01, "mm": 0.001, "in": 0.0254, "ft": 0.3048}
 # What a column may hold besides the ranges; "-" is a column to pass over.
 COLUMN_WORDS = ("stamp", "angle", "distance", "x", "y", "ranges", "-")
 MOST_TEXT = 400

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Iterable, Iterator
 from itertools import chain, islice
 from typing import Any
@@ -10,7 +11,8 @@ from typing import Any
 from ..scan import Recording
 from .beam_rows import read_beams
 from .dialect import COMMENTS, Dialect, Row, bracketed, dialect_of, is_list, labels_of, text_of, unlabelled
-from .headers import Name, array_columns, column_of, is_angle, is_distance, name_of
+from .headers import TURNS, Name, array_columns, column_of, is_angle, is_beam, is_distance, name_of
+from .numbered import read_numbered
 from .reading import Reading, columns_of
 from .scan_rows import read_scans
 from .source import Reader, Source
@@ -20,6 +22,9 @@ ECHO = re.compile(rb"%time[,;\t]field\.")  # the first line of `rostopic echo -p
 SEPARATOR = re.compile(rb"sep=.", re.IGNORECASE)  # the first line of Excel's tables
 SETTING = re.compile(rb"(\w+)\s*[=:]\s*([^\s,;]+)")
 TEXT_FORMS = "use one scan per row, or columns of angle and distance, or a table with a column named ranges."
+# An angle as the name of a column, such as -134.5°.
+ANGLE = re.compile("([-+]?\\d+(?:[.,]\\d+)?)(\\s*(?:deg|rad|°)?)".encode(), re.IGNORECASE)
+MOST_NAMES = 4
 SAMPLE = 40
 # Rows with fewer numbers than this are beams, if there are enough of them.
 FEW_COLUMNS, MANY_ROWS = 9, 10
@@ -47,9 +52,9 @@ class Text(Reader):
         if first is None:
             raise ValueError(f"{source.name} has no line of numbers; {TEXT_FORMS}")
         reading = _with_comments(source, said)
-        head = [first, *islice((row for row in rows if not row.text.startswith(COMMENTS)), SAMPLE)]
-        rest = chain(head, (row for row in rows if not row.text.startswith(COMMENTS)))
-        return _read(source, reading, head, rest, comment)
+        rest = (row for row in rows if not row.text.startswith(COMMENTS))
+        head = _below_titles(source, [first, *islice(rest, SAMPLE)])
+        return _read(source, reading, head, chain(head, rest), comment)
 
 
 def _rows(source: Source) -> Iterator[Row]:
@@ -58,6 +63,34 @@ def _rows(source: Source) -> Iterator[Row]:
         stripped = text.strip()
         if stripped and not (number == 1 and SEPARATOR.fullmatch(stripped)):
             yield Row(number, stripped if stripped.startswith(COMMENTS) else text)
+
+
+def _below_titles(source: Source, head: list[Row]) -> list[Row]:
+    """The first rows without the lines of words above the table, such as a program's greeting or the command sent."""
+    lines = [row.text for row in head]
+    if len(head) < FEW_COLUMNS or is_list(lines[0]) or labels_of(lines):
+        return head
+    dialect = dialect_of(lines[len(lines) // 2 :])
+    width = Counter(map(dialect.width, lines[len(lines) // 2 :])).most_common(1)[0][0]
+    if width < 2:
+        return head
+
+    def is_title(line: bytes) -> bool:
+        cells = dialect.cells(line)
+        return len(cells) < width and dialect.number(cells[0] if cells else b"x") is None
+
+    titles = next((at for at, line in enumerate(lines) if not is_title(line)), 0)
+    # A header of blanks may seem to have fewer cells than it names.
+    if titles in (0, len(lines)) or (titles == 1 and dialect.separator == b" " and _names_beams(lines[0])):
+        return head
+    source.notes.notice("titles", f"{titles} line{'' if titles == 1 else 's'} above the table were passed over.")
+    return head[titles:]
+
+
+def _names_beams(line: bytes) -> bool:
+    """Whether words name an angle and a distance, or x and y."""
+    names = [name_of(text_of(word)) for word in re.split(rb"[\s,;]+", line.strip())]
+    return (any(map(is_angle, names)) and any(map(is_distance, names))) or {"x", "y"} <= {each.plain for each in names}
 
 
 def _with_comments(source: Source, said: dict[str, str]) -> Reading:
@@ -98,7 +131,7 @@ def _read(source: Source, reading: Reading, head: list[Row], rows: Iterable[Row]
     cells = dialect.cells(lines[0])
     if column := echo_columns(dialect, head):
         return read_table(source, reading, rows, dialect, column)
-    if (row := _angles_after_name(dialect, cells)) is not None:
+    if (row := _angles_in_names(source, dialect, cells)) is not None:
         head[0] = head[0]._replace(text=row)
         rows = chain(head[:1], islice(rows, 1, None))
         return _read_numbers(source, reading, head, rows, dialect, None)
@@ -116,12 +149,22 @@ def _is_header(dialect: Dialect, cells: list[bytes]) -> bool:
     return bool(cells) and dialect.number(cells[0]) is None
 
 
-def _angles_after_name(dialect: Dialect, cells: list[bytes]) -> bytes | None:
-    """A row of numbers below a name of the first column, such as the angles of the beams; None if it is another row."""
-    if len(cells) <= MANY_ROWS or dialect.number(cells[0]) is not None:
+def _angles_in_names(source: Source, dialect: Dialect, cells: list[bytes]) -> bytes | None:
+    """The angles of the beams in a header, perhaps with their unit, after other names; None if it has none."""
+    lead = next((at for at, cell in enumerate(cells[:MOST_NAMES]) if ANGLE.fullmatch(cell)), MOST_NAMES)
+    found = [ANGLE.fullmatch(cell) for cell in cells[lead:]]
+    units = {each[2].strip().lower() for each in found if each}
+    if (
+        any(dialect.number(cell) is not None for cell in cells[:lead])
+        or len(found) < MANY_ROWS
+        or None in found
+        or len(units) != 1
+        or (lead == 0 and units == {b""})
+    ):
         return None
-    rest = [dialect.number(cell) for cell in cells[1:]]
-    return None if None in rest else dialect.separator.join([b"nan", *cells[1:]])
+    if (unit := TURNS.get(text_of(units.pop()))) and source.reading.angle_unit is None:
+        source.notes.found["angle_unit"] = unit
+    return dialect.separator.join([*[b"nan"] * lead, *(each[1] for each in found if each)])
 
 
 def _names(dialect: Dialect, head: list[Row], cells: list[bytes]) -> list[Name]:
@@ -150,6 +193,8 @@ def _read_named(
         return read_beams(source, reading, rows, dialect, names)
     if {"x", "y"} <= {name.plain.split("_")[-1] for name in names}:
         return read_beams(source, reading, rows, dialect, names)
+    if any(map(is_distance, names)) and any(map(is_beam, names)):
+        return read_numbered(source, reading, rows, dialect, names)
     shown = " ".join(name.plain for name in names)
     raise ValueError(
         f"{source.name} begins with {shown[:60]!r}, which names no column angle; {TEXT_FORMS} "

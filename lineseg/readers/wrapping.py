@@ -1,10 +1,11 @@
-"""Takes off what files are wrapped in: gzip, zstd, zip, UTF-16 and UTF-32, also one inside the other."""
+"""Takes off what files are wrapped in: gzip, zstd, zip, tar, UTF-16 and UTF-32, also one inside the other."""
 
 from __future__ import annotations
 
 import codecs
 import gzip
 import io
+import tarfile
 import zipfile
 from collections.abc import Callable
 from contextlib import ExitStack
@@ -17,6 +18,7 @@ from .bounded import expand, limit_of, zstd_file
 from .cut_zip import unpack_cut
 
 GZIP_MAGIC, ZSTD_MAGIC, ZIP_MAGIC = b"\x1f\x8b", b"\x28\xb5\x2f\xfd", b"PK\x03\x04"
+TAR_MAGIC, TAR_AT = b"ustar", 257
 # UTF-32 first, because its mark begins like that of UTF-16.
 MARKS = {
     codecs.BOM_UTF32_LE: "utf-32", codecs.BOM_UTF32_BE: "utf-32", codecs.BOM_UTF16_LE: "utf-16",
@@ -38,7 +40,7 @@ Progress = Callable[[int, int], None]
 def unwrapped(path: Path, stack: ExitStack, notes: Notes, progress: Progress) -> Path:
     """`path`, or an expanded copy that lives as long as `stack`: a file, or a folder for the parts of a bag.
 
-    Raises ValueError if nothing can be expanded, if it would grow beyond the limit, or if a zip has several recordings.
+    Raises ValueError if nothing can be expanded, if it would grow beyond the limit, or if it has several recordings.
     """
     name = path.name
     for _ in range(MOST_LAYERS):
@@ -50,6 +52,8 @@ def unwrapped(path: Path, stack: ExitStack, notes: Notes, progress: Progress) ->
             path = _stream(path, head, name, stack, notes, progress)
         elif encoding := _encoding(head):
             path = _utf8(path, encoding, stack)
+        elif head[TAR_AT : TAR_AT + len(TAR_MAGIC)] == TAR_MAGIC:
+            path = _untarred(path, name, stack, notes)
         elif head.startswith(ZIP_MAGIC) and not _is_arrays(head):
             unzipped = _unzipped(path, name, stack, notes, progress)
             if unzipped is None:
@@ -137,6 +141,31 @@ def _unzipped(path: Path, name: str, stack: ExitStack, notes: Notes, progress: P
     return folder if len(parts) > 1 else next(folder.iterdir())
 
 
+def _untarred(path: Path, name: str, stack: ExitStack, notes: Notes) -> Path:
+    """The recording in a tar file, as far as it is there."""
+    folder = _target(path, stack, "bag")
+    folder.mkdir()
+    with tarfile.open(path, "r:") as archive:
+        try:
+            for _ in archive:
+                pass
+        except (tarfile.TarError, OSError) as error:
+            text = f"The tar file is incomplete or damaged ({str(error).rstrip('.')}); what could be unpacked was read."
+            notes.notice("breaks off", text)
+        # A file that is there twice has been replaced.
+        entries = {entry.name: entry for entry in archive.members if entry.isfile() and not _is_hidden(entry.name)}
+        parts = _chosen(list(entries), name)
+        left = limit_of(path.stat().st_size)
+        for part in parts:
+            packed = archive.extractfile(entries[part])
+            assert packed is not None
+            target = folder / PurePosixPath(part.replace("\\", "/")).name
+            why = expand(packed, target, f"{part} in {name}", left)
+            left -= target.stat().st_size
+            tell_break(why, target, f"{part} in {name}", "tar", notes)
+    return folder if len(parts) > 1 else next(folder.iterdir())
+
+
 def _cut(path: Path, name: str, stack: ExitStack, notes: Notes, why: str) -> Path | None:
     """The recording in a zip that breaks off, as far as it is there."""
     folder = _target(path, stack, "bag")
@@ -177,5 +206,5 @@ def _chosen(entries: list[str], name: str) -> list[str]:
         return found
     listed = ", ".join(found[:MOST_NAMED])
     more = f" and {len(found) - MOST_NAMED} more" if len(found) > MOST_NAMED else ""
-    what = f"has several files that may be recordings: {listed}{more}; unzip it and open one" if found else "is empty"
+    what = f"has several files that may be recordings: {listed}{more}; unpack it and open one" if found else "is empty"
     raise ValueError(f"{name} {what}.")

@@ -78,6 +78,7 @@ MAGIC = {
     "failure pack": b"PK\x03\x04" + b"\0" * 22 + b"\x0c\0\0\0lineseg.json",
     "NPZ": b"PK\x03\x04" + b"\0" * 22 + b"\x0a\0\0\0ranges.npy",
     "NPY": b"\x93NUMPY\x01\0",
+    "point cloud": b"# .PCD v.7 - Point Cloud Data file format\nVERSION .7\nFIELDS x y z\n",
     "CARMEN log": b"# " + b"x" * 80 + b"\nODOM 0 0 0 0 0 0 1 h 1\n",
     "Player log": b"## Player version 3.0.2\n",
     "JSON": b'{"ranges": [',

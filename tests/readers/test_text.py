@@ -151,7 +151,7 @@ def test_a_row_that_breaks_off_is_skipped_and_named(text):
 @pytest.mark.parametrize(
     ("options", "sentence"),
     [
-        ({"unit": "ft"}, "unit is 'ft'"),
+        ({"unit": "yd"}, "unit is 'yd'"),
         ({"angle_increment": 0.0}, "one ray"),
         ({"skip_columns": -1}, "never negative"),
         ({"angle_min": np.inf}, "finite"),

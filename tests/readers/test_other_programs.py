@@ -1,0 +1,159 @@
+"""One room as many programs write it: each file opens as that room, or says what it is and the way on."""
+
+from __future__ import annotations
+
+import gzip
+import io
+import json
+import tarfile
+
+import numpy as np
+import pytest
+
+from lineseg import open_recording
+
+DEGREES = np.arange(360.0)
+BEAMS, LOW, STEP = 541, np.deg2rad(-135), np.deg2rad(0.5)
+SIDES = (-2.1, 3.4, -1.6, 2.3)  # of the room, around the laser
+
+
+def room(bearings):
+    """Ranges in a room without furniture."""
+    x, y = np.cos(bearings), np.sin(bearings)
+    left, right, low, high = SIDES
+    with np.errstate(divide="ignore"):
+        return np.minimum(np.abs(np.where(x > 0, right, left) / x), np.abs(np.where(y > 0, high, low) / y))
+
+
+TURN = room(np.deg2rad(DEGREES))
+VIEW = LOW + STEP * np.arange(BEAMS)
+WIDE = room(VIEW)
+POINTS = np.column_stack((TURN * np.cos(np.deg2rad(DEGREES)), TURN * np.sin(np.deg2rad(DEGREES)), 0 * TURN))
+
+
+def rows(form, *columns):
+    return "".join(form.format(*row) + "\n" for row in zip(*columns, strict=True))
+
+
+def pcd(kind):
+    size = len(POINTS)
+    head = "# .PCD v.7 - Point Cloud Data file format\nVERSION .7\nFIELDS x y z intensity\nSIZE 4 4 4 1\nTYPE F F F U\n"
+    head += f"COUNT 1 1 1 1\nWIDTH {size}\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS {size}\nDATA {kind}\n"
+    if kind == "ascii":
+        return (head + rows("{:.5f} {:.5f} {:.5f} 9", *POINTS.T)).encode()
+    table = np.zeros(size, [("x", "<f4"), ("y", "<f4"), ("z", "<f4"), ("i", "u1")])
+    table["x"], table["y"] = POINTS[:, 0], POINTS[:, 1]
+    return head.encode() + table.tobytes()
+
+
+def ply(kind):
+    head = f"ply\nformat {kind} 1.0\nelement vertex {len(POINTS)}\n"
+    head += "".join(f"property float {axis}\n" for axis in "xyz") + "element face 0\nend_header\n"
+    return head.encode() + (rows("{} {} {}", *POINTS.T).encode() if kind == "ascii" else POINTS.astype(">f4").tobytes())
+
+
+def tarred(files, mode="w:"):
+    packed = io.BytesIO()
+    with tarfile.open(fileobj=packed, mode=mode) as archive:
+        for name, data in files.items():
+            entry = tarfile.TarInfo(name)
+            entry.size = len(data)
+            archive.addfile(entry, io.BytesIO(data))
+    return packed.getvalue()
+
+
+def arrays(**given):
+    packed = io.BytesIO()
+    np.savez(packed, **given)
+    return packed.getvalue()
+
+
+def gazebo(number):
+    head = f"header {{\n  stamp {{\n    sec: {number}\n    nsec: 5\n  }}\n}}\n"
+    head += f'frame: "laser"\nangle_min: {LOW}\nangle_max: {-LOW}\nangle_step: {STEP}\nrange_min: 0.1\nrange_max: 30\n'
+    return head + rows("ranges: {}", WIDE) + rows("intensities: {}", WIDE)
+
+
+TABLE = ("angle_deg,distance_mm\n" + rows("{:.0f},{:.0f}", DEGREES, 1000 * TURN)).encode()
+LISTED = ", ".join(f"{value:.4f}" for value in WIDE)
+LONG = "scan,beam,range_mm\n" + "".join(rows(f"{scan},{{}},{{:.0f}}", range(BEAMS), 1000 * WIDE) for scan in range(3))
+ARDUINO = rows("angle={:.0f} dist={:.1f}cm", DEGREES, 100 * TURN)
+NEATO = "GetLDSScan\r\nAngleInDegrees,DistInMM,Intensity,ErrorCodeHEX\r\n"
+NEATO += rows("{:.0f},{:.0f},47,0", DEGREES, 1000 * TURN) + "ROTATION_SPEED,5.10\r\n"
+NAMED = "TimeStamp;" + ";".join(f"{angle:.2f}°" for angle in np.rad2deg(VIEW)) + "\n"
+NAMED += "".join(f"12:34:5{at}.100;" + ";".join(f"{1000 * r:.0f}" for r in WIDE) + "\n" for at in range(3))
+OF_DAY = "".join(f"12:34:5{at}.250," + ",".join(f"{r:.4f}" for r in WIDE) + "\n" for at in range(3))
+KEYED = [{"time_s": at / 10, "angles_deg": np.rad2deg(VIEW).tolist(), "dist_m": WIDE.tolist()} for at in range(3)]
+
+FILES = {
+    "cloud.pcd": (pcd("ascii"), 1, 360),
+    "binary.pcd": (pcd("binary"), 1, 360),
+    "cloud.ply": (ply("ascii"), 1, 360),
+    "binary.ply": (ply("binary_big_endian"), 1, 360),
+    "one.tar": (tarred({"run/README.md": b"by me", "run/scan.csv": TABLE}), 1, 360),
+    "one.tgz": (gzip.compress(tarred({"run/scan.csv": TABLE})), 1, 360),
+    "long.csv": (LONG.encode(), 3, BEAMS),
+    "keyed.json": (json.dumps({"scans": KEYED}).encode(), 3, BEAMS),
+    "arduino.log": (ARDUINO.encode(), 1, 360),
+    "neato.txt": (NEATO.encode(), 1, 360),
+    "angles_as_names.csv": (NAMED.encode(), 3, BEAMS),
+    "time_of_day.csv": (OF_DAY.encode(), 3, BEAMS),
+    "gazebo.txt": ("\n".join(map(gazebo, range(3))).encode(), 3, BEAMS),
+    "one.yaml": (f"angle_min: {LOW}\nangle_increment: {STEP}\nranges: [{LISTED}]\n".encode(), 1, BEAMS),
+    "one.toml": (f"[scan]\nangle_min = {LOW}\nangle_increment = {STEP}\nranges = [{LISTED}]\n".encode(), 1, BEAMS),
+    "inches.csv": (("angle_deg,distance_in\n" + rows("{},{}", DEGREES, TURN / 0.0254)).encode(), 1, 360),
+    "odd.npz": (arrays(lidar=np.array([WIDE] * 3), theta=VIEW, t=np.arange(3) / 10), 3, BEAMS),
+    "cut.npz": (arrays(angle_min=LOW, angle_increment=STEP, ranges=np.array([WIDE] * 5))[: -BEAMS * 8], 4, BEAMS),
+}
+TIMED = ("keyed.json", "angles_as_names.csv", "time_of_day.csv", "gazebo.txt", "odd.npz")
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_the_room_is_read_from_the_files_of_other_programs(tmp_path, name):
+    data, scans, beams = FILES[name]
+    (tmp_path / name).write_bytes(data)
+    recording = open_recording(tmp_path / name)
+    assert (len(recording), recording.beams) == (scans, (beams, beams))
+    points = recording[0].xy
+    assert [*points.min(axis=0), *points.max(axis=0)] == pytest.approx(
+        [SIDES[0], SIDES[2], SIDES[1], SIDES[3]], abs=0.03
+    )
+    assert recording.stamps.any() == (name in TIMED)
+    if "cut" in name:
+        assert "only 4 are there" in recording.account.notices[0].text
+
+
+@pytest.mark.parametrize(
+    ("name", "data", "sentence"),
+    [
+        ("a.mat", b"MATLAB 5.0 MAT-file, Platform: GLNXA64" + b"\0" * 90, r"is a MATLAB file; load it with scipy"),
+        (
+            "a.xlsx",
+            b"PK\x03\x04" + b"\0" * 26 + b"[Content_Types].xml",
+            "is a workbook or document; save its table as CSV",
+        ),
+        ("a.pkl", b"\x80\x04\x95", "is a Python pickle"),
+        ("a.csv", b"<!doctype HTML><p>404", "is a web page, not the file behind it; download the file itself"),
+        ("a.txt", b"\x02sRA LMDscandata 1 1 89A27F 0", "telegrams of a SICK laser.*record the scans with"),
+        ("a.tar", tarred({"a.csv": TABLE, "b.csv": TABLE}), r"a\.tar has several files.*a\.csv, b\.csv; unpack it"),
+        ("a.pcd", pcd("binary").replace(b"DATA binary", b"DATA binary_compressed"), "pcl_convert_pcd_ascii_binary"),
+    ],
+)
+def test_a_file_of_another_kind_is_called_by_its_name_with_the_way_on(tmp_path, name, data, sentence):
+    (tmp_path / name).write_bytes(data)
+    with pytest.raises(ValueError, match=sentence):
+        open_recording(tmp_path / name)
+
+
+def test_a_cloud_of_many_planes_is_no_scan(tmp_path):
+    path = tmp_path / "room.pcd"
+    path.write_bytes(pcd("ascii").replace(b" 0.00000 9", b" 1.50000 9", 180))
+    with pytest.raises(ValueError, match=r"from 0 to 1\.5 m in height, but a scan lies in one plane; cut a slice"):
+        open_recording(path)
+
+
+def test_a_list_over_many_lines_takes_time_in_proportion_to_its_length(tmp_path):
+    path = tmp_path / "open.txt"
+    path.write_text("header {\n" + "value 1.5 of a list that is never closed\n" * 40_000)
+    with pytest.raises(ValueError, match="no list of numbers"):
+        open_recording(path)
