@@ -25,7 +25,13 @@ function createRecordings(words, { onOpen, onRecording, onReread }) {
   let current = null;
   /** What the file was taken for. */
   let line = "";
-  const menu = createMenu({ label: text.noRecording, name: text.recording, className: "recording", leaves: true, groups });
+  const menu = createMenu({
+    label: text.noRecording,
+    name: text.recording,
+    className: "recording",
+    leaves: true,
+    groups,
+  });
 
   /** @param {RecordingEntry} entry */
   function item(entry) {
