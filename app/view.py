@@ -151,9 +151,9 @@ class View:
 
     reading: how the file is read, apart from the topic.
     step: the decision that the replay shows, or None for the whole result.
-    lesson: its id, or None; page: of the lesson, from 0. selected: the beam to explain, or None.
-    closeup: whether Learn shows each decision from near by. score: shown in the strip.
-    against: the result to compare with.
+    lesson: its id, or None; page: of the lesson, from 0. selected: the beam to explain, or None; beside: another, to
+    explain why both are in one line, or not. closeup: whether Learn shows each decision from near by.
+    score: shown in the strip. against: the result to compare with.
     weights: of the suspicion, if not the defaults.
     reference: the truth to use if both exist: "labels" made by people, or the "wall" of the recording.
     live: whether to follow the newest frame of a live recording; if not, the recording stays frozen.
@@ -198,6 +198,7 @@ class View:
     lesson: Annotated[Name | None, ViewField(link="lesson", mirrored=True)] = None
     page: Annotated[Count, ViewField(link="page", mirrored=True, reset_by=("lesson",))] = 0
     selected: Annotated[Count | None, ViewField(link="beam", mirrored=True, reset_by=PLACE)] = None
+    beside: Annotated[Count | None, ViewField(link="beside", mirrored=True, reset_by=(*PLACE, "selected"))] = None
     closeup: Annotated[Literal["on", "off"], ViewField(link="closeup", mirrored=True)] = "on"
     camera: Annotated[Literal["plan", "free"], ViewField(link="camera", mirrored=False)] = "plan"
     speed: Annotated[Literal["0.5", "1", "2", "4", "8"], ViewField(link="speed", mirrored=False)] = "1"

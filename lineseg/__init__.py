@@ -17,7 +17,8 @@ Extract lines
     recording, a `Survey`; `covariance`, `covariances` of lines, from the `Noise` of the beams.
 Understand a result
     `trace` it, a `Trace` of `Decision`s with each `TracedLine`, and an `Explanation` of a beam; `what_if`, `WhatIf`:
-    which threshold would change it; `why`, `Remark`: what looks wrong in a frame; `misses`, `Miss`: lines not found.
+    which threshold would change it; `why_apart`: the `Relation` of two beams, in one line or in two, and each `Change`
+    of it; `why`, `Remark`: what looks wrong in a frame; `misses`, `Miss`: lines not found.
 Judge results
     Without truth: `SCORES`, `with_disputes`, `with_stability`, and by `WEIGHTS` the `doubts`, the `suspicion`, the
     frames `worst_first`.
@@ -35,6 +36,7 @@ Declare a method of one's own
 `lineseg.examples` has a small program for each of these.
 """
 
+from .apart import Change, Relation, why_apart
 from .covariance import Noise, covariance, covariances
 from .doubt import SCORES
 from .doubt.misses import Miss, misses
@@ -69,6 +71,7 @@ __all__ = [
     "Account",
     "Agreement",
     "Cancelled",
+    "Change",
     "ConflictError",
     "Decision",
     "Difference",
@@ -87,6 +90,7 @@ __all__ = [
     "Params",
     "Reading",
     "Recording",
+    "Relation",
     "Remark",
     "Scan",
     "Segment",
@@ -125,6 +129,7 @@ __all__ = [
     "true_lines",
     "what_if",
     "why",
+    "why_apart",
     "with_disputes",
     "with_stability",
     "worst_first",

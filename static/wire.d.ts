@@ -71,6 +71,7 @@ export interface ViewPatch {
   lesson?: string | null;
   page?: number;
   selected?: number | null;
+  beside?: number | null;
   closeup?: "on" | "off";
   camera?: "plan" | "free";
   speed?: "0.5" | "1" | "2" | "4" | "8";
@@ -421,10 +422,15 @@ export interface Segment {
   colour: string;
 }
 
-/** A dropped line; check: the threshold that it missed; start, end: its outermost points [m]. */
+/**
+ * A dropped line; check: the threshold that it missed; start, end: its outermost points [m].
+ *
+ * beam: to ask about it, in no segment if possible.
+ */
 export interface Dropped {
   start: [number, number];
   end: [number, number];
+  beam: number;
   first: number;
   last: number;
   points: number;
@@ -784,6 +790,28 @@ export interface WhatIfs {
   method: string;
   params: Record<string, number>;
   changes: WhatIf[];
+}
+
+/** Values of thresholds with which two beams would be parted or joined; first, last: of their line then, or −1. */
+export interface Otherwise {
+  values: Record<string, number>;
+  words: Words;
+  first: number;
+  last: number;
+}
+
+/** Why two beams are in one line or in two; one, other: their segments, or −1. */
+export interface Apart {
+  frame: number;
+  selected: number;
+  beside: number;
+  method: string;
+  params: Record<string, number>;
+  together: boolean;
+  one: number;
+  other: number;
+  words: Words;
+  changes: Otherwise[];
 }
 
 /** One thing that looks wrong in a frame. first, last: the beams concerned, or −1; ghosts: lines that it lacks. */

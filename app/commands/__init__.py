@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 from .bench import bench
 from .compare import compare
+from .explain import explain
 from .extract import extract
 from .info import info
 from .node import node
@@ -20,6 +21,7 @@ COMMANDS: dict[str, Callable[..., None]] = {
     "view": view,
     "node": node,
     "extract": extract,
+    "explain": explain,
     "info": info,
     "params": params,
     "record": record,

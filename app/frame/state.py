@@ -150,15 +150,28 @@ def _segment(segment: Segment, colour: str) -> told.Segment:
 
 
 def _dropped_once(found: Findings) -> list[told.Dropped]:
-    """The dropped lines, without those within another: the same line, grown from another seed."""
+    """The dropped lines, each once: the longest of those that grew over mostly the same points from several seeds."""
     n = len(found.scan)
-    first, last = found.drop_spans
-    more = (last - first) % n
-    # Of equal ones the first counts as the longest.
-    inside = (first[:, None] - first) % n + more[:, None] <= more
-    earlier = np.arange(len(first))[:, None] > np.arange(len(first))
-    again = (inside & ((more[:, None] < more) | earlier)).any(axis=1)
-    return _dropped(found, np.flatnonzero(~again))
+    spans, at = np.unique(found.drop_spans, axis=1, return_index=True)
+    first, length = spans[0], (spans[1] - spans[0]) % n + 1
+    ahead = (first - first[:, None]) % n
+    shared = np.maximum(np.minimum(length[:, None], ahead + length) - ahead, 0)
+    shared += np.maximum(np.minimum(length[:, None], ahead + length - n), 0)
+    again = 2 * shared > length[:, None]
+    left, kept = np.ones(len(first), np.bool_), list[int]()
+    for k in np.argsort(-length, kind="stable").tolist():
+        if left[k]:
+            kept.append(k)
+            left &= ~again[:, k]
+    return _dropped(found, np.sort(at[kept]))
+
+
+def _asked(found: Findings, first: int, last: int) -> int:
+    """A beam of a dropped line, in no segment if possible."""
+    beams = found.trace.beams(first, last)
+    free = beams[found.extraction.labels[beams] < 0]
+    asked = free if len(free) else beams
+    return int(asked[len(asked) // 2]) if len(asked) else first
 
 
 def _dropped(found: Findings, which: NDArray[np.intp]) -> list[told.Dropped]:
@@ -171,11 +184,15 @@ def _dropped(found: Findings, which: NDArray[np.intp]) -> list[told.Dropped]:
     lengths = np.where(np.isfinite(lengths), lengths, np.hypot(dx, dy))
     points = np.maximum(rows["last"] - rows["first"] + 1, 0)
     spans, columns = found.drop_spans[:, which].tolist(), (points, lengths, rows["check"])
-    lines = zip(ends.tolist(), *spans, *(each.tolist() for each in columns), found.trace.texts(indices), strict=True)
+    asked = [_asked(found, first, last) for first, last in zip(*spans, strict=True)]
+    lines = zip(
+        ends.tolist(), *spans, asked, *(each.tolist() for each in columns), found.trace.texts(indices), strict=True
+    )
     return [
         {
             "start": (start[0], start[1]),
             "end": (end[0], end[1]),
+            "beam": beam,
             "first": first,
             "last": last,
             "points": many,
@@ -183,7 +200,7 @@ def _dropped(found: Findings, which: NDArray[np.intp]) -> list[told.Dropped]:
             "check": checks[check],
             "text": text,
         }
-        for (start, end), first, last, many, length, check, text in lines
+        for (start, end), first, last, beam, many, length, check, text in lines
     ]
 
 

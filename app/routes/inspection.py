@@ -5,16 +5,36 @@ from __future__ import annotations
 from fastapi import FastAPI
 from starlette.exceptions import HTTPException
 
-from lineseg import Remark, Thresholds, what_if, why
+from lineseg import Relation, Remark, Thresholds, what_if, why, why_apart
 
 from ..frame.judge import Reference, agreement_told, judged_recording
 from ..session.sessions import Sessions
 from ..shelf.label_files import LabelFiles
-from ..told.answers import Finding, Truth, WhatIfs, Whys
+from ..told.answers import Apart, Finding, Truth, WhatIfs, Whys
 from ..told.words import words_of
+from ..view import View
 
 # Largest number of rows in view in the list of frames.
 MOST_ROWS = 60
+
+
+def _apart(view: View, selected: int, beside: int, relation: Relation) -> Apart:
+    kind = type(view.params)
+    return {
+        "frame": view.frame,
+        "selected": selected,
+        "beside": beside,
+        "method": view.method,
+        "params": view.params.numbers(),
+        "together": relation.together,
+        "one": relation.one,
+        "other": relation.other,
+        "words": words_of(relation.text, kind),
+        "changes": [
+            {"values": each.values, "words": words_of(each.text, kind), "first": each.first, "last": each.last}
+            for each in relation.changes
+        ],
+    }
 
 
 def _finding(remark: Remark, params: type[Thresholds]) -> Finding:
@@ -42,6 +62,19 @@ def add_inspection(app: FastAPI, sessions: Sessions, files: LabelFiles) -> None:
             "params": view.params.numbers(),
             "changes": list(changes),
         }
+
+    @app.get("/api/apart")
+    def why_two_beams_are_apart(session: str = "") -> Apart:
+        shown = sessions.shown(session)
+        view = shown.view
+        if view.selected is None or view.beside is None:
+            raise HTTPException(400, "two beams are compared; select another one beside the selected one")
+        return _apart(
+            view,
+            view.selected,
+            view.beside,
+            why_apart(shown.found.scan, view.selected, view.beside, view.params, view.method),
+        )
 
     @app.get("/api/why")
     def what_looks_wrong(session: str = "", frames: str = "") -> Whys:

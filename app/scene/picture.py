@@ -77,7 +77,8 @@ def picture(
         points |= of_decision[0]
         lines |= of_decision[1]
     if view.selected is not None:
-        points["selected"], lines["selected ray"] = selected(found.scan, view.selected, theme)
+        chosen = [view.selected] if view.beside is None else [view.selected, view.beside]
+        points["selected"], lines["selected ray"] = selected(found.scan, chosen, theme)
     return Picture(points, lines, bounds)
 
 
@@ -190,12 +191,12 @@ def invalid_beams(scan: Scan, bounds: Bounds, theme: Theme) -> Lines:
     return lines_between(0.96 * radius * toward, radius * toward, theme.invalid)
 
 
-def selected(scan: Scan, beam: int, theme: Theme) -> tuple[Points, Lines]:
-    """The explained beam, from the laser to its point, or far out if it has no return."""
-    point = scan.xy[beam]
-    bearing = float(scan.bearings[beam])
-    end = point if scan.valid[beam] else (FAR * math.cos(bearing), FAR * math.sin(bearing))
-    return points_at(point, theme.candidate), lines_between((0.0, 0.0), end, theme.candidate)
+def selected(scan: Scan, beams: Sequence[int], theme: Theme) -> tuple[Points, Lines]:
+    """The explained beams, from the laser to their points, or far out if they have no return."""
+    points, bearings = scan.xy[beams], scan.bearings[beams]
+    far = FAR * np.column_stack((np.cos(bearings), np.sin(bearings)))
+    ends = np.where(scan.valid[beams][:, None], points, far)
+    return points_at(points, theme.candidate), lines_between(np.zeros_like(ends), ends, theme.candidate)
 
 
 def truth(recording: Recording, frame: int, theme: Theme) -> Lines:

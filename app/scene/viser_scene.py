@@ -65,14 +65,14 @@ HEIGHTS = {name: LEVEL * level for level, name in enumerate([
 ])}  # fmt: skip
 
 Change = Callable[[dict[str, Any]], None]
-Pick = Callable[[tuple[float, float], float], None]
+Pick = Callable[[tuple[float, float], float, bool], None]
 
 
 class ViserScene:
     """Draws Pictures; clicks and viser's own sliders become changes of the View.
 
     change: called with a patch of the View. pick: called with the clicked point of the plane
-    z = 0 and a radius around it [m].
+    z = 0, a radius around it [m], and whether Shift was held.
     Both are called in viser's threads. loop: see PortlessServer. Starting blocks for a moment, so start it in a thread.
     """
 
@@ -212,12 +212,15 @@ class ViserScene:
         return widget
 
     def _listen_to_clicks(self, pick: Pick) -> None:
-        @self._server.scene.on_click()
-        def _(event: viser.SceneClickEvent) -> None:
+        def clicked(event: viser.SceneClickEvent) -> None:
             x, y, z = event.ray_origin
             dx, dy, dz = event.ray_direction
             if abs(dz) > 1e-9 and z / -dz > 0:
-                pick((x - dx * z / dz, y - dy * z / dz), PICK_PIXELS * self._metres_per_pixel)
+                at = (x - dx * z / dz, y - dy * z / dz)
+                pick(at, PICK_PIXELS * self._metres_per_pixel, event.modifier == "shift")
+
+        self._server.scene.on_click()(clicked)
+        self._server.scene.on_click(modifier="shift")(clicked)
 
     def _follow_camera(self, client: viser.ClientHandle) -> None:
         """Keep the size of points on the screen at any zoom."""

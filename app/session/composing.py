@@ -100,9 +100,9 @@ def _inside(view: View, recording: Recording) -> View:
     """The View with its frame and beam limited to the recording; of frames that were left out, the nearest one."""
     frame = recording.position(view.frame)
     beams = int(recording.offsets[frame + 1] - recording.offsets[frame])
-    selected = view.selected if view.selected is not None and 0 <= view.selected < beams else None
-    number = recording.number(frame)
-    return view if (number, selected) == (view.frame, view.selected) else replace(view, frame=number, selected=selected)
+    selected, beside = (each if each is not None and each < beams else None for each in (view.selected, view.beside))
+    inside = replace(view, frame=recording.number(frame), selected=selected, beside=beside)
+    return view if inside == view else inside
 
 
 def _inside_trace(view: View, found: Findings) -> View:

@@ -228,12 +228,16 @@ class Session:
         except ValueError as error:
             log.debug("the scene sent an invalid change: %s", error)
 
-    def _pick(self, point: tuple[float, float], radius: float) -> None:
-        """Select the beam whose point is nearest to a click, or none if no point is near."""
+    def _pick(self, point: tuple[float, float], radius: float, beside: bool) -> None:
+        """Select the beam whose point is nearest to a click, or none if no point is near; or another beside it."""
         shown = self.shown
         if shown is None:
             return
-        self._change_from_scene({"selected": beam_near(shown.found.scan, point, radius)})
+        beam = beam_near(shown.found.scan, point, radius)
+        if beside and shown.view.selected is not None:
+            self._change_from_scene({"beside": beam})
+        else:
+            self._change_from_scene({"selected": beam})
 
     def _work(self, request: Request) -> None:
         with self._lock:

@@ -36,6 +36,30 @@ class WhatIfs(TypedDict):
     changes: list[WhatIf]
 
 
+class Otherwise(TypedDict):
+    """Values of thresholds with which two beams would be parted or joined; first, last: of their line then, or −1."""
+
+    values: Params
+    words: Words
+    first: int
+    last: int
+
+
+class Apart(TypedDict):
+    """Why two beams are in one line or in two; one, other: their segments, or −1."""
+
+    frame: int
+    selected: int
+    beside: int
+    method: str
+    params: Params
+    together: bool
+    one: int
+    other: int
+    words: Words
+    changes: list[Otherwise]
+
+
 class Finding(TypedDict):
     """One thing that looks wrong in a frame. first, last: the beams concerned, or −1; ghosts: lines that it lacks."""
 

@@ -52,10 +52,14 @@ class Segment(TypedDict):
 
 
 class Dropped(TypedDict):
-    """A dropped line; check: the threshold that it missed; start, end: its outermost points [m]."""
+    """A dropped line; check: the threshold that it missed; start, end: its outermost points [m].
+
+    beam: to ask about it, in no segment if possible.
+    """
 
     start: Point
     end: Point
+    beam: int
     first: int
     last: int
     points: int

@@ -38,7 +38,7 @@ export function mountScene(
   const pointing = createPointing(page, holder, stage, { onLight, onThreshold, label: text.stage.beam });
   const explanation = createExplanation(text.explanation, stage, pointing, {
     onClose: () => page.change({ selected: null }),
-    onChange: (name, value) => page.change({ params: { [name]: value } }),
+    onChange: (params) => page.change({ params }),
   });
   const tools = h("div", { class: "stage-tools" }, ...camera.buttons, layers.button);
   holder.append(key.element, tools, layers.list, explanation.element);

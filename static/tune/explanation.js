@@ -3,7 +3,7 @@ import { h, setText } from "../widgets/dom.js";
 import { iconButton } from "../widgets/icon.js";
 import { withUnit } from "../widgets/scale.js";
 import { tooltip } from "../widgets/tooltip.js";
-import { fillWords, pointAt } from "../widgets/words.js";
+import { fillWords, plain, pointAt } from "../widgets/words.js";
 import { createVersus } from "../widgets/versus.js";
 import { comparison } from "../stepping/comparison.js";
 import { symbol } from "./symbol.js";
@@ -17,7 +17,7 @@ import { symbol } from "./symbol.js";
  * @param {{project: (x: number, y: number) => [number, number] | null, onMove: (listener: () => void) => void}} stage
  *   project: position of a point on the stage [px]
  * @param {import("../widgets/words.js").Pointing} pointing
- * @param {{onClose: () => void, onChange: (name: string, value: number) => void}} handlers
+ * @param {{onClose: () => void, onChange: (values: import("../wire.js").Params) => void}} handlers
  */
 export function createExplanation(text, stage, pointing, { onClose, onChange }) {
   const beam = h("span", { class: "phase" });
@@ -44,20 +44,18 @@ export function createExplanation(text, stage, pointing, { onClose, onChange }) 
   let knobs = [];
   stage.onMove(place);
 
-  /** Whether the card would hide this point at its usual place. @param {number} left @param {number} top */
-  function isUnder(left, top) {
-    const holder = element.offsetParent;
-    if (!holder) return false;
-    const beside = Math.abs(left - holder.clientWidth / 2) > element.offsetWidth / 2;
-    return !beside && top > holder.clientHeight - element.offsetHeight - 48;
-  }
-
   /** Puts the card where it does not hide its point. It stays there until another point is explained. */
   function place() {
     const spot = shown?.at && !placed ? stage.project(...shown.at) : null;
     if (!spot) return;
     placed = true;
-    element.classList.toggle("out-of-the-way", isUnder(...spot));
+    element.classList.toggle("out-of-the-way", isUnder(element, ...spot));
+  }
+
+  /** @param {Offer[]} offers @param {string} words before them */
+  function offer(offers, words) {
+    const buttons = offers.map((each) => changeButton(each, knobs, pointing, onChange));
+    changes.replaceChildren(h("span", { class: "muted" }, words), ...buttons);
   }
 
   return {
@@ -67,40 +65,72 @@ export function createExplanation(text, stage, pointing, { onClose, onChange }) 
       methods = next;
     },
     /** @param {import("../wire.js").State} state */
-    setState({ explanation, method }) {
+    setState({ explanation, method, view }) {
       knobs = (methods.find(({ name }) => name === method) ?? methods[0]).knobs;
       element.hidden = !explanation;
       if (explanation?.beam !== shown?.beam) placed = false;
       shown = explanation;
       if (!explanation) return;
-      setText(beam, text.beam(explanation.beam));
-      fillWords(sentence, explanation.words, pointing);
-      versus.set(comparison(explanation, knobs));
+      const beside = view.beside ?? null;
+      setText(beam, beside === null ? text.beam(explanation.beam) : text.pair(explanation.beam, beside));
+      if (beside === null) fillWords(sentence, explanation.words, pointing);
+      versus.set(beside === null ? comparison(explanation, knobs) : null);
+      versus.element.hidden = beside !== null;
       place();
     },
     /** Buttons for the changes that would give another answer. @param {import("../wire.js").WhatIf[]} found */
     setChanges(found) {
-      const buttons = found.flatMap((change) => {
-        const knob = knobs.find((each) => each.name === change.name);
-        return knob && change.value !== null ? [changeButton(change, change.value, knob, { pointing, onChange })] : [];
-      });
+      const offers = offersOf(found);
+      offer(offers, offers.length ? text.changes : text.noChange);
       changes.hidden = !found.length;
-      changes.replaceChildren(h("span", { class: "muted" }, buttons.length ? text.changes : text.noChange), ...buttons);
+    },
+    /** Why both selected beams are in one line, or in two. @param {import("../wire.js").Apart | null} apart null: not known yet, or not asked */
+    setApart(apart) {
+      if (!apart && !versus.element.hidden) return;
+      fillWords(sentence, apart?.words ?? [text.pending], pointing);
+      changes.hidden = !apart;
+      if (!apart) return;
+      const kind = apart.together ? "part" : "join";
+      offer(apart.changes.map(offerOf), apart.changes.length ? text[kind] : text.nothing[kind]);
     },
   };
 }
 
+/** Whether a card would hide this point at its usual place. @param {HTMLElement} card @param {number} left @param {number} top */
+function isUnder(card, left, top) {
+  const holder = card.offsetParent;
+  if (!holder) return false;
+  const beside = Math.abs(left - holder.clientWidth / 2) > card.offsetWidth / 2;
+  return !beside && top > holder.clientHeight - card.offsetHeight - 48;
+}
+
+/** Values that give another answer; beams: the line that there would be. @typedef {{values: import("../wire.js").Params, tip: string, beams?: [number, number]}} Offer */
+
+/** @param {import("../wire.js").WhatIf[]} found @returns {Offer[]} */
+function offersOf(found) {
+  return found.flatMap(({ name, value, segment, first, last, text: tip }) =>
+    value === null ? [] : [{ values: { [name]: value }, tip, beams: segment >= 0 ? [first, last] : undefined }],
+  );
+}
+
+/** @param {import("../wire.js").Otherwise} change @returns {Offer} */
+function offerOf({ values, words, first, last }) {
+  return { values, tip: plain(words), beams: first >= 0 ? [first, last] : undefined };
+}
+
 /**
- * Sets the value that gives another answer; while it is pointed at, the line that the beam would be in is lit.
- * @param {import("../wire.js").WhatIf} change @param {number} value @param {Knob} knob
- * @param {{pointing: import("../widgets/words.js").Pointing, onChange: (name: string, value: number) => void}} handlers
+ * Sets these values; while it is pointed at, the line that there would be is lit.
+ * @param {Offer} offer @param {Knob[]} knobs @param {import("../widgets/words.js").Pointing} pointing
+ * @param {(values: import("../wire.js").Params) => void} onChange
  */
-function changeButton({ name, segment, first, last, text }, value, knob, { pointing, onChange }) {
-  const onclick = () => onChange(name, value);
-  const props = { type: "button", class: "button what-if-change", onclick };
-  const button = h("button", props, symbol(knob.symbol), withUnit(knob, value));
-  tooltip(button, text);
-  const beams = segment >= 0 ? /** @type {[number, number]} */ ([first, last]) : undefined;
-  pointAt(button, { text: knob.symbol, threshold: name, beams }, pointing);
+function changeButton({ values, tip, beams }, knobs, pointing, onChange) {
+  const parts = Object.entries(values).flatMap(([name, value]) => {
+    const knob = knobs.find((each) => each.name === name);
+    return knob ? [symbol(knob.symbol), h("span", {}, withUnit(knob, value))] : [];
+  });
+  const onclick = () => onChange(values);
+  const button = h("button", { type: "button", class: "button what-if-change", onclick }, ...parts);
+  tooltip(button, tip);
+  pointAt(button, { text: tip, threshold: Object.keys(values)[0], beams }, pointing);
   return button;
 }

@@ -5,18 +5,25 @@ import { LineTable } from "./line_table.js";
 /** @typedef {import("../wire.js").State} State */
 /** @typedef {import("../wire.js").Segment} Segment */
 /** @typedef {import("../wire.js").Dropped} Dropped */
+/** onSelect: a beam of a dropped line; onSegment: a segment, perhaps beside the selected one. @typedef {{onSelect: (beam: number) => void, onSegment: (segment: Segment, beside: boolean) => void}} Handlers */
 
 /**
  * The segments of the frame and the dropped candidates; a click on one asks why.
  * @param {typeof import("../text/page.js").pageText.lines} text
- * @param {(beam: number) => void} onSelect
+ * @param {Handlers} handlers
  */
-export function createLines(text, onSelect) {
-  const { beams, points, length, rms, by } = text.columns;
-  const rows = { onSelect, ask: text.ask };
-  const kept = new LineTable(text.segments, [beams, points, length, rms], text.none, rows);
-  const dropped = new LineTable(text.dropped, [beams, points, length, by], text.noneDropped, rows);
-  const element = h("div", { class: "lines" }, kept.element, dropped.element);
+export function createLines(text, { onSelect, onSegment }) {
+  const { beams, points, length, rms, at, angle, by } = text.columns;
+  const kept = new LineTable(text.segments, [beams, points, length, rms, at, angle], text.none, (k, beside) => {
+    const segment = state?.segments[k];
+    if (segment) onSegment(segment, beside);
+  });
+  const dropped = new LineTable(text.dropped, [beams, points, length, at, by], text.noneDropped, (k) => {
+    const line = state?.dropped[k];
+    if (line) onSelect(line.beam);
+  });
+  const hint = h("p", { class: "hint" }, text.hint);
+  const element = h("div", { class: "lines" }, kept.element, hint, dropped.element);
   /** @type {State | null} */
   let state = null;
   /** @type {Map<string, string>} */
@@ -24,27 +31,24 @@ export function createLines(text, onSelect) {
 
   function show() {
     if (!state || element.hidden) return;
-    const { segments, dropped: candidates, beams: n, explanation, selected } = state;
-    const inside = (/** @type {{first: number, last: number}} */ line) => selected !== null && covers(line, selected);
+    const { segments, dropped: candidates, explanation, view } = state;
+    const chosen = [explanation?.beam, view.beside].filter((beam) => beam !== undefined && beam !== null);
+    const inside = (/** @type {{first: number, last: number}} */ line) => chosen.some((beam) => covers(line, beam));
+    hint.hidden = !segments.length;
     kept.set(
-      segments.map((line, k) => ({
-        cells: [`${line.first}–${line.last}`, String(line.points), text.m(line.length), text.mm(line.rms)],
-        current: explanation?.segment === k,
-        beam: middle(line, n),
-        note: "",
+      segments.map((line) => ({
+        cells: [...cellsOf(line, text), text.mm(line.rms), middleOf(line, text), text.angle(turnOf(line))],
+        colour: line.colour,
+        current: inside(line),
+        note: text.ask,
       })),
     );
     dropped.set(
       candidates.map((line) => ({
-        cells: [
-          `${line.first}–${line.last}`,
-          String(line.points),
-          text.m(line.length),
-          symbols.get(line.check) ?? line.check,
-        ],
-        current: inside(line) && explanation?.segment === -1,
-        beam: middle(line, n),
-        note: line.text,
+        cells: [...cellsOf(line, text), middleOf(line, text), symbols.get(line.check) ?? line.check],
+        colour: "",
+        current: explanation?.segment === -1 && inside(line),
+        note: line.text || text.askDropped,
       })),
     );
   }
@@ -65,13 +69,25 @@ export function createLines(text, onSelect) {
   };
 }
 
+/** @typedef {typeof import("../text/page.js").pageText.lines} Text */
+
+/** @param {Segment | Dropped} line @param {Text} text */
+function cellsOf({ first, last, points, length }, text) {
+  return [`${first}–${last}`, String(points), text.m(length)];
+}
+
+/** @param {Segment | Dropped} line @param {Text} text */
+function middleOf({ start, end }, text) {
+  return text.at((start[0] + end[0]) / 2, (start[1] + end[1]) / 2);
+}
+
+/** The direction of a segment, from −90° to 90°. @param {Segment} segment */
+function turnOf({ start, end }) {
+  const turn = (Math.atan2(end[1] - start[1], end[0] - start[0]) * 180) / Math.PI;
+  return turn > 90 ? turn - 180 : turn <= -90 ? turn + 180 : turn;
+}
+
 /** @param {{first: number, last: number}} line @param {number} beam */
 function covers({ first, last }, beam) {
   return first <= last ? first <= beam && beam <= last : beam >= first || beam <= last;
-}
-
-/** The middle beam of a line, which may cross the seam of a full circle. @param {{first: number, last: number}} line @param {number} beams */
-function middle({ first, last }, beams) {
-  const span = last >= first ? last - first : last + beams - first;
-  return (first + Math.floor(span / 2)) % beams;
 }

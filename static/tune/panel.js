@@ -7,7 +7,7 @@ import { Thresholds } from "./thresholds.js";
 /** @typedef {import("../wire.js").Method} Method */
 /** @typedef {import("../wire.js").State} State */
 /** @typedef {{name: string, label: string, content: HTMLElement}} Page */
-/** @typedef {import("./thresholds.js").Handlers & {onSelect: (beam: number) => void}} Handlers */
+/** @typedef {import("./thresholds.js").Handlers & import("./lines.js").Handlers} Handlers */
 
 /**
  * @param {HTMLElement} panel
@@ -37,7 +37,7 @@ class Panel {
   constructor(panel, text, handlers, inspecting, tuner) {
     const { tabs } = text.tune;
     this.#thresholds = new Thresholds(text.tune, handlers, tuner.above);
-    this.#lines = createLines(text.lines, handlers.onSelect);
+    this.#lines = createLines(text.lines, handlers);
     this.#tabs = new Tabs([
       ...inspecting.map((page) => ({ ...page, mode: "inspect" })),
       { name: "thresholds", label: tabs.thresholds, content: this.#thresholds.element },

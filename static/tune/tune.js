@@ -1,6 +1,6 @@
 // @ts-check
 // Mode Tune: the panel of thresholds with its pages, the replay, and the effect of changing a threshold.
-import { createWhatIf } from "../inspect/what_if.js";
+import { createAsked } from "../inspect/asked.js";
 import { mountPanel } from "./panel.js";
 import { mountReplay } from "./replay.js";
 import { createTuner } from "./tuner.js";
@@ -26,6 +26,8 @@ export function createTune(page, places, text, { pages, explanation, pointing })
     {
       onParams: (params, gesture) => page.change({ params }, gesture),
       onSelect: (selected) => page.change({ selected }),
+      onSegment: ({ first, last }, beside) =>
+        page.change(beside && page.view.selected !== null ? { beside: first } : { selected: first, beside: last }),
       onUndo: () => page.store.undo(),
       onRedo: () => page.store.redo(),
     },
@@ -37,16 +39,26 @@ export function createTune(page, places, text, { pages, explanation, pointing })
     settled: page.settled,
     pointing,
   });
-  const whatIf = createWhatIf({
+  const whatIf = createAsked({
+    path: "/api/what-if",
+    parts: /** @type {const} */ (["frame", "beam", "method", "params"]),
+    isAsked: ({ selected, beside }) => selected !== null && beside === null,
     session: page.sessionId,
-    onChanges(changes) {
-      panel.setMarks(changes);
-      explanation.setChanges(changes);
+    onAnswer(/** @type {import("../wire.js").WhatIfs | null} */ answer) {
+      panel.setMarks(answer?.changes ?? []);
+      explanation.setChanges(answer?.changes ?? []);
     },
+  });
+  const apart = createAsked({
+    path: "/api/apart",
+    parts: /** @type {const} */ (["frame", "selected", "beside", "method", "params"]),
+    isAsked: ({ beside }) => beside !== null,
+    session: page.sessionId,
+    onAnswer: (/** @type {import("../wire.js").Apart | null} */ answer) => explanation.setApart(answer),
   });
 
   return {
-    parts: [replay, panel, tuner, whatIf],
+    parts: [replay, panel, tuner, whatIf, apart],
     replay,
     panel,
     tuner,

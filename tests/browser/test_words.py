@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from lineseg_app.places import data_folder
 
-from lineseg import open_recording, why
+from lineseg import open_recording, why, why_apart
 
 LIT = ".overlay-lit"
 
@@ -66,6 +66,32 @@ def test_the_selected_row_says_all_and_a_chosen_finding_is_drawn(new_tab, hallwa
     items.nth(chosen).click(position={"x": 4, "y": 4})
     drawn_in(tab, ".overlay-finding circle")
     tab.eventually(lambda: items.nth(chosen).get_attribute("class") == "said-finding chosen", "it is not marked")
+
+
+def test_a_second_point_clicked_with_shift_asks_why_both_are_apart(new_tab, hallway):
+    tab = new_tab("#frame=39&beam=100")
+    card = tab.page.get_by_label("Why")
+    tab.eventually(tab.page.locator("iframe.scene.ready").count, "no scene")
+
+    def ask() -> bool:
+        x, y = hallway[39].xy[470].tolist()
+        at = tab.page.evaluate(f"window.lineseg.project({x}, {y})")
+        box = tab.page.locator("iframe.scene").bounding_box()
+        tab.page.keyboard.down("Shift")
+        tab.page.mouse.click(box["x"] + at[0], box["y"] + at[1])
+        tab.page.keyboard.up("Shift")
+        tab.page.wait_for_timeout(500)
+        return tab.state["view"]["beside"] is not None
+
+    # A click is lost while the scene is not loaded yet.
+    tab.eventually(ask, "no second beam")
+    relation = why_apart(hallway[39], 100, tab.state["view"]["beside"])
+    text = relation.text.replace("_", "")
+    tab.eventually(lambda: text == card.locator(".decision").text_content(), "nothing says why")
+    card.locator(".what-if-change").first.click()
+    joined = tab.until(f"s.params.max_dropout === {relation.changes[0].values['max_dropout']}")
+    assert joined["explanation"]["segment"] == 0
+    tab.eventually(lambda: "is one line" in card.inner_text(), "they are not joined")
 
 
 def test_beam_numbers_are_shown_on_request(new_tab):

@@ -18,7 +18,7 @@ from lineseg_app.commands import COMMANDS
 from lineseg_app.commands.progress import counted, interruptible
 from processes import lineseg
 
-from lineseg import Params, extract
+from lineseg import Params, extract, why_apart
 from lineseg.readers import open_recording
 from lineseg.unfinished import FILES
 from lineseg.writers import params_text
@@ -273,3 +273,13 @@ def test_an_address_that_cannot_be_is_named(run, arguments, sentence):
     code, _, error = run(*arguments, "--no-browser")
     assert code == 2
     assert sentence in error
+
+
+def test_explain_says_why_a_beam_is_in_a_line_and_why_two_beams_are_in_two(run, hall):
+    code, said, _ = run("explain", hall, "1", "300")
+    assert (code, said.splitlines()[0]) == (0, "beam 300 has no return: its range is nan")
+    code, said, _ = run("explain", hall, "1", "20", "--beside", "700")
+    assert code == 0
+    relation = why_apart(open_recording(hall)[1], 20, 700)
+    assert said.splitlines() == [relation.text, *(change.text for change in relation.changes)]
+    assert "there is no frame 7; it has 3, from 0" in run("explain", hall, "7", "20")[2]
