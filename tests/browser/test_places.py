@@ -230,4 +230,4 @@ def test_a_killed_and_restarted_server_is_reconnected_with_the_same_view(new_tab
     assert state["params"]["epsilon"] == 0.05
     assert tab.scene
     # The browser notes each vain try to connect on its console.
-    tab.forgive("WebSocket connection", "ERR_CONNECTION_REFUSED", "ERR_CONNECTION_RESET")
+    tab.forgive("WebSocket connection", "ERR_CONNECTION_REFUSED", "ERR_CONNECTION_RESET", "ERR_EMPTY_RESPONSE")
