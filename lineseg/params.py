@@ -134,8 +134,8 @@ class Params(Thresholds):
             "W_max", 0.0, 1.0, "m", 0.01, least=0.0, most=100.0,
             label="object ignored",
             why="a width is never negative",
-            help="Widest object in front of a wall, such as a chair leg, whose points are ignored. Higher ignores "
-            "wider objects; 0 ignores none, as in the paper.",
+            help="Widest piece of a wall that a small object in front of it, such as a chair leg, may hide. Lines pass "
+            "behind such objects. Higher ignores wider ones; 0 ignores none, as in the paper.",
             extension=True,
         ),
     ] = 0.3  # fmt: skip

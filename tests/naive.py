@@ -45,7 +45,7 @@ class RegionGrowing:
         kept, k = [], 0
         while k < len(points):
             kept.append(k)
-            behind = next((j for j in range(k + 2, len(points)) if self.is_thing(points, k, j)), k + 1)
+            behind = max((j for j in range(k + 2, len(points)) if self.is_thing(points, k, j)), default=k + 1)
             if behind > k + 1:
                 self.passed.add(len(kept) - 1)
             k = behind
@@ -54,7 +54,7 @@ class RegionGrowing:
         self.points, self.beams, self.n = [points[k] for k in kept], [self.beams[k] for k in kept], len(kept)
 
     def is_thing(self, points, k, j):
-        """Whether the points between k and j are a thin thing in front of these two."""
+        """Whether the points between k and j are a small thing in front of these two."""
         ahead, widest = max(self.params.delta, 2 * self.params.epsilon), self.params.max_occluder
         for end, beside in ((k, k + 1), (j, j - 1)):
             if np.linalg.norm(points[end]) - np.linalg.norm(points[beside]) <= ahead:
@@ -62,8 +62,9 @@ class RegionGrowing:
         chord = points[j] - points[k]
         if np.linalg.norm(chord) > widest:
             return False
-        inner = points[k + 2 : j - 1]
-        if any(np.linalg.norm(point - inner[0]) > widest for point in inner):
+        inner, long = points[k + 2 : j - 1], max(widest, self.params.min_length)
+        many = j - k - 1 >= self.params.min_points
+        if many and any(np.linalg.norm(point - inner[0]) > long for point in inner):
             return False
         normal = np.array([-chord[1], chord[0]])
         for point in points[k + 1 : j]:

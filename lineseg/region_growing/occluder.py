@@ -1,4 +1,4 @@
-"""Removes thin objects in front of a wall, such as a chair leg, so that a line passes behind them (an extension)."""
+"""Removes small objects in front of a wall, such as chair legs, so that a line passes behind them (an extension)."""
 
 from __future__ import annotations
 
@@ -11,11 +11,12 @@ from .limits import near
 
 @kernel
 def look_past(x, y, rho, beam, passed, steps, n, limits):
-    """Remove the points of thin objects in front of a wall, in place; returns the number of points left.
+    """Remove the points of small objects in front of a wall, in place; returns the number of points left.
 
     An object is a run of points that all lie more than δ, and more than 2 ε at their range, in front of where their
     beams meet the chord between the two points next to the run (as in Eqs. 4–6). These two points must be at most
-    `max_occluder` apart, and so must the outermost points of the run, not counting mixed pixels at its edges.
+    `max_occluder` apart, and the run too small for a line, see `is_large`; it may be the legs of several chairs, one
+    behind the other.
     x, y, rho, beam: (n,) of the points in scan order; rho is not changed. passed: (n,) int32, set to 1 if an object
     was removed before the point, else to 0; steps: (n,) int32, memory.
     """
@@ -63,15 +64,29 @@ def close_up(x, y, beam, start, stop, to):
 
 @kernel
 def behind_thing(x, y, rho, steps, k, limits):
-    """The first point after an object that begins with point k + 1, or −1; steps: from the first rise after k on."""
-    widest = limits.max_occluder
+    """The last point that may be the first after an object, which begins with point k + 1; −1 if none is one.
+
+    Of several, all but the last are mixed pixels at the edge of the object. steps: from the first rise after k on.
+    """
+    widest, behind = limits.max_occluder, -1
     for j in steps:
         if rho[j] > rho[j - 1]:
-            if j - 2 > k + 2 and square(x, y, k + 2, j - 2) > widest * widest:
-                return -1
+            # From here on every beam passes point k at more than `max_occluder`.
+            if at(x, k) * at(y, j) - at(y, k) * at(x, j) > widest * at(rho, j):
+                break
             if square(x, y, k, j) <= widest * widest and is_thing(x, y, rho, k, j, limits):
-                return j
-    return -1
+                behind = j
+    return behind
+
+
+@kernel
+def is_large(x, y, k, j, i, limits):
+    """Whether the run between points k and j is large enough for a line, as seen from its beginning to point i.
+
+    It has at least P_min points then, and is wider than `max_occluder` and L_min, without mixed pixels at its edges.
+    """
+    widest = max(limits.max_occluder, limits.min_length)
+    return j - k > limits.min_points and k + 2 < i < j - 1 and square(x, y, k + 2, i) > widest * widest
 
 
 @kernel
@@ -84,9 +99,8 @@ def square(x, y, i, j):
 def is_thing(x, y, rho, k, j, limits):
     """Whether every point between k and j lies far in front of the chord from k to j, along its beam.
 
-    They must also be no wider than an object may be.
+    Together they must also be too small for a line.
     """
-    widest = limits.max_occluder
     dx, dy = x[j] - x[k], y[j] - y[k]
     offset = dx * y[k] - dy * x[k]
     for i in range(k + 1, j):
@@ -95,6 +109,6 @@ def is_thing(x, y, rho, k, j, limits):
         ahead = rho[i] * (offset / along - 1.0)
         if not (ahead > limits.delta and ahead * ahead > 4.0 * near(limits, rho[i] * rho[i])):
             return False
-        if k + 2 < i < j - 1 and square(x, y, k + 2, i) > widest * widest:
+        if is_large(x, y, k, j, i, limits):
             return False
     return True

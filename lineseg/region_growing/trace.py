@@ -71,7 +71,7 @@ class GrowthTrace(Trace):
 
     @cached_property
     def looked_past(self) -> NDArray[np.bool_]:
-        """(n,) which beams end at thin objects that lines pass behind, or are lost next to one."""
+        """(n,) which beams end at small objects that lines pass behind, or are lost next to one."""
         n = len(self.scan)
         taken = np.zeros(n, np.bool_)
         taken[self._beams] = True
@@ -155,7 +155,7 @@ class GrowthTrace(Trace):
         """The final decision on a beam: its line was dropped or cut, or growth refused it, or no seed contained it."""
         if self.looked_past[beam]:
             widest = self.params.max_occluder
-            thing = f"it ends at an object at most W_max = {metres(widest)} wide"
+            thing = f"it ends at an object that hides at most W_max = {metres(widest)} of a wall"
             text = f"beam {beam} is in no segment: {thing}, which lines pass behind"
             return Explanation(beam, text, -1, "max_occluder", limit=widest)
         inside = self.log[self._decisions_over(beam)]

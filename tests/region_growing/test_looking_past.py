@@ -1,4 +1,4 @@
-"""Only thin objects in front of a wall are looked past."""
+"""Only small objects in front of a wall are looked past."""
 
 import numpy as np
 import pytest
@@ -31,7 +31,7 @@ def test_the_leg_is_in_no_line_and_its_beams_say_so():
     assert np.flatnonzero(traced.extraction.labels == -1).tolist() == LEG_BEAMS
     said = traced.explain(90)
     assert (said.segment, said.check, said.limit) == (-1, "max_occluder", 0.3)
-    assert "an object at most W_max = 0.300 m wide, which lines pass behind" in said.text
+    assert "an object that hides at most W_max = 0.300 m of a wall, which lines pass behind" in said.text
     assert "max_occluder" not in {trace(wall_ahead(bump=LEG), PAPER).explain(beam).check for beam in LEG_BEAMS}
 
 
@@ -60,6 +60,25 @@ def test_points_that_are_wide_or_behind_or_part_of_the_wall_stay(bump: dict[int,
 def test_a_partition_that_points_at_the_laser_is_not_a_thin_object():
     scan = wall_ahead(distance=6.0, beams=1081, bump={540 + k: -4.0 + 0.15 * k for k in range(25)})
     assert not trace(scan, PAST).looked_past[545:560].any()
+
+
+# Two legs, the second a metre behind the first, with a mixed pixel as the last point of each.
+LEGS = {86: -1.5, 87: -1.5, 88: -0.9, 89: -0.5, 90: -0.5, 91: -0.5, 92: -0.2}
+
+
+def test_several_things_one_behind_the_other_are_looked_past_as_one():
+    scan = wall_ahead(bump=LEGS)
+    assert np.flatnonzero(trace(scan, PAST).looked_past).tolist() == sorted(LEGS)
+    assert spans(scan) == [(0, 179)]
+
+
+def test_what_is_large_enough_for_a_line_is_not_looked_past():
+    # 12 points of a partition, 1.1 m long, which hides little of the wall because it points at the laser.
+    partition = {84 + k: -1.8 + 0.1 * k for k in range(12)}
+    scan = wall_ahead(bump=partition)
+    assert not trace(scan, PAST).looked_past.any()
+    assert trace(scan, PAST.but(min_points=13)).looked_past.sum() == 12
+    assert trace(scan, PAST.but(min_length=1.5)).looked_past.sum() == 12
 
 
 def test_on_a_full_circle_a_leg_may_stand_anywhere():
