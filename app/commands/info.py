@@ -55,7 +55,8 @@ def _facts(recording: Recording) -> Iterator[tuple[str, object]]:
         yield "skipped", account.skipped_text
     yield "format", recording.format
     for topic in recording.topics:
-        yield "topic", f"{topic.name} ({topic.scans} scans){' *' if topic.name == recording.topic else ''}"
+        scans = f"{topic.scans} scan{'' if topic.scans == 1 else 's'}"
+        yield "topic", f"{topic.name} ({scans}){' *' if topic.name == recording.topic else ''}"
     yield "scans", len(recording)
     least, most = recording.beams
     yield "beams", least if least == most else f"{least} to {most}"

@@ -31,10 +31,10 @@ FEWEST_IN_TURN = 20
 
 
 class Layout(NamedTuple):
-    """kind: of a point, with its named fields; count: of points; plain: whether they are text; start: of the data."""
+    """kind: of a point, with its named fields; size: number of points; plain: whether they are text; start: of them."""
 
     kind: np.dtype
-    count: int
+    size: int
     plain: bool
     start: int
 
@@ -127,18 +127,18 @@ def _points(source: Source, data: bytes, layout: Layout) -> dict[str, NDArray]:
     names = layout.kind.names or ()
     widths = [int(np.prod(layout.kind[name].shape)) for name in names]
     if layout.plain:
-        rows = [line.split() for line in data[layout.start :].splitlines()[: layout.count]]
+        rows = [line.split() for line in data[layout.start :].splitlines()[: layout.size]]
         rows = [row for row in rows if len(row) == sum(widths)]
         table = np.array(rows, dtype=np.float64).reshape(-1, sum(widths))
         starts = np.cumsum([0, *widths[:-1]])
         found = {name: table[:, start] for name, start, width in zip(names, starts, widths, strict=True) if width == 1}
     else:
-        count = min(layout.count, (len(data) - layout.start) // max(layout.kind.itemsize, 1))
+        count = min(layout.size, (len(data) - layout.start) // max(layout.kind.itemsize, 1))
         table = np.frombuffer(data, layout.kind, count, layout.start)
         found = {
             name: table[name][:, 0].astype(np.float64) for name, width in zip(names, widths, strict=True) if width == 1
         }
-    if len(table) < layout.count:
-        text = f"The file announces {layout.count} points, but only {len(table)} are there."
+    if len(table) < layout.size:
+        text = f"The file announces {layout.size} points, but only {len(table)} are there."
         source.notes.notice("breaks off", text)
     return found

@@ -7,7 +7,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from ..scan import Recording
+from ..scan import Floats, Recording
 from .beam_rows import table_of
 from .dialect import Dialect, Row
 from .headers import LENGTHS, SCANS, STAMPS, TIMES, Name, column_of, is_beam, is_distance
@@ -36,17 +36,18 @@ def read_numbered(
         raise ValueError(
             f"{source.name}: column {beam + 1} numbers a beam {most + first - 1}; is it the beam's number?"
         )
-    ranges = [np.full(most, np.nan) for _ in parts]
+    ranges: list[Floats] = [np.full(most, np.nan) for _ in parts]
     for row, part in zip(ranges, parts, strict=True):
         # A table may leave out the beams without a return.
         row[part[:, beam].astype(int) - first] = part[:, distance]
     if (unit := LENGTHS.get(names[distance].unit)) and reading.unit is None:
         source.notes.found["unit"] = unit
-    timed = stamp is not None and all(np.isfinite(part[0, stamp]) for part in parts)
-    if timed:
+    leading: tuple[str, ...] = ()
+    if stamp is not None and all(np.isfinite(part[0, stamp]) for part in parts):
+        leading = ("stamp",)
         scale = TIMES.get(names[stamp].unit, 1.0)
         ranges = [np.concatenate(([part[0, stamp] * scale], row)) for row, part in zip(ranges, parts, strict=True)]
-    return scans_of(source, reading, edges[:-1], ranges, 0, ("stamp",) if timed else ())
+    return scans_of(source, reading, edges[:-1], ranges, 0, leading)
 
 
 MOST_BEAMS = 20_000

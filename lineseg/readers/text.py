@@ -83,7 +83,9 @@ def _below_titles(source: Source, head: list[Row]) -> list[Row]:
     # A header of blanks may seem to have fewer cells than it names.
     if titles in (0, len(lines)) or (titles == 1 and dialect.separator == b" " and _names_beams(lines[0])):
         return head
-    source.notes.notice("titles", f"{titles} line{'' if titles == 1 else 's'} above the table were passed over.")
+    source.notes.notice(
+        "titles", f"Words above the table, in {titles} line{'' if titles == 1 else 's'}, were passed over."
+    )
     return head[titles:]
 
 

@@ -146,14 +146,14 @@ def _untarred(path: Path, name: str, stack: ExitStack, notes: Notes) -> Path:
     folder = _target(path, stack, "bag")
     folder.mkdir()
     with tarfile.open(path, "r:") as archive:
+        members: list[tarfile.TarInfo] = []
         try:
-            for _ in archive:
-                pass
+            members.extend(archive)
         except (tarfile.TarError, OSError) as error:
             text = f"The tar file is incomplete or damaged ({str(error).rstrip('.')}); what could be unpacked was read."
             notes.notice("breaks off", text)
         # A file that is there twice has been replaced.
-        entries = {entry.name: entry for entry in archive.members if entry.isfile() and not _is_hidden(entry.name)}
+        entries = {entry.name: entry for entry in members if entry.isfile() and not _is_hidden(entry.name)}
         parts = _chosen(list(entries), name)
         left = limit_of(path.stat().st_size)
         for part in parts:

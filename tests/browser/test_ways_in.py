@@ -36,3 +36,20 @@ def test_visers_own_sliders_change_the_page_that_they_belong_to(tab):
     assert state["params"]["epsilon"] > before
     assert float(tab.field("epsilon").input_value()) == state["params"]["epsilon"]
     alone.close()
+
+
+def test_the_newest_upload_comes_first_and_space_plays_what_the_menu_opened(new_tab):
+    tab = new_tab()
+    tab.upload(SAMPLES / "hallway.log")
+    tab.until("s.label === 'hallway.log'")
+    tab.upload(SAMPLES / "hallway.csv")
+    tab.until("s.label === 'hallway.csv'")
+    tab.page.locator(".recording").click()
+    uploads = tab.page.get_by_role("group", name="Uploaded").get_by_role("menuitemradio")
+    tab.eventually(lambda: uploads.all_inner_texts()[:2] == ["hallway.csv", "hallway.log"], "the newest is first")
+    uploads.nth(1).click()
+    tab.until("s.label === 'hallway.log'")
+    tab.page.keyboard.press("Space")
+    tab.page.get_by_role("button", name="Pause (Space)").wait_for()
+    tab.page.keyboard.press("Space")
+    tab.page.get_by_role("button", name="Play (Space)").first.wait_for()
