@@ -36,7 +36,7 @@ from .body_limit import BodyLimit
 from .guard import Guard, is_loopback
 from .live.address import Address
 from .live.hub import Live
-from .memory import keep_together
+from .memory import keep_together, settle
 from .places import data_folder, user_folder
 from .routes.api import add_api
 from .routes.export import add_export
@@ -170,7 +170,9 @@ def serve(settings: Settings, announce: Callable[[str], None] = lambda address: 
             if settings.open_browser:
                 threading.Thread(target=webbrowser.open, args=(opened,), daemon=True).start()
 
-        server_of(create_app(settings), ready).run(sockets=[listener])
+        server = server_of(create_app(settings), ready)
+        settle()
+        server.run(sockets=[listener])
 
 
 class Server(uvicorn.Server):

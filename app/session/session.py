@@ -33,6 +33,7 @@ from ..view import View
 from .composing import Composer
 from .following import Presence, Presenter, mirrored
 from .strip import Strip, key_of
+from .turns import InOrder
 from .warm_up import WarmUp
 
 Origin = Literal["page", "scene"]
@@ -42,9 +43,11 @@ Watch = Callable[[View, Recording, str, Findings], None]
 log = logging.getLogger(__name__)
 # Shortest time between redraws of a live recording [s]; no scan is lost.
 FOLLOW_EVERY = 0.04
-# Tabs that draw at the same time. Python runs one thread at a time anyway: more would only make each other wait, and
-# show older Views, because each takes the newest when its turn comes.
-AT_ONCE = threading.Semaphore(max(2, os.cpu_count() or 2))
+# Tabs draw one after the other. Python runs one thread at a time anyway: more would only make each other wait, and show
+# older Views, because each takes the newest when its turn comes.
+QUICK_TURN = InOrder()
+# What may take long does not make the others wait; its kernels run beside Python.
+SLOW_TURNS = threading.Semaphore(max(2, os.cpu_count() or 2))
 
 
 @dataclass(frozen=True)
@@ -281,7 +284,7 @@ class Session:
             label = self._library.label(view.recording)
             self._tell(Loading(recording=view.recording, label=label, done=0, total=0, note=note))
             self._warm_up.done.wait()
-        with AT_ONCE:
+        with SLOW_TURNS if takes_long(request.view) else QUICK_TURN:
             newest = self._newest(request)
             if newest is None:
                 return
@@ -326,12 +329,12 @@ class Session:
         self._survey()
 
     def _newest(self, request: Request) -> Request | None:
-        """What to draw instead, if more was asked for while this waited; None if that needs another recording."""
+        """What to draw instead, if more was asked for while this waited; None if that waits for something else."""
         with self._lock:
             wanted = self._wanted
             if wanted.number == request.number:
                 return request
-            if (wanted.view.place, wanted.view.live) != (request.view.place, request.view.live):
+            if _waits_for(wanted.view) != _waits_for(request.view):
                 return None
             self._drawing.drop()
             return wanted
@@ -412,6 +415,16 @@ class Session:
 
 def _ms(seconds: float) -> float:
     return round(1e3 * seconds, 2)
+
+
+def _waits_for(view: View) -> tuple[str, bool, bool]:
+    """What drawing it waits for: its recording, and its turn."""
+    return view.place, view.live, takes_long(view)
+
+
+def takes_long(view: View) -> bool:
+    """Whether drawing it may take much longer than a few milliseconds: other methods do, and what Inspect computes."""
+    return view.method != "region-growing" or view.mode == "inspect" or view.against is not None
 
 
 def _at_the_end(request: Request, recording: Recording) -> Request:

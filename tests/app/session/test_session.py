@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import contextlib
-
 import pytest
 from lineseg_app.server import Settings
-from lineseg_app.session.session import AT_ONCE
+from lineseg_app.session.session import QUICK_TURN
 from lineseg_app.session.sessions import SessionLimits
 from live import Address, Page, page_of, serving
 from websockets.exceptions import ConnectionClosed
@@ -251,9 +249,7 @@ def test_a_session_without_a_page_is_closed_in_time(tmp_path):
 
 def test_a_tab_that_waited_for_others_shows_its_newest_view_only(page: Page):
     page.hello()
-    with contextlib.ExitStack() as others:
-        for _ in range(AT_ONCE._value):
-            others.enter_context(AT_ONCE)
+    with QUICK_TURN:
         for frame in range(1, 5):
             rev = page.ask(frame=frame)
         # The answer comes after all changes have been heard.
@@ -261,3 +257,9 @@ def test_a_tab_that_waited_for_others_shows_its_newest_view_only(page: Page):
         page.hear_a("error")
     first = page.hear_a("drawn")
     assert (first["rev"], first["state"]["frame"]) == (rev, 4)
+
+
+def test_a_method_that_takes_long_waits_for_other_turns(page: Page):
+    page.hello()
+    with QUICK_TURN:
+        assert page.change(method="hough")["method"] == "hough"

@@ -7,7 +7,7 @@ from types import SimpleNamespace
 
 import pytest
 from lineseg_app.session import turns as turns_module
-from lineseg_app.session.turns import MOST_REST, Turns
+from lineseg_app.session.turns import MOST_REST, InOrder, Turns
 
 
 def test_one_thread_works_at_a_time_and_each_turn_is_followed_by_a_rest():
@@ -44,3 +44,22 @@ def test_a_long_turn_is_followed_by_a_short_rest(monkeypatch: pytest.MonkeyPatch
     with turns.turn():
         pass
     assert slept == [0.0, MOST_REST]
+
+
+def test_threads_are_let_in_in_the_order_in_which_they_came():
+    gate, came = InOrder(), []
+
+    def work(number: int) -> None:
+        with gate:
+            came.append(number)
+
+    threads = [threading.Thread(target=work, args=(number,)) for number in range(6)]
+    with gate:
+        for number, thread in enumerate(threads):
+            thread.start()
+            while len(gate._waiting) <= number:
+                time.sleep(0.001)
+    for thread in threads:
+        thread.join()
+    assert came == list(range(6))
+    assert not gate._taken
