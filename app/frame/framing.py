@@ -32,7 +32,7 @@ FACTORS = (100, 50, 20, 10, 5, 2)
 LONGEST, BLOCK, AROUND = 48, 16, 12
 # Points shown beyond the first and the last one.
 BEYOND = 2
-AROUND_CUT = 3
+AROUND_CUT = 1
 GROWING = ("point added", "growth stopped")
 
 

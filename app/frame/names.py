@@ -16,6 +16,8 @@ from .findings import Findings
 Point = tuple[float, float]
 # A beam that meets the line farther from its point than this [m] is nearly parallel to it: P′ is not shown.
 FAR = 5.0
+# How many points from the end of a growing line its ε is written.
+BAND_NAME = 12
 
 
 class Name(NamedTuple):
@@ -99,10 +101,13 @@ def _band(found: Findings, decision: Decision) -> float:
 
 
 def _band_end(found: Findings, decision: Decision) -> NDArray[np.float64]:
-    """A place on the edge of the ε band, beside the first point, on the side away from the tested point."""
+    """A place on the edge of the ε band, on the side away from the tested point; in a long line some points from it."""
     line, point = decision.line, found.scan.xy[decision.beam]
     side = -1.0 if np.dot(line[:2], point) + line[2] > 0 else 1.0
-    return feet(found.scan.xy[decision.first], line) + side * _band(found, decision) * np.array(line[:2])
+    beams = found.trace.beams(decision.first, decision.last)
+    ordered = beams[::-1] if decision.direction > 0 else beams
+    at = ordered[min(len(ordered) - 1, BAND_NAME)] if decision.direction else decision.first
+    return feet(found.scan.xy[at], line) + side * _band(found, decision) * np.array(line[:2])
 
 
 def _measured(found: Findings, decision: Decision) -> Told:

@@ -234,8 +234,9 @@ def _framed(found: Findings, view: View, step: int | None) -> told.Framing | Non
         framing = framing_of(found, step) if step < len(found.trace) else None
     else:
         looked = looked_at(view.lesson, view.page) if view.lesson else None
-        here = looked is not None and looked[0] == view.recording
-        framing = framing_near(found, looked[1].near, looked[1].names) if here else None
+        if looked is None or looked[0] != view.recording:
+            return None
+        framing = framing_near(found, looked[1].near, looked[1].names)
     return framing and _framing(framing, outcome=step is None or step == view.step)
 
 

@@ -25,7 +25,7 @@ NEAR, FAR = 0.5, 20_000.0
 PICK_PIXELS = 20.0
 
 # name: (size on the screen [pixels], which viser draws about twice as wide; shape)
-CLOUDS: dict[str, tuple[float, Literal["circle", "diamond"]]] = {
+CLOUDS: dict[str, tuple[float, Literal["circle", "square", "diamond"]]] = {
     "points": (2.2, "circle"),
     "seeds": (3.2, "square"),
     "endpoints": (4.5, "circle"),
