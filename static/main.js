@@ -105,7 +105,7 @@ const timeline = new Timeline(place("timeline"), text.timeline, {
   settled,
   pill: live.button,
 });
-const status = mountStatus(place("status"), text.status, live.element);
+const status = mountStatus(page, place("status"), text.status, live.element);
 const work = createWork(notices, text.stage, () => page.drawn !== null);
 const opening = createOpening(page, { work, notices }, text, { onSweep: tune.openSweep, rest: address.linked.rest });
 const reread = createReread(page, words.reading, notices);

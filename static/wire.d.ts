@@ -792,6 +792,14 @@ export interface WhatIfs {
   changes: WhatIf[];
 }
 
+/** The segments of the frame compared with its true lines; null if these are not known. */
+export interface Judgement {
+  frame: number;
+  method: string;
+  params: Record<string, number>;
+  agreement: Agreement | null;
+}
+
 /** Values of thresholds with which two beams would be parted or joined; first, last: of their line then, or −1. */
 export interface Otherwise {
   values: Record<string, number>;

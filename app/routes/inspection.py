@@ -7,10 +7,10 @@ from starlette.exceptions import HTTPException
 
 from lineseg import Relation, Remark, Thresholds, what_if, why, why_apart
 
-from ..frame.judge import Reference, agreement_told, judged_recording
+from ..frame.judge import Reference, agreement_told, judged, judged_recording
 from ..session.sessions import Sessions
 from ..shelf.label_files import LabelFiles
-from ..told.answers import Apart, Finding, Truth, WhatIfs, Whys
+from ..told.answers import Apart, Finding, Judgement, Truth, WhatIfs, Whys
 from ..told.words import words_of
 from ..view import View
 
@@ -99,6 +99,21 @@ def add_inspection(app: FastAPI, sessions: Sessions, files: LabelFiles) -> None:
             "params": view.params.numbers(),
             "found": found,
             "whole": len(found) == len(wanted),
+        }
+
+    @app.get("/api/judged")
+    def judged_frame(session: str = "") -> Judgement:
+        shown = sessions.shown(session)
+        view = shown.view
+        known = files.known(view.recording, shown.recording)
+        reference = Reference.of(view.reference, shown.recording, known)
+        said = reference.said.of(view.frame) if reference.said is not None else None
+        found = judged(shown.found, said) if reference.chosen else None
+        return {
+            "frame": view.frame,
+            "method": view.method,
+            "params": view.params.numbers(),
+            "agreement": None if found is None else agreement_told(found.matching.agreement),
         }
 
     @app.get("/api/truth")

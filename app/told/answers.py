@@ -36,6 +36,15 @@ class WhatIfs(TypedDict):
     changes: list[WhatIf]
 
 
+class Judgement(TypedDict):
+    """The segments of the frame compared with its true lines; null if these are not known."""
+
+    frame: int
+    method: str
+    params: Params
+    agreement: Agreement | None
+
+
 class Otherwise(TypedDict):
     """Values of thresholds with which two beams would be parted or joined; first, last: of their line then, or −1."""
 

@@ -1,17 +1,19 @@
 // @ts-check
 import { h, setText } from "../widgets/dom.js";
 import { tooltip } from "../widgets/tooltip.js";
+import { createAsked } from "../inspect/asked.js";
 
 /** @typedef {import("../wire.js").State} State */
 
 const ANNOUNCE_MS = 800;
 
 /**
+ * @param {import("../page.js").Page} page
  * @param {HTMLElement} bar
  * @param {typeof import("../text/page.js").pageText.status} text
  * @param {HTMLElement} live how a live source fares
  */
-export function mountStatus(bar, text, live) {
+export function mountStatus(page, bar, text, live) {
   const figures = {
     segments: figure("segments", ""),
     coverage: figure("coverage", text.coverage),
@@ -24,7 +26,8 @@ export function mountStatus(bar, text, live) {
   const spoken = h("span", { class: "off-screen", role: "status" });
   const entries = Object.values(figures).map(({ element }) => element);
   bar.setAttribute("aria-label", text.label);
-  bar.append(...entries, live, h("span", { class: "spacer" }), format, connection, spoken);
+  const truth = createTruthFigures(text.truth, page);
+  bar.append(...entries, truth.element, live, h("span", { class: "spacer" }), format, connection, spoken);
   tooltip(figures.extraction.element, text.extractionHelp);
   tooltip(figures.roundTrip.element, text.roundTripHelp);
   let coverageHelp = "";
@@ -43,6 +46,7 @@ export function mountStatus(bar, text, live) {
       );
       if (latencyMs !== null) figures.roundTrip.set(`${Math.round(latencyMs)} ms`, text.roundTrip);
       coverageHelp = text.coverageHelp(covered, valid, beams);
+      truth.setState(state);
       setText(format, [state.format, state.frameId, text.beams(beams)].filter(Boolean).join(" · "));
       clearTimeout(timer);
       timer = setTimeout(() => setText(spoken, text.announce(segments.length, frame)), ANNOUNCE_MS);
@@ -65,6 +69,38 @@ function figure(name, label) {
     set(shown, what) {
       setText(value, shown);
       setText(words, what);
+    },
+  };
+}
+
+/**
+ * TR, FR and completeness of the frame, once nothing changes any more and if the truth is known.
+ * @param {typeof import("../text/page.js").pageText.status.truth} text @param {import("../page.js").Page} page
+ */
+function createTruthFigures(text, page) {
+  const words = h("span", {});
+  const onclick = () => page.change({ layers: { verdicts: !page.view.layers.verdicts } });
+  const props = { type: "button", class: "truth-figures", "aria-pressed": "false", hidden: true, onclick };
+  const element = h("button", props, words);
+  tooltip(element, text.help);
+  const asked = createAsked({
+    path: "/api/judged",
+    parts: /** @type {const} */ (["frame", "method", "params"]),
+    isAsked: (_, { live }) => live === null,
+    session: page.sessionId,
+    onAnswer(/** @type {import("../wire.js").Judgement | null} */ answer) {
+      element.classList.toggle("stale", answer === null);
+      if (!answer) return;
+      element.hidden = answer.agreement === null;
+      if (answer.agreement) setText(words, text.figures(answer.agreement));
+    },
+  });
+  return {
+    element,
+    /** @param {State} state */
+    setState(state) {
+      element.setAttribute("aria-pressed", String(state.layers.verdicts));
+      asked.setState(state);
     },
   };
 }

@@ -40,6 +40,14 @@ export function createAb(text, { onToggle, onSwap, onAdopt, onNext }) {
     h("div", { class: "ab-head" }, h("b", {}, text.a), what, iconButton("close", text.unpin, onToggle)),
     table.element,
     h(
+      "p",
+      { class: "ab-keys muted" },
+      h("span", { class: "ab-key" }),
+      text.keys.same,
+      h("span", { class: "ab-key changed" }),
+      text.keys.changed,
+    ),
+    h(
       "div",
       { class: "ab-actions" },
       next,

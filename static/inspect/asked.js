@@ -13,7 +13,7 @@ const REST_MS = 150;
  * @param {object} question
  * @param {string} question.path of the route
  * @param {readonly (keyof Answer & string)[]} question.parts what the answer repeats, in the state or among the chosen beams
- * @param {(chosen: Chosen) => boolean} question.isAsked
+ * @param {(chosen: Chosen, state: State) => boolean} question.isAsked
  * @param {() => string} question.session
  * @param {(answer: Answer | null) => void} question.onAnswer null: not known, or not asked
  */
@@ -35,7 +35,9 @@ export function createAsked({ path, parts, isAsked, session, onAnswer }) {
       const { selected, beside } = state.view;
       const chosen = { selected: selected ?? null, beside: beside ?? null };
       const about = { ...state, ...chosen, beam: chosen.selected };
-      const key = isAsked(chosen) ? `${state.place} ${state.first} ${keyOf(about, .../** @type {any} */ (parts))}` : "";
+      const key = isAsked(chosen, state)
+        ? `${state.place} ${state.first} ${keyOf(about, .../** @type {any} */ (parts))}`
+        : "";
       if (key === asked) return;
       asked = key;
       clearTimeout(waiting);

@@ -6,7 +6,7 @@ import { clamp } from "../widgets/scale.js";
 import { FrameList } from "./frame_list.js";
 
 /** @typedef {import("../wire.js").Score} Score */
-/** @typedef {{score: string, values: Float32Array, complete: boolean, message: string | null}} Scored */
+/** @typedef {{score: string, recording: string, values: Float32Array, complete: boolean, message: string | null}} Scored */
 /** @typedef {typeof import("../text/inspect.js").inspectText.frames} Text */
 /**
  * @typedef {object} Handlers
@@ -36,8 +36,10 @@ class Frames {
   /** @type {Score[]} */ #scores = [];
   #frame = 0;
   /** The last frame that was opened from the list. */ #led = -1;
+  /** The score and the recording of the range. */ #ranged = "";
   /** Range of the listed scores. */ #low = -Infinity;
   #high = Infinity;
+  #fields;
   #select;
   #help = h("p", { class: "hint" });
   #extra;
@@ -61,6 +63,7 @@ class Frames {
       this.#high = typed ?? Infinity;
     });
     this.#list = new FrameList(text, { value, words, said, onRows, onTake: (frame) => this.#go(frame) });
+    this.#fields = [from, to];
     const [fromLabel, toLabel] = [h("label", {}, text.from), h("label", {}, text.to)];
     this.element = h(
       "div",
@@ -93,6 +96,14 @@ class Frames {
     });
     field.element.placeholder = this.#text.any;
     return field;
+  }
+
+  #clearRange() {
+    [this.#low, this.#high] = [-Infinity, Infinity];
+    for (const field of this.#fields) {
+      field.clear();
+      field.set("");
+    }
   }
 
   /** Updates which frames are listed. */
@@ -143,7 +154,11 @@ class Frames {
 
   /** @param {Scored | null} scored the scores of every frame, null while there are none */
   setScored(scored) {
+    const is = scored && `${scored.score} ${scored.recording}`;
+    // The range is of one score of one recording.
+    if (is && this.#ranged && is !== this.#ranged) this.#clearRange();
     this.#scored = scored;
+    if (is) this.#ranged = is;
     if (scored) this.#select.value = scored.score;
     this.#extra.hidden = scored?.score !== "suspicion";
     this.sort();

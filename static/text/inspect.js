@@ -100,6 +100,7 @@ export const inspectText = {
     unpin: "Unpin A (key B)",
     a: "A",
     same: "same thresholds as B",
+    keys: { same: "a line of A that B has, too", changed: "a line of A that B has not" },
     swap: "Swap",
     swapHelp: "Exchange A and B",
     adopt: "Back to A",

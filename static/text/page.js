@@ -9,6 +9,9 @@ function secondsOf(seconds) {
   return `${Math.round(seconds / 86_400).toLocaleString("en")} days`;
 }
 
+/** @param {number | null} value */
+const shareOf = (value) => (value === null ? "–" : `${Math.round(100 * value)} %`);
+
 export const pageText = {
   appName: "lineseg",
   noAnswer: "The server did not answer. Try again.",
@@ -133,6 +136,10 @@ export const pageText = {
       help: "In Inspect: lines that this frame probably misses, found by extractions at the ε that fits the laser",
     },
     numbers: { label: "Beam numbers", help: "The number of each beam at its point, as many as there is room for (I)" },
+    verdicts: {
+      label: "Right and wrong",
+      help: "If the truth is known: matched segments solid, false ones dotted, missed true lines dashed",
+    },
     replay: { label: "Replay geometry", help: "The window, line, ε band and candidate of the current decision" },
     laser: { label: "Laser", help: "Position and direction of the laser" },
     grid: { label: "Grid", help: "Squares of equal size; the scale bar shows how large they are" },
@@ -158,6 +165,9 @@ export const pageText = {
     histogram: (/** @type {string} */ symbol, /** @type {number} */ passed, /** @type {number} */ failed) =>
       `${symbol}: ${passed} passed, ${failed} refused`,
     histogramEmpty: "nothing tested",
+    bin: (/** @type {string} */ range, /** @type {number} */ passed, /** @type {number} */ failed) =>
+      `At the pointer, ${range}: ${passed} passed, ${failed} refused`,
+    heights: "heights: square root of the number",
     usually: (/** @type {boolean} */ on) => (on ? "On by default." : "Off by default."),
     notANumber: (/** @type {string} */ typed) => `“${typed}” is not a number. Enter one such as 0.05.`,
     notWhole: "Enter a whole number.",
@@ -267,6 +277,11 @@ export const pageText = {
     extractionHelp: "Time of the extraction of this frame",
     roundTripHelp: "Time from your input to the drawn picture",
     beams: (/** @type {number} */ n) => `${n} beams`,
+    truth: {
+      help: "This frame compared with its true lines: TR, share of true lines that were found; FR, share of segments that are false; completeness, mean overlap of the matches. Click to see matched (solid), false (dotted) and missed (dashed) lines in the scene.",
+      figures: (/** @type {import("../wire.js").Agreement} */ { trueRate, falseRate, completeness }) =>
+        `TR ${shareOf(trueRate)} · FR ${shareOf(falseRate)} · completeness ${shareOf(completeness)}`,
+    },
     connection: { connecting: "connecting", open: "connected", lost: "not connected" },
     announce: (/** @type {number} */ n, /** @type {number} */ frame) =>
       `${n} ${n === 1 ? "segment" : "segments"} in frame ${frame}`,

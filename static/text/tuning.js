@@ -23,7 +23,7 @@ export const tuningText = {
   curves: {
     label: "Sensitivity",
     show: "Sensitivity",
-    help: "Shows under each slider how the result over the whole recording changes with this one threshold. Click the curve to set the threshold.",
+    help: "Shows under each slider how the result over the whole recording changes with this one threshold. Coverage, TR, FR and completeness go from 0 at the bottom to 1 at the top, segments to their largest number. Click the curve to set the threshold.",
     sample: (/** @type {number} */ frames, /** @type {number} */ of) =>
       frames < of
         ? `${frames.toLocaleString("en")} of ${of.toLocaleString("en")} frames`

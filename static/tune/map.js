@@ -4,7 +4,7 @@ import { chooseFile } from "../open/files.js";
 import { h, setText } from "../widgets/dom.js";
 import { withUnit } from "../widgets/scale.js";
 import { MapChoices } from "./map_choices.js";
-import { paintRelief, rangeOf, settingAt } from "./map_picture.js";
+import { COLOURS, paintRelief, rangeOf, settingAt } from "./map_picture.js";
 import { readSweepTable } from "./sweep_table.js";
 
 /** @typedef {import("../wire.js").Knob} Knob */
@@ -169,7 +169,10 @@ export class TuningMap {
     const { x, y } = relief;
     const measure = this.#measures.find(({ name }) => name === this.#shown?.measure);
     const label = measure?.label ?? "";
-    setText(this.#scale, `${label} ${range.low.toFixed(3)} – ${range.high.toFixed(3)} ${measure?.unit ?? ""}`);
+    const [low, high] = [range.low, range.high].map((height) => h("span", {}, height.toFixed(3)));
+    const bar = h("span", { class: "map-bar", "aria-hidden": "true" });
+    bar.style.background = `linear-gradient(90deg, ${COLOURS.join(", ")})`;
+    this.#scale.replaceChildren(h("span", {}, label), low, bar, high, measure?.unit ?? "");
     setText(this.#across, spanWords(x));
     setText(this.#up, spanWords(y));
     this.#canvas.setAttribute("aria-label", this.#text.picture(label, x.symbol, y.symbol));

@@ -18,6 +18,9 @@ const STOPS = [
   [253, 231, 37],
 ];
 
+/** From the lowest height to the highest. */
+export const COLOURS = STOPS.map((stop) => `rgb(${stop.join(" ")})`);
+
 /** The smallest and the largest height; null if none is known. @param {Relief} relief @returns {Range | null} */
 export function rangeOf({ heights }) {
   const known = heights.flat().filter((height) => height !== null);

@@ -70,6 +70,7 @@ export class Threshold {
     this.#tick = h("span", { class: "fit-mark", hidden: true });
     this.#histogram = hasHistogram(knob) ? createHistogram(knob) : null;
     this.element = this.#createRow();
+    this.#nameEnds();
     this.set(this.#value);
   }
 
@@ -97,8 +98,18 @@ export class Threshold {
     const picture = this.#histogram?.element;
     if (!picture) return null;
     const holder = h("div", { class: "histogram-holder" }, picture);
-    tooltip(holder, () => `${this.#knob.counted}\n${picture.getAttribute("aria-label")}`, "left");
+    const counted = () => `${this.#knob.counted}\n${picture.getAttribute("aria-label")}`;
+    tooltip(holder, (event) => [counted(), this.#countedAt(event, picture)].filter(Boolean).join("\n"), "left");
     return holder;
+  }
+
+  /** What is counted under the pointer. @param {Event} event @param {Element} picture */
+  #countedAt(event, picture) {
+    const { left, width } = picture.getBoundingClientRect();
+    const bin = event instanceof PointerEvent ? this.#histogram?.at((event.clientX - left) / width) : null;
+    if (!bin) return "";
+    const [from, to] = [bin.from, bin.to].map((edge) => Number(edge.toPrecision(2)));
+    return this.#text.bin(`${from} – ${to} ${this.#knob.unit}`.trim(), bin.passed, bin.failed);
   }
 
   /** @param {number} next */
@@ -129,8 +140,15 @@ export class Threshold {
     if (knob === this.#knob) return;
     this.#knob = knob;
     this.#histogram?.setRange(knob);
+    this.#nameEnds();
     this.#mark.style.setProperty("--place", String(placeOf(knob, this.#marked)));
     this.#tick.style.setProperty("--place", String(placeOf(knob, this.#fits ?? 0)));
+  }
+
+  /** The values at both ends of the slider, and of the charts below it. */
+  #nameEnds() {
+    const { dataset } = this.element;
+    [dataset.low, dataset.high] = [format(this.#knob, this.#knob.low), withUnit(this.#knob, this.#knob.high)];
   }
 
   /** Lets the slider span no more than it must: another recording was opened. */

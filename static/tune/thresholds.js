@@ -51,6 +51,7 @@ export class Thresholds {
       text.passed,
       h("span", { class: "key failed" }),
       text.failed,
+      h("span", { class: "histogram-heights" }, text.heights),
     );
     const [mark, dot] = [h("span", { class: "tag" }, text.extensionMark), h("span", { class: "changed-dot" })];
     this.#extensions = h("details", { class: "extensions" }, h("summary", {}, text.extensions, mark, dot), this.#more);

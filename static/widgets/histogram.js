@@ -44,6 +44,15 @@ export function createHistogram(range) {
       paint();
       element.setAttribute("aria-label", label);
     },
+    /** What is counted at a place, from 0 to 1. @param {number} place @returns {{from: number, to: number, passed: number, failed: number} | null} */
+    at(place) {
+      const known = shown;
+      if (!known) return null;
+      const k = known.passed.findIndex((_, k) => place < placeOf(range, edgeOf(k + 1, known)));
+      const bin = k < 0 ? known.passed.length - 1 : k;
+      const [from, to] = [edgeOf(bin, known), edgeOf(bin + 1, known)];
+      return { from, to, passed: known.passed[bin], failed: known.failed[bin] };
+    },
     /** @param {number} value */
     cutAt(value) {
       const x = String(placeOf(range, value) * WIDTH);
@@ -60,13 +69,10 @@ export function createHistogram(range) {
  * @param {Histogram} histogram
  */
 function stacked(range, histogram) {
-  const { low, high, log, passed, failed } = histogram;
+  const { passed, failed } = histogram;
   const bins = passed.length;
   const most = Math.max(1, ...passed.map((count, k) => count + failed[k]));
-  const edge = (/** @type {number} */ k) => {
-    const value = log ? low * (high / low) ** (k / bins) : low + (k / bins) * (high - low);
-    return placeOf(range, value) * WIDTH;
-  };
+  const edge = (/** @type {number} */ k) => placeOf(range, edgeOf(k, histogram)) * WIDTH;
   let lower = "";
   let upper = "";
   for (let k = 0; k < bins; k++) {
@@ -79,6 +85,11 @@ function stacked(range, histogram) {
     if (failed[k]) upper += bar(left, right, HEIGHT - share, HEIGHT - height);
   }
   return [lower, upper];
+}
+
+/** The value at the lower edge of a bin. @param {number} k @param {Histogram} histogram */
+function edgeOf(k, { low, high, log, passed: { length } }) {
+  return log ? low * (high / low) ** (k / length) : low + (k / length) * (high - low);
 }
 
 /** @param {number} left @param {number} right @param {number} bottom @param {number} top */

@@ -13,18 +13,25 @@ let timer = 0;
 /**
  * Shows a tooltip on hover and on keyboard focus.
  * @param {HTMLElement} element
- * @param {string | (() => string)} content
+ * @param {string | ((event: Event) => string)} content may depend on where the pointer is
  * @param {"below" | "left"} side
  */
 export function tooltip(element, content, side = "below") {
+  /** @type {Event} */
+  let last = new Event("pointermove");
   const show = () => {
-    const words = typeof content === "string" ? content : content();
+    const words = typeof content === "string" ? content : content(last);
     if (words && element.isConnected) place(element, words, side);
   };
   element.addEventListener("pointerenter", (event) => {
     if (event.pointerType === "touch") return;
+    last = event;
     clearTimeout(timer);
     timer = setTimeout(show, DELAY_MS);
+  });
+  element.addEventListener("pointermove", (event) => {
+    last = event;
+    if (box && owner === element && typeof content !== "string") box.textContent = content(event);
   });
   element.addEventListener("focusin", (event) => {
     if (!(event.target instanceof Element && event.target.matches(":focus-visible"))) return;
