@@ -31,6 +31,8 @@ const MARGIN = 1.12;
 // What is gone to fills this share of the stage, unless it can be seen already.
 const SHARE = 0.25;
 const EASILY_SEEN_PX = 60;
+// And it is not as near as this to an edge.
+const EDGE_PX = 30;
 // The smallest half of a whole plan [m].
 const LEAST = 0.5;
 // Around a close-up there is room for names; the smallest half of one [m].
@@ -240,16 +242,19 @@ export class Stage {
     this.#apply();
   }
 
-  /** Moves the plan so that the box can be seen well; a box that can be seen well stays where it is. @param {Box} box */
+  /** Moves the plan so that the box can be seen well, and zooms in if it is too small. @param {Box} box */
   goTo = ([xmin, ymin, xmax, ymax]) => {
     const { clientWidth, clientHeight } = this.frame;
-    const ends = [this.project(xmin, ymin), this.project(xmax, ymax)];
-    const inside = ends.every((at) => at && at[0] > 0 && at[0] < clientWidth && at[1] > 0 && at[1] < clientHeight);
     const [wide, high] = [xmax - xmin, ymax - ymin];
-    if (inside && Math.max(wide, high) * (this.#scale?.pxPerMetre ?? 0) > EASILY_SEEN_PX) return;
-    const span = Math.max(high, (wide * clientHeight) / Math.max(1, clientWidth), 0.5) / SHARE;
-    this.#stretch = null;
-    this.lookAt({ x: (xmin + xmax) / 2, y: (ymin + ymax) / 2, span });
+    const scale = this.#scale?.pxPerMetre ?? 0;
+    const large =
+      Math.max(wide, high) * scale > EASILY_SEEN_PX && wide * scale < clientWidth && high * scale < clientHeight;
+    const inside = [this.project(xmin, ymin), this.project(xmax, ymax)].every((at) =>
+      at?.every((place, k) => place > EDGE_PX && place < [clientWidth, clientHeight][k] - EDGE_PX),
+    );
+    if (large && inside) return;
+    const near = Math.max(high, (wide * clientHeight) / Math.max(1, clientWidth), 0.5) / SHARE;
+    this.lookAt({ x: (xmin + xmax) / 2, y: (ymin + ymax) / 2, span: large ? clientHeight / scale : near });
   };
 
   /** Position of a point of the plan on the stage [px], in any view; null if it cannot be seen. @param {number} x @param {number} y @returns {[number, number] | null} */
