@@ -88,7 +88,8 @@ def test_a_frame_without_lines_says_what_is_there():
     scans = [room(noise=0.005, seed=seed) for seed in range(12)]
     scans[5] = Scan(scans[5].ranges + np.random.default_rng(1).normal(0, 0.03, len(scans[5])), scans[5].bearings)
     recording = Recording.from_scans(scans)
-    remarks = why(recording, 5, Params(epsilon=0.006, delta=0.01))
+    # With such an ε and δ, the noise itself would look like small objects.
+    remarks = why(recording, 5, Params(epsilon=0.006, delta=0.01, max_occluder=0.0))
     assert remarks[0].score == "blank"
     assert "m line at beams" in remarks[0].text
     assert remarks[0].text.endswith("where there is none")
