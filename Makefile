@@ -1,6 +1,6 @@
 PYTHON ?= python3
 BIN := .venv/bin
-EXTRAS := rerun,tune,parquet,plot,ros2
+EXTRAS := rerun,tune,parquet,plot,ros2,zenoh
 # Tests of one file stay together, since they share a server, and in the order of tests/conftest.py.
 PYTEST := $(BIN)/pytest -n 2 --dist loadfile --no-loadscope-reorder
 .PHONY: run install quick test check check-page dist clean

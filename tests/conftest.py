@@ -32,7 +32,7 @@ def reference_dir() -> Path:
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     """Mark tests that start a server or a browser: those in files that import a helper that does."""
-    helpers = {"live", "robots", "processes"}
+    helpers = {"live", "robots", "processes", "obeying"}
     for item in items:
         imported = {getattr(value, "__module__", None) for value in vars(getattr(item, "module", item)).values()}
         if imported & helpers or "browser" in getattr(item, "fixturenames", ()):

@@ -27,7 +27,6 @@ URI = (
     "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name='lo' multicast='true'/></Interfaces></General>"
     "<Discovery><LeaseDuration>2s</LeaseDuration><Tag>lineseg-{}</Tag></Discovery></Domain></CycloneDDS>"
 )
-SECONDS = 60
 
 
 @dataclass
@@ -236,31 +235,8 @@ def obey() -> None:
 # --- the other end ----------------------------------------------------------------------------------------------------
 
 
-class Peer:
-    """The process, from the tests."""
-
-    def __init__(self) -> None:
-        self.process = subprocess.Popen(
-            [sys.executable, __file__], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
-        )
-
-    def ask(self, do: str, **arguments: Any) -> Any:
-        assert self.process.stdin and self.process.stdout
-        self.process.stdin.write(json.dumps({"do": do, **arguments}) + "\n")
-        self.process.stdin.flush()
-        return json.loads(self.process.stdout.readline())
-
-    def until(self, do: str, **arguments: Any) -> Any:
-        """The first answer that is not empty."""
-        end = time.monotonic() + SECONDS
-        while not (answer := self.ask(do, **arguments)):
-            assert time.monotonic() < end, f"{do} {arguments} stays {answer!r}"
-            time.sleep(0.02)
-        return answer
-
-    def close(self) -> None:
-        self.process.kill()
-        self.process.communicate()
+def start() -> subprocess.Popen[str]:
+    return subprocess.Popen([sys.executable, __file__], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
 
 
 @contextlib.contextmanager

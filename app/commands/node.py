@@ -35,8 +35,8 @@ def node(
     The file of --params is read again when it changes.
 
     Args:
-        source: ros2:/scan or ros2://DOMAIN/scan (DDS; ros2: lists the topics), ws://robot:9090 (rosbridge), or
-            ws://robot:8765 (Foxglove).
+        source: ros2:/scan or ros2://DOMAIN/scan (DDS; ros2: lists the topics), zenoh:/scan or zenoh://router:7447/scan
+            (Zenoh), ws://robot:9090 (rosbridge), or ws://robot:8765 (Foxglove).
         method: the method, and where its thresholds come from (default: the method's defaults).
         threshold: thresholds of region growing; they override --params.
         topic: topic of the scans, for an address without one (default: the first topic with scans).

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import os
 from importlib.util import find_spec
 
 from lineseg.installation import install_command
 
-from ..live.address import EXPECTED, Address, is_address
+from ..live.address import EXPECTED, Address, domain_of, is_address
 
-NEEDED = {"ros2": "cyclonedds"}
+NEEDED = {"ros2": "cyclonedds", "zenoh": "zenoh"}
 LIST_SECONDS = 2.0
 
 
@@ -26,17 +27,30 @@ def address_of(text: str, topic: str | None) -> Address:
 
 def list_topics(address: Address) -> bool:
     """Print the laser topics if the address names none and has to; returns whether it did."""
-    if address.scheme != "ros2" or address.topic is not None:
+    if address.scheme not in NEEDED or address.topic is not None:
         return False
-    from ..live.dds import laser_topics
-
-    offers = laser_topics(address.domain, LIST_SECONDS)
-    for offer in offers:
-        kind = "reliable" if offer.reliable else "best effort"
-        print(f"{address.url}{offer.topic}  {kind}, {'transient local' if offer.kept else 'volatile'}")
+    offers = _found(address)
+    for topic, quality in offers:
+        print(f"{address.url}{topic}  {quality}".rstrip())
     if not offers:
+        other = ", or ros2://DOMAIN" if address.scheme == "ros2" else ""
         raise ValueError(
             f"no sensor_msgs/LaserScan topic showed up in {LIST_SECONDS:g} s; check that the robot publishes, and its "
-            "domain: ROS_DOMAIN_ID, or ros2://DOMAIN"
+            f"domain: ROS_DOMAIN_ID{other}"
         )
     return True
+
+
+def _found(address: Address) -> list[tuple[str, str]]:
+    """Topics, and what is known of how they are published."""
+    if address.scheme == "zenoh":
+        from ..live.zenoh_bridge import zenoh_topics
+
+        return [(offer.topic, "") for offer in zenoh_topics(address.router, domain_of(os.environ), LIST_SECONDS)]
+    from ..live.dds import laser_topics
+
+    reliabilities, durabilities = ("best effort", "reliable"), ("volatile", "transient local")
+    return [
+        (each.topic, ", ".join((reliabilities[each.reliable], durabilities[each.kept])))
+        for each in laser_topics(address.domain, LIST_SECONDS)
+    ]

@@ -34,7 +34,7 @@ def view(
     Args:
         file: recording to open: a bag, MCAP, log, NPZ, JSON, CSV or other text, also compressed (default: a sample).
             Or, to watch a robot live, its address: ws://robot:9090 (rosbridge), ws://robot:8765 (Foxglove), ros2:/scan
-            or ros2://DOMAIN/scan (DDS; ros2: lists the topics).
+            or ros2://DOMAIN/scan (DDS; ros2: lists the topics), zenoh:/scan or zenoh://router:7447/scan (Zenoh).
         reading: how to read the file; of a robot, only the topic can be chosen.
         keep: number of a robot's scans to keep; older ones are dropped.
         host: address to listen on; any but the loopback requires a token.

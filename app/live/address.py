@@ -3,23 +3,25 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Mapping
 from dataclasses import dataclass
 from urllib.parse import urlsplit
 
 SOCKETS = ("ws", "wss")
 # Robots that are found by the name of a topic; `//PLACE` is optional.
-NAMED = re.compile(r"(ros2):(?://([^/]*))?(/.*)?", re.IGNORECASE | re.DOTALL)
+NAMED = re.compile(r"(ros2|zenoh):(?://([^/]*))?(/.*)?", re.IGNORECASE | re.DOTALL)
 TOPIC = re.compile(r"(/[A-Za-z_][A-Za-z0-9_]*)+")
 LARGEST_DOMAIN = 232
+ROUTER_PORT = 7447
 SOCKET_EXAMPLES = "ws://robot:9090 (rosbridge) or ws://robot:8765 (Foxglove)"
-EXPECTED = f"give one like ros2:/scan, ros2://DOMAIN/scan, {SOCKET_EXAMPLES}"
+EXPECTED = f"give one like ros2:/scan, ros2://DOMAIN/scan, zenoh:/scan, zenoh://router:7447/scan, {SOCKET_EXAMPLES}"
 
 
 @dataclass(frozen=True)
 class Address:
-    """url: ws://host:port of a robot's bridge, or ros2://DOMAIN; topic: of its scans, None for the first.
+    """url: ws://host:port of a bridge, ros2://DOMAIN or zenoh://ROUTER:PORT; topic: of the scans, None for the first.
 
-    The topic may also be part of a URL that begins with ros2. Raises ValueError if it is not an address.
+    The topic may also be part of a URL that begins with ros2 or zenoh. Raises ValueError if it is not an address.
     """
 
     url: str
@@ -37,7 +39,7 @@ class Address:
         if topic and not TOPIC.fullmatch(topic):
             raise ValueError(f"{topic[:80]!r} is not a topic of ROS; give one like /scan or /robot1/scan")
         if place is not None:
-            place = checked_domain(place, f"the domain in {self.url[:80]!r}")
+            place = checked_domain(place, f"the domain in {self.url[:80]!r}") if scheme == "ros2" else _router(place)
         object.__setattr__(self, "url", f"{scheme}:" if place is None else f"{scheme}://{place}")
         object.__setattr__(self, "topic", topic)
 
@@ -53,7 +55,12 @@ class Address:
     @property
     def domain(self) -> int | None:
         """The domain of DDS; None if the environment says it."""
-        return int(self.url.partition("//")[2]) if "//" in self.url and self.scheme not in SOCKETS else None
+        return int(self.url.partition("//")[2]) if "//" in self.url and self.scheme == "ros2" else None
+
+    @property
+    def router(self) -> str:
+        """The router of Zenoh; the usual one is on this machine."""
+        return self.url.partition("//")[2] or f"localhost:{ROUTER_PORT}"
 
     @property
     def id(self) -> str:
@@ -61,7 +68,7 @@ class Address:
 
 
 def is_address(text: str) -> bool:
-    return text.lower().startswith(("ws://", "wss://", "ros2:"))
+    return text.lower().startswith(("ws://", "wss://", "ros2:", "zenoh:"))
 
 
 def check_address(url: str) -> None:
@@ -88,3 +95,16 @@ def checked_domain(text: str, where: str) -> int:
     if not re.fullmatch(r"[0-9]{1,9}", text) or int(text) > LARGEST_DOMAIN:
         raise ValueError(f"{where} is {text[:80]!r}; a domain of DDS is a whole number from 0 to {LARGEST_DOMAIN}")
     return int(text)
+
+
+def _router(place: str) -> str:
+    """host:port; a host alone has the usual port."""
+    found = re.fullmatch(r"([A-Za-z0-9._-]+|\[[0-9A-Fa-f:.]+\])(?::([0-9]{1,5}))?", place)
+    if found is None or not 0 < int(found[2] or ROUTER_PORT) < 65_536:
+        raise ValueError(f"{place[:80]!r} is not the address of a Zenoh router; give one like robot:{ROUTER_PORT}")
+    return f"{found[1]}:{found[2] or ROUTER_PORT}"
+
+
+def domain_of(environ: Mapping[str, str]) -> int:
+    """The domain that ROS 2 uses if none is named."""
+    return checked_domain(environ.get("ROS_DOMAIN_ID") or "0", "ROS_DOMAIN_ID")

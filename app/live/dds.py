@@ -28,6 +28,7 @@ from .bridge import Told
 from .dds_domain import join
 from .dds_types import serialised_type
 from .outgoing import Message, full_type
+from .topics import why_none
 
 LASER_SCAN = TYPES[1]
 PREFIX = "rt"
@@ -44,7 +45,8 @@ EITHER = Policy.DataRepresentation(use_cdrv0_representation=True, use_xcdrv2_rep
 OFFERED = Qos(
     Policy.Reliability.Reliable(duration(milliseconds=20)),
     Policy.Durability.TransientLocal,
-    Policy.History.KeepLast(1),
+    Policy.History.KeepLast(10),
+    Policy.DurabilityService(0, Policy.History.KeepLast(1), -1, -1, -1),
     ENCODED,
 )
 
@@ -144,7 +146,7 @@ class Dds:
             chosen = wanted or next(iter(lasers), None)
             if chosen in lasers:
                 return [offer for offer in offers if offer.is_laser and offer.topic == chosen]
-            told.waits(_why_none(wanted, offers, lasers))
+            told.waits(why_none(wanted, [(offer.topic, offer.type) for offer in offers], lasers))
             self._closing.wait(LOOK_SECONDS)
         return []
 
@@ -221,19 +223,6 @@ def _asked(offers: list[Offer]) -> Qos:
         Policy.TypeConsistency.AllowTypeCoercion(ignore_member_names=True),
         EITHER,
     )
-
-
-def _why_none(topic: str | None, offers: list[Offer], lasers: list[str]) -> str:
-    others = f"; its laser topics: {', '.join(lasers[:8])}" if lasers else "; it has no sensor_msgs/LaserScan topic"
-    if topic is None:
-        there = sorted({f"{offer.topic} ({offer.type})" for offer in offers})
-        return f"nobody publishes a sensor_msgs/LaserScan yet; topics there: {', '.join(there[:8]) or 'none'}"
-    named = [offer.type for offer in offers if offer.topic == topic]
-    if named:
-        return (
-            f"{topic} is {named[0]}; choose a sensor_msgs/LaserScan topic{f', such as {lasers[0]}' if lasers else ''}"
-        )
-    return f"nobody publishes {topic} yet{others if offers else ', nor any other topic; check the domain'}"
 
 
 def _why_no_match(topic: str, reader: DataReader[Any]) -> str:

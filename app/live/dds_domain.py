@@ -11,7 +11,7 @@ from functools import cache
 from cyclonedds.core import DDSException
 from cyclonedds.domain import Domain, DomainParticipant
 
-from .address import checked_domain
+from .address import domain_of
 
 RANGES = ("LOCALHOST", "SUBNET", "OFF", "SYSTEM_DEFAULT")
 PARTICIPANTS = "<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>32</MaxAutoParticipantIndex>"
@@ -31,10 +31,6 @@ def join(domain: int | None) -> DomainParticipant:
         return DomainParticipant(id)
     except DDSException as error:
         raise OSError(f"domain {id} cannot be joined: {_why(uri) or error.msg or error}") from None
-
-
-def domain_of(environ: Mapping[str, str]) -> int:
-    return checked_domain(environ.get("ROS_DOMAIN_ID") or "0", "ROS_DOMAIN_ID")
 
 
 def discovery(environ: Mapping[str, str]) -> str:

@@ -7,7 +7,7 @@ from typing import Any
 
 from cyclonedds.idl import make_idl_struct, types
 
-from .outgoing import typestore
+from .outgoing import dds_type, typestore
 
 BASE: dict[str, Any] = {"bool": bool, "string": str, "octet": types.byte} | {
     name: getattr(types, name)
@@ -38,12 +38,6 @@ def serialised_type(name: str) -> Any:
         setattr(kind, method, Serialised.__dict__[method])
     kind.deserialize_key = kind.deserialize
     return kind
-
-
-def dds_type(name: str) -> str:
-    """The name of a type in DDS: sensor_msgs/msg/LaserScan is sensor_msgs::msg::dds_::LaserScan_."""
-    package, _, short = name.split("/")
-    return f"{package}::msg::dds_::{short}_"
 
 
 @cache

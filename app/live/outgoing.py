@@ -49,6 +49,12 @@ def full_type(type: str) -> str:
     return f"{package}/msg/{name.removeprefix('msg/')}"
 
 
+def dds_type(name: str) -> str:
+    """The name of a type in DDS: sensor_msgs/msg/LaserScan is sensor_msgs::msg::dds_::LaserScan_."""
+    package, _, short = name.split("/")
+    return f"{package}::msg::dds_::{short}_"
+
+
 def header_fields(scan: LaserScan, ros1: bool) -> dict[str, Any]:
     """The stamp and the frame of a scan; in ROS 1 the parts of a stamp have other names."""
     names = ("secs", "nsecs") if ros1 else ("sec", "nanosec")

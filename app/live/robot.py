@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import os
 import random
 import threading
 import time
@@ -14,7 +15,7 @@ from websockets.exceptions import WebSocketException
 from lineseg import EXTRACTORS
 from lineseg.readers.laser_scan import LaserScan
 
-from .address import Address
+from .address import Address, domain_of
 from .bridge import OPEN_SECONDS, Bridge, why_not
 from .cloud import Cloud
 from .markers import Markers
@@ -101,6 +102,10 @@ class Robot(Source):
             from .dds import open_dds
 
             return open_dds(self._address.domain)
+        if self._address.scheme == "zenoh":
+            from .zenoh_bridge import open_zenoh
+
+            return open_zenoh(self._address.router, domain_of(os.environ))
         return open_websocket(self._address.url)
 
     def topic_is(self, topic: str) -> None:

@@ -8,8 +8,7 @@ import re
 import signal
 import threading
 import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -18,17 +17,17 @@ import pytest
 
 pytest.importorskip("cyclonedds", reason="DDS needs the extra ros2")
 
-from dds_peer import DOMAIN, SECONDS, URI, Peer, loopback
+import dds_peer
+from dds_peer import DOMAIN, URI, loopback
 from lineseg_app.__main__ import main
-from lineseg_app.live.address import Address
-from lineseg_app.live.dds_domain import discovery, domain_of, join
-from lineseg_app.live.node import OWNER, Node
-from lineseg_app.live.source import Publishing
+from lineseg_app.live.address import Address, domain_of
+from lineseg_app.live.dds_domain import discovery, join
 from live import page_of
+from obeying import SECONDS, Obedient, eventually, running, said
 from processes import lineseg
 from robots import nearest, wall, watching
 
-from lineseg import Params, extract, open_recording
+from lineseg import extract, open_recording
 from lineseg.covariance import Noise, covariances
 from lineseg.readers.laser_scan import LaserScan
 
@@ -37,9 +36,9 @@ numbers = itertools.count(1)
 
 
 @pytest.fixture(scope="module")
-def peer() -> Iterator[Peer]:
+def peer() -> Iterator[Obedient]:
     with loopback():
-        peer = Peer()
+        peer = Obedient(dds_peer.start())
         yield peer
         peer.close()
 
@@ -49,38 +48,7 @@ def topic() -> str:
     return f"/robot{next(numbers)}/scan"
 
 
-def publishing(topic: str, **fields: Any) -> Publishing:
-    return Publishing(OWNER, f"{topic}/markers", "region-growing", Params(), f"{topic}/cloud", **fields)
-
-
-@contextmanager
-def running(topic: str, newest: Callable[[], Params] = Params, **fields: Any) -> Iterator[list[str]]:
-    """A node on the topic, in a thread; yields what it tells."""
-    told: list[str] = []
-    node = Node(Address(f"ros2:{topic}"), publishing(topic, **fields), newest, told.append)
-    thread = threading.Thread(target=node.run)
-    thread.start()
-    try:
-        yield told
-    finally:
-        node.stop()
-        thread.join(SECONDS)
-    assert not thread.is_alive()
-
-
-def eventually(condition: Callable[[], Any]) -> Any:
-    end = time.monotonic() + SECONDS
-    while not (found := condition()):
-        assert time.monotonic() < end, "it never came true"
-        time.sleep(0.02)
-    return found
-
-
-def said(told: list[str], words: str) -> None:
-    eventually(lambda: any(words in line for line in told))
-
-
-def opened(peer: Peer, topic: str, **qos: bool) -> None:
+def opened(peer: Obedient, topic: str, **qos: bool) -> None:
     """A publisher of scans, and readers of what comes back."""
     peer.ask("open", topic=topic, kind="LaserScan", write=True, **qos)
     peer.ask("open", topic=f"{topic}/markers", kind="MarkerArray", write=False, reliable=True)
@@ -90,7 +58,7 @@ def opened(peer: Peer, topic: str, **qos: bool) -> None:
     peer.until("matched", topic=f"{topic}/cloud")
 
 
-def segments_back(peer: Peer, topic: str, **scan: Any) -> tuple[dict[str, Any], dict[str, Any]]:
+def segments_back(peer: Obedient, topic: str, **scan: Any) -> tuple[dict[str, Any], dict[str, Any]]:
     """The markers and the cloud that answer a scan, which is sent until they come, for best effort may lose it."""
     end = time.monotonic() + SECONDS
     while time.monotonic() < end:
@@ -103,7 +71,7 @@ def segments_back(peer: Peer, topic: str, **scan: Any) -> tuple[dict[str, Any], 
     raise AssertionError("no segments came back")
 
 
-def answer(peer: Peer, topic: str, second: int) -> dict[str, Any]:
+def answer(peer: Obedient, topic: str, second: int) -> dict[str, Any]:
     """The message on a topic whose stamp has these seconds."""
 
     def found() -> dict[str, Any] | None:
@@ -116,10 +84,10 @@ def answer(peer: Peer, topic: str, second: int) -> dict[str, Any]:
     return eventually(found)
 
 
-def test_markers_and_cloud_have_the_segments_the_stamp_and_the_frame_of_their_scan(peer: Peer, topic: str):
+def test_markers_and_cloud_have_the_segments_the_stamp_and_the_frame_of_their_scan(peer: Obedient, topic: str):
     ranges = [*wall(2.0)[:45], *[3.0] * 5, *wall(4.0)[50:]]
     noise = Noise(0.01, 0.001)
-    with running(topic, noise=noise):
+    with running(Address(f"ros2:{topic}"), topic, noise=noise):
         opened(peer, topic)
         markers, cloud = segments_back(peer, topic, ranges=ranges, second=7)
     angles = np.float32([-0.7853982, 0.017453292]).tolist()
@@ -161,37 +129,37 @@ def test_markers_and_cloud_have_the_segments_the_stamp_and_the_frame_of_their_sc
 
 
 @pytest.mark.parametrize("qos", [{"reliable": True}, {"reliable": True, "kept": True}, {"xcdr2": True}])
-def test_every_usual_quality_of_service_is_received(peer: Peer, topic: str, qos: dict[str, bool]):
-    with running(topic):
+def test_every_usual_quality_of_service_is_received(peer: Obedient, topic: str, qos: dict[str, bool]):
+    with running(Address(f"ros2:{topic}"), topic):
         opened(peer, topic, **qos)
         assert segments_back(peer, topic, ranges=wall(2.0))[1]["width"] == 1
 
 
-def test_a_scan_that_its_publisher_keeps_is_received_by_a_node_that_comes_later(peer: Peer, topic: str):
+def test_a_scan_that_its_publisher_keeps_is_received_by_a_node_that_comes_later(peer: Obedient, topic: str):
     peer.ask("open", topic=topic, kind="LaserScan", write=True, reliable=True, kept=True)
     peer.ask("scan", topic=topic, ranges=wall(2.0), second=42)
     peer.ask("open", topic=f"{topic}/markers", kind="MarkerArray", write=False, reliable=True, kept=True)
-    with running(topic):
+    with running(Address(f"ros2:{topic}"), topic):
         (markers,) = peer.until("take", topic=f"{topic}/markers")
     assert markers["markers"][0]["header"]["stamp"]["sec"] == 42
 
 
-def test_a_topic_that_cannot_be_used_is_told(peer: Peer, topic: str):
-    with running(topic) as told:
+def test_a_topic_that_cannot_be_used_is_told(peer: Obedient, topic: str):
+    with running(Address(f"ros2:{topic}"), topic) as told:
         said(told, f"nobody publishes {topic} yet")
         peer.ask("open", topic=topic, kind="String", write=True)
         said(told, f"{topic} is std_msgs/msg/String; choose a sensor_msgs/LaserScan topic")
 
 
-def test_a_quality_of_service_that_does_not_fit_is_told(peer: Peer, topic: str):
-    with running(topic) as told:
+def test_a_quality_of_service_that_does_not_fit_is_told(peer: Obedient, topic: str):
+    with running(Address(f"ros2:{topic}"), topic) as told:
         peer.ask("open", topic=topic, kind="LaserScan", write=True, exclusive=True)
         said(told, f"{topic} is published, but its ownership does not fit")
 
 
-def test_a_publisher_may_die_and_return(peer: Peer, topic: str):
-    other = Peer()
-    with running(topic) as told:
+def test_a_publisher_may_die_and_return(peer: Obedient, topic: str):
+    other = Obedient(dds_peer.start())
+    with running(Address(f"ros2:{topic}"), topic) as told:
         opened(other, topic)
         segments_back(other, topic, ranges=wall(2.0))
         other.close()
@@ -200,9 +168,9 @@ def test_a_publisher_may_die_and_return(peer: Peer, topic: str):
         assert segments_back(peer, topic, ranges=wall(3.0))[1]["width"] == 1
 
 
-def test_a_recording_that_is_replayed_gives_exactly_the_segments_of_extract(peer: Peer, topic: str):
+def test_a_recording_that_is_replayed_gives_exactly_the_segments_of_extract(peer: Obedient, topic: str):
     recording = open_recording(SAMPLES / "hallway.mcap")
-    with running(topic):
+    with running(Address(f"ros2:{topic}"), topic):
         opened(peer, topic, reliable=True)
         for frame in range(0, len(recording), len(recording) // 5):
             scan = recording[frame]
@@ -214,7 +182,7 @@ def test_a_recording_that_is_replayed_gives_exactly_the_segments_of_extract(peer
             assert [(point["x"], point["y"]) for point in marker["points"]] == ends
 
 
-def test_the_page_shows_scans_and_publishes_segments(peer: Peer, topic: str, tmp_path: Path):
+def test_the_page_shows_scans_and_publishes_segments(peer: Obedient, topic: str, tmp_path: Path):
     with watching(f"ros2:{topic}", tmp_path, topic=None) as server, page_of(server) as page:
         page.say(type="hello")
         session = {"session": page.hear_a("welcome")["session"]}
@@ -234,7 +202,7 @@ def test_the_page_shows_scans_and_publishes_segments(peer: Peer, topic: str, tmp
         assert peer.until("take", topic=f"{topic}/segments")
 
 
-def test_the_command_follows_its_file_and_ends_on_sigterm(peer: Peer, topic: str, tmp_path: Path):
+def test_the_command_follows_its_file_and_ends_on_sigterm(peer: Obedient, topic: str, tmp_path: Path):
     file = tmp_path / "tuned.yaml"
     file.write_text("/**:\n  ros__parameters:\n    min_line_points: 10\n")
     out = ("--markers", f"{topic}/markers", "--cloud", f"{topic}/cloud")
@@ -250,7 +218,7 @@ def test_the_command_follows_its_file_and_ends_on_sigterm(peer: Peer, topic: str
     assert f"{file}: min_points 10 → 92" in errors
 
 
-def test_once_publishes_one_scan_and_prints_it(peer: Peer, topic: str, capsys: pytest.CaptureFixture[str]):
+def test_once_publishes_one_scan_and_prints_it(peer: Obedient, topic: str, capsys: pytest.CaptureFixture[str]):
     done = threading.Event()
 
     def send() -> None:
@@ -269,13 +237,13 @@ def test_once_publishes_one_scan_and_prints_it(peer: Peer, topic: str, capsys: p
     assert len(peer.until("take", topic=f"{topic}/cloud")) == 1
 
 
-def test_the_laser_topics_are_listed(peer: Peer, topic: str, capsys: pytest.CaptureFixture[str]):
+def test_the_laser_topics_are_listed(peer: Obedient, topic: str, capsys: pytest.CaptureFixture[str]):
     peer.ask("open", topic=topic, kind="LaserScan", write=True, reliable=True)
     assert main(["view", "ros2:"]) == 0
     assert f"ros2:{topic}  reliable, volatile\n" in capsys.readouterr().out
 
 
-def test_an_interface_that_is_not_there_is_named(peer: Peer, monkeypatch: pytest.MonkeyPatch):
+def test_an_interface_that_is_not_there_is_named(peer: Obedient, monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setenv("CYCLONEDDS_URI", URI.format("elsewhere").replace("'lo'", "'eth99'"))
     with pytest.raises(OSError, match=r"CYCLONEDDS_URI names the interface eth99; this machine has .*lo"):
         join(DOMAIN + 1)
@@ -306,10 +274,10 @@ def test_a_variable_that_cannot_be_is_told():
         domain_of({"ROS_DOMAIN_ID": "233"})
 
 
-def test_thousands_of_scans_take_no_more_memory_than_a_few(peer: Peer, topic: str):
+def test_thousands_of_scans_take_no_more_memory_than_a_few(peer: Obedient, topic: str):
     psutil = pytest.importorskip("psutil", reason="the size of a process needs psutil")
     process = psutil.Process()
-    with running(topic):
+    with running(Address(f"ros2:{topic}"), topic):
         opened(peer, topic, reliable=True)
         sizes = []
         for _ in range(2):

@@ -1,0 +1,219 @@
+"""Topics of ROS 2 on Zenoh, as rmw_zenoh has them; no ROS is needed.
+
+A message travels on the key DOMAIN/TOPIC/TYPE/HASH as CDR, with the number, the time and the writer of the message
+attached. Who publishes what is declared by liveliness tokens,
+@ros2_lv/DOMAIN/SESSION/NODE/ENTITY/KIND/ENCLAVE/NAMESPACE/NAME/TOPIC/TYPE/HASH/QOS, where / within a part is %.
+Design: github.com/ros2/rmw_zenoh, docs/design.md.
+"""
+
+from __future__ import annotations
+
+import itertools
+import os
+import queue
+import socket
+import struct
+import threading
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import Any
+
+import zenoh
+
+from lineseg.readers.decoders import plain_type
+from lineseg.readers.laser_scan import TYPES, decode_cdr
+
+from .bridge import OPEN_SECONDS, Told
+from .outgoing import Message, dds_type, full_type, typestore
+from .topics import why_none
+
+LASER_SCAN = TYPES[1]
+SPACE = "@ros2_lv"
+PUBLISHER, NODE, SUBSCRIPTION = "MP", "NN", "MS"
+NODE_NAME = "lineseg"
+# Reliable, volatile, the last 10: every field as by default.
+QOS = "::,10:,:,:,,"
+LOOK_SECONDS = 0.1
+MOST_WAITING = 64
+STATE = struct.Struct("<qqB")
+
+
+@dataclass(frozen=True)
+class Offer:
+    """What a publisher offers. type: as ROS 2 names it."""
+
+    topic: str
+    type: str
+
+    @property
+    def is_laser(self) -> bool:
+        return self.type == LASER_SCAN
+
+
+@contextmanager
+def open_zenoh(router: str, domain: int) -> Iterator[Zenoh]:
+    """Connect to a router. Raises OSError if there is none."""
+    host, _, port = router.rpartition(":")
+    try:
+        # Zenoh itself keeps trying, and does not say so.
+        socket.create_connection((host.strip("[]"), int(port)), OPEN_SECONDS).close()
+        session = zenoh.open(_config(router))
+    except (zenoh.ZError, OSError) as error:
+        raise OSError(f"no Zenoh router answers at {router}; `ros2 run rmw_zenoh_cpp rmw_zenohd` starts one") from error
+    try:
+        yield Zenoh(session, domain)
+    finally:
+        session.close()
+
+
+def zenoh_topics(router: str, domain: int, seconds: float) -> list[Offer]:
+    """The publishers of scans that show up within a time, sorted by topic."""
+    with open_zenoh(router, domain) as bridge:
+        time.sleep(seconds)
+        return sorted({offer for offer in bridge.offers() if offer.is_laser}, key=lambda offer: offer.topic)
+
+
+class Zenoh:
+    """A node of ROS 2 in a session of Zenoh."""
+
+    name = "Zenoh"
+
+    def __init__(self, session: zenoh.Session, domain: int) -> None:
+        self._session, self._domain = session, domain
+        self._gid = os.urandom(16)
+        self._ids = itertools.count(1)
+        self._numbers = itertools.count(1)
+        self._publishers: dict[str, Any] = {}
+        self._offers: dict[str, Offer] = {}
+        self._closing = threading.Event()
+        self._arrived: queue.Queue[bytes] = queue.Queue(MOST_WAITING)
+        self._declared = [
+            session.liveliness().declare_token(self._token(0, NODE)),
+            session.liveliness().declare_subscriber(f"{SPACE}/{domain}/**", self._hear, history=True),
+        ]
+
+    def close(self) -> None:
+        self._closing.set()
+
+    def offers(self) -> list[Offer]:
+        """All publishers that are known at present."""
+        return list(self._offers.copy().values())
+
+    def scans(self, topic: str | None, told: Told) -> None:
+        chosen = self._wait_for(topic, told)
+        if chosen is None:
+            return
+        told.topic_is(chosen)
+        told.waits(f"subscribed to {chosen}; waiting for its first scan")
+        key = f"{self._domain}{chosen}/{dds_type(LASER_SCAN)}"
+        subscriber = self._session.declare_subscriber(f"{key}/*", self._keep)
+        token = self._session.liveliness().declare_token(self._token(next(self._ids), SUBSCRIPTION, chosen, LASER_SCAN))
+        try:
+            self._hand_over(chosen, told)
+        finally:
+            token.undeclare()
+            subscriber.undeclare()
+
+    def announce(self, topic: str, message: type[Message]) -> None:
+        if topic in self._publishers:
+            return
+        type = full_type(message.type)
+        key = f"{self._domain}{topic}/{dds_type(type)}/{_hash(type)}"
+        try:
+            self._publishers[topic] = self._session.declare_publisher(key, encoding=zenoh.Encoding.APPLICATION_CDR)
+            token = self._token(next(self._ids), PUBLISHER, topic, type)
+            self._declared.append(self._session.liveliness().declare_token(token))
+        except zenoh.ZError as error:
+            raise ValueError(f"nothing can be published to {topic}: {error}") from None
+
+    def publish(self, topic: str, message: Message) -> None:
+        self.announce(topic, type(message))
+        attached = STATE.pack(next(self._numbers), time.time_ns(), len(self._gid)) + self._gid
+        try:
+            self._publishers[topic].put(message.cdr(), attachment=attached)
+        except zenoh.ZError as error:
+            raise ValueError(f"nothing can be published to {topic}: {error}") from None
+
+    # --- in threads of Zenoh ------------------------------------------------------------------------------------------
+
+    def _hear(self, sample: zenoh.Sample) -> None:
+        """A token appears or disappears."""
+        key = str(sample.key_expr)
+        parts = key.split("/")
+        if len(parts) < 12 or parts[5] != PUBLISHER:
+            return
+        if sample.kind == zenoh.SampleKind.PUT:
+            self._offers[key] = Offer(parts[9].replace("%", "/"), plain_type(parts[10]))
+        else:
+            self._offers.pop(key, None)
+
+    def _keep(self, sample: zenoh.Sample) -> None:
+        """The newest scans; the oldest makes room."""
+        while True:
+            try:
+                return self._arrived.put_nowait(sample.payload.to_bytes())
+            except queue.Full:
+                self._take()
+
+    # --- in the thread of `scans` -------------------------------------------------------------------------------------
+
+    def _take(self) -> bytes | None:
+        try:
+            return self._arrived.get_nowait()
+        except queue.Empty:
+            return None
+
+    def _wait_for(self, wanted: str | None, told: Told) -> str | None:
+        """The topic, or the first laser topic, as soon as it is published; None on closing."""
+        while not self._closing.is_set():
+            offers = self.offers()
+            lasers = sorted({offer.topic for offer in offers if offer.is_laser})
+            chosen = wanted or next(iter(lasers), None)
+            if chosen in lasers:
+                return chosen
+            told.waits(why_none(wanted, [(offer.topic, offer.type) for offer in offers], lasers))
+            self._closing.wait(LOOK_SECONDS)
+        return None
+
+    def _hand_over(self, topic: str, told: Told) -> None:
+        gone = False
+        while not self._closing.is_set():
+            try:
+                waiting = [self._arrived.get(timeout=LOOK_SECONDS)]
+            except queue.Empty:
+                waiting = []
+            while (data := self._take()) is not None:
+                waiting.append(data)
+            for index, data in enumerate(waiting, 1):
+                told.hand(lambda data=data: decode_cdr(data), newest=index == len(waiting))
+            there = any(offer.is_laser and offer.topic == topic for offer in self.offers())
+            if not there and not gone:
+                told.misses(f"{topic} is no longer published; waiting for it")
+            gone = not there
+
+    def _token(self, entity: int, kind: str, topic: str = "", type: str = "") -> str:
+        parts = [SPACE, self._domain, self._session.info.zid(), 0, entity, kind, "%", "%", NODE_NAME]
+        if topic:
+            parts += [topic.replace("/", "%"), dds_type(type), _hash(type), QOS]
+        return "/".join(map(str, parts))
+
+
+def _config(router: str) -> zenoh.Config:
+    config = zenoh.Config()
+    milliseconds = int(1000 * OPEN_SECONDS)
+    for path, value in (
+        ("mode", '"client"'),
+        ("connect/endpoints", f'["tcp/{router}"]'),
+        ("connect/timeout_ms", str(milliseconds)),
+        ("connect/exit_on_failure", "true"),
+        ("scouting/multicast/enabled", "false"),
+    ):
+        config.insert_json5(path, value)
+    return config
+
+
+def _hash(type: str) -> str:
+    """The hash of a definition that rmw_zenoh has in the key of its messages."""
+    return typestore("ROS2_JAZZY").hash_rihs01(type)

@@ -1,0 +1,124 @@
+"""Scans from ROS 2 on Zenoh and segments back; the robot is another implementation, on the loopback interface."""
+
+from __future__ import annotations
+
+import itertools
+import socket
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+pytest.importorskip("zenoh_ros2_sdk", reason="tests of Zenoh need the package zenoh-ros2-sdk")
+
+import zenoh_peer
+from lineseg_app.__main__ import main
+from lineseg_app.live.address import Address
+from live import page_of
+from obeying import SECONDS, Obedient, eventually, running, said
+from robots import nearest, wall, watching
+
+from lineseg import extract
+from lineseg.readers.laser_scan import LaserScan
+
+numbers = itertools.count(1)
+
+
+@pytest.fixture(scope="module")
+def port() -> int:
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        return free.getsockname()[1]
+
+
+@pytest.fixture(scope="module")
+def peer(port: int) -> Iterator[Obedient]:
+    peer = Obedient(zenoh_peer.start(port))
+    peer.ask("take", topic="/none")
+    yield peer
+    peer.close()
+
+
+@pytest.fixture
+def topic() -> str:
+    return f"/robot{next(numbers)}/scan"
+
+
+def address(port: int, topic: str) -> Address:
+    return Address(f"zenoh://127.0.0.1:{port}{topic}")
+
+
+def opened(peer: Obedient, topic: str) -> None:
+    peer.ask("subscriber", topic=f"{topic}/markers", type="visualization_msgs/msg/MarkerArray")
+    peer.ask("subscriber", topic=f"{topic}/cloud", type="sensor_msgs/msg/PointCloud2")
+    peer.ask("publisher", topic=topic)
+
+
+def cloud_back(peer: Obedient, topic: str, distance: float, second: int) -> dict:
+    """The cloud that answers a scan, which is sent until it comes, for a subscription takes effect after a while."""
+    end = time.monotonic() + SECONDS
+    while time.monotonic() < end:
+        peer.ask("scan", topic=topic, ranges=wall(distance), second=second)
+        time.sleep(0.05)
+        for cloud in peer.ask("take", topic=f"{topic}/cloud"):
+            if cloud["header"]["stamp"]["sec"] == second:
+                return cloud
+    raise AssertionError("no segments came back")
+
+
+def test_markers_and_cloud_have_the_segments_the_stamp_and_the_frame_of_their_scan(
+    peer: Obedient, port: int, topic: str
+):
+    with running(address(port, topic), topic):
+        opened(peer, topic)
+        cloud = cloud_back(peer, topic, 2.0, second=7)
+        markers = peer.until("take", topic=f"{topic}/markers")[0]
+    angles = np.float32([-0.7853982, 0.017453292]).tolist()
+    (segment,) = extract(LaserScan(7, 7, "laser", *angles, 0.0, 30.0, np.float32(wall(2.0))).beams()).segments
+    header = {"stamp": {"sec": 7, "nanosec": 7}, "frame_id": "laser"}
+    (marker,) = markers["markers"]
+    assert (marker["header"], cloud["header"], cloud["width"]) == (header, header, 1)
+    assert [(point["x"], point["y"]) for point in marker["points"]] == [segment.start, segment.end]
+    assert np.frombuffer(bytes(cloud["data"]), "<f4", 2).tolist() == np.float32(segment.start).tolist()
+
+
+def test_a_publisher_may_go_and_return_and_another_type_is_told(peer: Obedient, port: int, topic: str):
+    with running(address(port, topic), topic) as told:
+        said(told, f"nobody publishes {topic} yet")
+        peer.ask("publisher", topic=topic, type="std_msgs/msg/String")
+        said(told, f"{topic} is std_msgs/msg/String; choose a sensor_msgs/LaserScan topic")
+        peer.ask("close", topic=topic)
+        opened(peer, topic)
+        cloud_back(peer, topic, 2.0, second=1)
+        peer.ask("close", topic=topic)
+        said(told, f"{topic} is no longer published; waiting for it")
+        peer.ask("publisher", topic=topic)
+        cloud_back(peer, topic, 2.0, second=2)
+
+
+def test_a_router_that_is_not_there_is_named(topic: str):
+    with socket.socket() as taken:
+        taken.bind(("127.0.0.1", 0))
+        port = taken.getsockname()[1]
+        with running(address(port, topic), topic) as told:
+            said(told, f"no Zenoh router answers at 127.0.0.1:{port}")
+
+
+def test_the_page_shows_scans_and_the_topics_are_listed(
+    peer: Obedient, port: int, topic: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+):
+    peer.ask("publisher", topic=topic)
+    assert main(["view", f"zenoh://127.0.0.1:{port}"]) == 0
+    assert f"zenoh://127.0.0.1:{port}{topic}\n" in capsys.readouterr().out
+    with watching(f"zenoh://127.0.0.1:{port}{topic}", tmp_path, topic=None) as server, page_of(server) as page:
+        page.say(type="hello")
+        page.heard("loading", lambda message: "waiting for its first scan" in message["note"])
+
+        def shown() -> bool:
+            peer.ask("scan", topic=topic, ranges=wall(2.0))
+            state = page.until(lambda state: state["topic"] == topic)
+            return abs(nearest(state) - 2.0) < 0.01
+
+        eventually(shown)

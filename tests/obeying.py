@@ -1,0 +1,68 @@
+"""Robots in processes of their own that obey, and nodes in threads, for tests of live sources."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+from lineseg_app.live.address import Address
+from lineseg_app.live.node import OWNER, Node
+from lineseg_app.live.source import Publishing
+
+from lineseg import Params
+
+SECONDS = 120
+
+
+class Obedient:
+    """A program that obeys one JSON command a line, and answers each with one line."""
+
+    def __init__(self, process: subprocess.Popen[str]) -> None:
+        self._process = process
+
+    def ask(self, do: str, **arguments: Any) -> Any:
+        assert self._process.stdin and self._process.stdout
+        self._process.stdin.write(json.dumps({"do": do, **arguments}) + "\n")
+        self._process.stdin.flush()
+        return json.loads(self._process.stdout.readline())
+
+    def until(self, do: str, **arguments: Any) -> Any:
+        """The first answer that is not empty."""
+        return eventually(lambda: self.ask(do, **arguments))
+
+    def close(self) -> None:
+        self._process.kill()
+        self._process.communicate()
+
+
+@contextmanager
+def running(address: Address, topic: str, **fields: Any) -> Iterator[list[str]]:
+    """A node, in a thread, that publishes below the topic; yields what it tells."""
+    told: list[str] = []
+    publishing = Publishing(OWNER, f"{topic}/markers", "region-growing", Params(), f"{topic}/cloud", **fields)
+    node = Node(address, publishing, Params, told.append)
+    thread = threading.Thread(target=node.run)
+    thread.start()
+    try:
+        yield told
+    finally:
+        node.stop()
+        thread.join(SECONDS)
+    assert not thread.is_alive()
+
+
+def eventually(condition: Callable[[], Any]) -> Any:
+    end = time.monotonic() + SECONDS
+    while not (found := condition()):
+        assert time.monotonic() < end, "it never came true"
+        time.sleep(0.02)
+    return found
+
+
+def said(told: list[str], words: str) -> None:
+    eventually(lambda: any(words in line for line in told))

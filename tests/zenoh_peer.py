@@ -1,0 +1,92 @@
+"""A robot with rmw_zenoh in a process of its own: a router, and a node by zenoh-ros2-sdk, another implementation.
+
+Run as a program with a port it obeys one JSON command a line, and answers each with one line.
+"""
+
+import json
+import os
+import subprocess
+import sys
+from collections import defaultdict
+from typing import Any
+
+import numpy as np
+import zenoh
+from rosbags.typesys import Stores, get_typestore
+
+LOOPBACK = "127.0.0.1"
+STORE = get_typestore(Stores.ROS2_JAZZY)
+
+
+class Obeying:
+    def __init__(self, port: int) -> None:
+        config = zenoh.Config()
+        config.insert_json5("mode", '"router"')
+        config.insert_json5("listen/endpoints", f'["tcp/{LOOPBACK}:{port}"]')
+        config.insert_json5("scouting/multicast/enabled", "false")
+        self.router = zenoh.open(config)
+        self.where = {"router_ip": LOOPBACK, "router_port": port}
+        self.received: dict[str, list[Any]] = defaultdict(list)
+        self.ends: dict[str, Any] = {}
+
+    def publisher(self, topic: str, type: str = "sensor_msgs/msg/LaserScan") -> None:
+        from zenoh_ros2_sdk import ROS2Publisher
+
+        self.ends[topic] = ROS2Publisher(topic, type, **defined(type), **self.where)
+
+    def subscriber(self, topic: str, type: str) -> None:
+        from zenoh_ros2_sdk import ROS2Subscriber
+
+        self.ends[topic] = ROS2Subscriber(topic, type, self.received[topic].append, **defined(type), **self.where)
+
+    def scan(self, topic: str, ranges: list[float], second: int = 0) -> None:
+        end = self.ends[topic]
+        types = end.session_mgr.store.types
+        stamp = types["builtin_interfaces/msg/Time"](sec=second, nanosec=7)
+        end.publish(
+            header=types["std_msgs/msg/Header"](stamp=stamp, frame_id="laser"),
+            angle_min=-0.7853982, angle_max=0.7853982, angle_increment=0.017453292, time_increment=0.0, scan_time=0.1,
+            range_min=0.0, range_max=30.0, ranges=np.float32(ranges), intensities=np.empty(0, np.float32),
+        )  # fmt: skip
+
+    def take(self, topic: str) -> list[Any]:
+        taken, self.received[topic][:] = self.received[topic][:], []
+        return [plain(each) for each in taken]
+
+    def close(self, topic: str) -> None:
+        self.ends.pop(topic).close()
+
+
+def defined(type: str) -> dict[str, str]:
+    """The definition as text, with those it consists of; the library would fetch it otherwise."""
+    return {"msg_definition": STORE.generate_msgdef(type, ros_version=2)[0], "type_hash": STORE.hash_rihs01(type)}
+
+
+def plain(value: Any) -> Any:
+    if isinstance(value, np.ndarray):
+        return value.tolist()
+    if isinstance(value, list):
+        return [plain(each) for each in value]
+    fields = getattr(value, "__dataclass_fields__", None)
+    return value if fields is None else {name: plain(getattr(value, name)) for name in fields if name[0] != "_"}
+
+
+def obey(port: int) -> None:
+    obeying = Obeying(port)
+    for line in sys.stdin:
+        command = json.loads(line)
+        print(json.dumps(getattr(obeying, command.pop("do"))(**command)), flush=True)
+
+
+def start(port: int) -> subprocess.Popen[str]:
+    return subprocess.Popen(
+        [sys.executable, __file__, str(port)],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+        env=os.environ | {"GIT_ALLOW_PROTOCOL": "none"},
+    )
+
+
+if __name__ == "__main__":
+    obey(int(sys.argv[1]))
