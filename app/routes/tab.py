@@ -134,7 +134,7 @@ async def _converse(
 
     def send(message: BaseModel) -> None:
         """Called in the worker's thread; waits until the message is sent, so a slow page slows only its own worker."""
-        sending = asyncio.run_coroutine_threadsafe(_send(socket, _encoded(message)), loop)
+        sending = asyncio.run_coroutine_threadsafe(_tell(socket, message), loop)
         try:
             sending.result(SEND_SECONDS)
         except (CancelledError, TimeoutError, WebSocketDisconnect, RuntimeError):
@@ -226,17 +226,7 @@ async def _hang_up(socket: WebSocket) -> None:
 
 
 async def _tell(socket: WebSocket, message: BaseModel) -> None:
-    await _send(socket, _encoded(message))
-
-
-async def _send(socket: WebSocket, encoded: str | bytes) -> None:
-    if isinstance(encoded, bytes):
-        await socket.send_bytes(encoded)
-    else:
-        await socket.send_text(encoded)
-
-
-def _encoded(message: BaseModel) -> str | bytes:
     if isinstance(message, Surveyed):
-        return message.as_bytes()
-    return message.as_json() if isinstance(message, Quick) else message.model_dump_json()
+        await socket.send_bytes(message.as_bytes())
+    else:
+        await socket.send_text(message.as_json() if isinstance(message, Quick) else message.model_dump_json())

@@ -30,10 +30,10 @@ from ..shelf.preview import for_the_page, named_in
 from ..told.drawn import DrawnState, Timings
 from ..told.messages import Drawn, Failure, Loading, Refused, Traced
 from ..view import View
-from .composing import Composer
+from .composing import Composer, Content
 from .following import Presence, Presenter, mirrored
 from .strip import Strip, key_of
-from .turns import InOrder
+from .turns import InOrder, in_loop
 from .warm_up import WarmUp
 
 Origin = Literal["page", "scene"]
@@ -46,6 +46,8 @@ FOLLOW_EVERY = 0.04
 # Tabs draw one after the other. Python runs one thread at a time anyway: more would only make each other wait, and show
 # older Views, because each takes the newest when its turn comes.
 QUICK_TURN = InOrder()
+# Scans of more beams take longer [beams].
+QUICK_BEAMS = 2_000
 # What may take long does not make the others wait; its kernels run beside Python.
 SLOW_TURNS = threading.Semaphore(max(2, os.cpu_count() or 2))
 
@@ -97,6 +99,7 @@ class Session:
     ) -> None:
         self.id = id
         self._watch = watch
+        self._loop = loop
         self._warm_up = warm_up
         self.last_input = time.monotonic()
         self.detached_at: float | None = self.last_input
@@ -284,18 +287,12 @@ class Session:
             label = self._library.label(view.recording)
             self._tell(Loading(recording=view.recording, label=label, done=0, total=0, note=note))
             self._warm_up.done.wait()
-        with SLOW_TURNS if takes_long(request.view) else QUICK_TURN:
-            newest = self._newest(request)
-            if newest is None:
-                return
-            growing = isinstance(recording, LiveRecording) and newest.view.live
-            request = _at_the_end(newest, recording) if growing else newest
-            begun = time.perf_counter()
-            content = self._composer.compose(request.view, recording)
-            view, found = content.view, content.found
-            painted = time.perf_counter()
-            self._scene.draw(content.picture, view.params, view.dark)
-            timings: Timings = {"pictureMs": _ms(painted - begun), "drawMs": _ms(time.perf_counter() - painted)}
+        newest = self._newest_drawn(request, recording)
+        if newest is None:
+            return
+        request, content, timings = newest
+        view, found = content.view, content.found
+        growing = isinstance(recording, LiveRecording) and request.view.live
         with self._lock:
             self._shown = Shown(view, recording, found)
             self._done = request.number
@@ -327,6 +324,32 @@ class Session:
         # After the status: the scene's iframe shares a thread with the page, and its rendering would delay the status.
         self._scene.flush()
         self._survey()
+
+    def _newest_drawn(self, request: Request, recording: Recording) -> tuple[Request, Content, Timings] | None:
+        """Draws the newest View when its turn comes; None as for `_newest`."""
+        if takes_long(request.view):
+            with SLOW_TURNS:
+                return self._drawn_now(request, recording)
+        shown = self.shown
+        with QUICK_TURN:
+            if self._loop is None or shown is None or shown.recording is not recording or not quick(recording):
+                return self._drawn_now(request, recording)
+            return in_loop(self._loop, lambda: self._drawn_now(request, recording))
+
+    def _drawn_now(self, request: Request, recording: Recording) -> tuple[Request, Content, Timings] | None:
+        newest = self._newest(request)
+        if newest is None:
+            return None
+        if isinstance(recording, LiveRecording) and newest.view.live:
+            newest = _at_the_end(newest, recording)
+        begun = time.perf_counter()
+        content = self._composer.compose(newest.view, recording)
+        painted = time.perf_counter()
+        self._scene.draw(content.picture, content.view.params, content.view.dark)
+        # They are kept with what was found.
+        _ = content.found.marks
+        timings: Timings = {"pictureMs": _ms(painted - begun), "drawMs": _ms(time.perf_counter() - painted)}
+        return newest, content, timings
 
     def _newest(self, request: Request) -> Request | None:
         """What to draw instead, if more was asked for while this waited; None if that waits for something else."""
@@ -415,6 +438,11 @@ class Session:
 
 def _ms(seconds: float) -> float:
     return round(1e3 * seconds, 2)
+
+
+def quick(recording: Recording) -> bool:
+    """Whether its scans are small enough to be drawn in the thread that answers all tabs."""
+    return recording.offsets[-1] <= QUICK_BEAMS * len(recording)
 
 
 def _waits_for(view: View) -> tuple[str, bool, bool]:

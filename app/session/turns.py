@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import asyncio
 import threading
 import time
 from collections import deque
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from concurrent.futures import Future
 from contextlib import contextmanager
+from typing import TypeVar
+
+T = TypeVar("T")
 
 MOST_REST = 0.5
 
@@ -58,3 +63,21 @@ class InOrder:
                 self._waiting.popleft().release()
             else:
                 self._taken = False
+
+
+def in_loop(loop: asyncio.AbstractEventLoop, work: Callable[[], T]) -> T:
+    """The result of short work, which is done in the thread of a running loop while the caller waits.
+
+    numpy lets go of the interpreter at every array of more than 500 numbers. A thread beside a loop that answers
+    messages would lose it each time and win it back by a switch of threads, and these took longer than a picture.
+    """
+    done: Future[T] = Future()
+
+    def run() -> None:
+        try:
+            done.set_result(work())
+        except BaseException as error:
+            done.set_exception(error)
+
+    loop.call_soon_threadsafe(run)
+    return done.result()

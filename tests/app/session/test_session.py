@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import threading
+
 import pytest
 from lineseg_app.server import Settings
-from lineseg_app.session.session import QUICK_TURN
+from lineseg_app.session.session import QUICK_TURN, Session
 from lineseg_app.session.sessions import SessionLimits
 from live import Address, Page, page_of, serving
 from websockets.exceptions import ConnectionClosed
@@ -263,3 +265,20 @@ def test_a_method_that_takes_long_waits_for_other_turns(page: Page):
     page.hello()
     with QUICK_TURN:
         assert page.change(method="hough")["method"] == "hough"
+
+
+def test_small_scans_are_drawn_in_the_thread_that_answers_all_tabs(page: Page, monkeypatch: pytest.MonkeyPatch):
+    threads = list[str]()
+    drawn_now = Session._drawn_now
+
+    def drawn(session: Session, *request):
+        threads.append(threading.current_thread().name)
+        return drawn_now(session, *request)
+
+    monkeypatch.setattr(Session, "_drawn_now", drawn)
+    page.hello()
+    page.change(params={"epsilon": 0.05})
+    page.change(method="hough")
+    assert threads[-2] == "server under test"
+    assert threads[0].startswith("session")
+    assert threads[-1].startswith("session")

@@ -1,5 +1,6 @@
 """Work of many tabs takes turns."""
 
+import asyncio
 import threading
 import time
 from itertools import pairwise
@@ -7,7 +8,7 @@ from types import SimpleNamespace
 
 import pytest
 from lineseg_app.session import turns as turns_module
-from lineseg_app.session.turns import MOST_REST, InOrder, Turns
+from lineseg_app.session.turns import MOST_REST, InOrder, Turns, in_loop
 
 
 def test_one_thread_works_at_a_time_and_each_turn_is_followed_by_a_rest():
@@ -63,3 +64,15 @@ def test_threads_are_let_in_in_the_order_in_which_they_came():
         thread.join()
     assert came == list(range(6))
     assert not gate._taken
+
+
+def test_work_in_a_loop_gives_its_result_or_its_error_to_the_thread_that_waits():
+    loop = asyncio.new_event_loop()
+    thread = threading.Thread(target=loop.run_forever)
+    thread.start()
+    assert in_loop(loop, threading.get_ident) == thread.ident
+    with pytest.raises(ZeroDivisionError):
+        in_loop(loop, lambda: 1 / 0)
+    loop.call_soon_threadsafe(loop.stop)
+    thread.join()
+    loop.close()
