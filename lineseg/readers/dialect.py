@@ -121,8 +121,8 @@ def _quoted(text: bytes, mark: bytes) -> list[bytes] | None:
 
 
 def seconds_of(cell: bytes) -> float | None:
-    """A date and time, or a time of day, in seconds; None for other text. Without a zone, it is taken for UTC."""
-    found = TIME.fullmatch(cell)
+    """A date, a time of day or both, in seconds; None for other text. Without a zone, it is taken for UTC."""
+    found = TIME.fullmatch(cell) or TIME.fullmatch(cell + b" 00:00:00")
     if found is None:
         return None
     hours, minutes, seconds = int(found[4]), int(found[5]), float(found[6].replace(b",", b"."))

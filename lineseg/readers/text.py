@@ -25,6 +25,8 @@ TEXT_FORMS = "use one scan per row, or columns of angle and distance, or a table
 # An angle as the name of a column, such as -134.5°.
 ANGLE = re.compile("([-+]?\\d+(?:[.,]\\d+)?)(\\s*(?:deg|rad|°)?)".encode(), re.IGNORECASE)
 MOST_NAMES = 4
+# With fewer rows, nothing is a title.
+FEW_ROWS = 6
 SAMPLE = 40
 # Rows with fewer numbers than this are beams, if there are enough of them.
 FEW_COLUMNS, MANY_ROWS = 9, 10
@@ -68,7 +70,7 @@ def _rows(source: Source) -> Iterator[Row]:
 def _below_titles(source: Source, head: list[Row]) -> list[Row]:
     """The first rows without the lines of words above the table, such as a program's greeting or the command sent."""
     lines = [row.text for row in head]
-    if len(head) < FEW_COLUMNS or is_list(lines[0]) or labels_of(lines):
+    if len(head) < FEW_ROWS or is_list(lines[0]) or labels_of(lines):
         return head
     dialect = dialect_of(lines[len(lines) // 2 :])
     width = Counter(map(dialect.width, lines[len(lines) // 2 :])).most_common(1)[0][0]

@@ -83,6 +83,7 @@ NEATO += rows("{:.0f},{:.0f},47,0", DEGREES, 1000 * TURN) + "ROTATION_SPEED,5.10
 NAMED = "TimeStamp;" + ";".join(f"{angle:.2f}°" for angle in np.rad2deg(VIEW)) + "\n"
 NAMED += "".join(f"12:34:5{at}.100;" + ";".join(f"{1000 * r:.0f}" for r in WIDE) + "\n" for at in range(3))
 OF_DAY = "".join(f"12:34:5{at}.250," + ",".join(f"{r:.4f}" for r in WIDE) + "\n" for at in range(3))
+DATED = OF_DAY.replace(",", " ").replace("12:34", "2024-05-06 12:34")
 KEYED = [{"time_s": at / 10, "angles_deg": np.rad2deg(VIEW).tolist(), "dist_m": WIDE.tolist()} for at in range(3)]
 
 FILES = {
@@ -98,6 +99,7 @@ FILES = {
     "neato.txt": (NEATO.encode(), 1, 360),
     "angles_as_names.csv": (NAMED.encode(), 3, BEAMS),
     "time_of_day.csv": (OF_DAY.encode(), 3, BEAMS),
+    "dated.txt": (DATED.encode(), 3, BEAMS),
     "gazebo.txt": ("\n".join(map(gazebo, range(3))).encode(), 3, BEAMS),
     "one.yaml": (f"angle_min: {LOW}\nangle_increment: {STEP}\nranges: [{LISTED}]\n".encode(), 1, BEAMS),
     "one.toml": (f"[scan]\nangle_min = {LOW}\nangle_increment = {STEP}\nranges = [{LISTED}]\n".encode(), 1, BEAMS),
@@ -105,7 +107,7 @@ FILES = {
     "odd.npz": (arrays(lidar=np.array([WIDE] * 3), theta=VIEW, t=np.arange(3) / 10), 3, BEAMS),
     "cut.npz": (arrays(angle_min=LOW, angle_increment=STEP, ranges=np.array([WIDE] * 5))[: -BEAMS * 8], 4, BEAMS),
 }
-TIMED = ("keyed.json", "angles_as_names.csv", "time_of_day.csv", "gazebo.txt", "odd.npz")
+TIMED = ("keyed.json", "angles_as_names.csv", "time_of_day.csv", "dated.txt", "gazebo.txt", "odd.npz")
 
 
 @pytest.mark.parametrize("name", FILES)
