@@ -62,12 +62,14 @@ def _ends_of(found: Findings, decision: Decision, first: str, last: str) -> tupl
 
 def _tested(found: Findings, decision: Decision, first: str, last: str, index: str) -> Told:
     """A window or a growing line, and the point that was compared with it."""
-    names = _ends_of(found, decision, first, last)
+    # Where a growing line ends after a decision tells whether the point joined.
+    growing = decision.phase != "seed"
+    names = tuple(name._replace(tells=growing) for name in _ends_of(found, decision, first, last))
     if decision.beam < 0:
         return names, ()
     scan, beam, line = found.scan, decision.beam, decision.line
     point, ray = scan.xy[beam], scan.rays[:, beam]
-    refused = decision.phase == "seed"
+    refused = not growing
     names += (Name(f"P, beam {index} = {beam}", point_of(point), refused),)
     if not _is_line(line):
         return names, ()

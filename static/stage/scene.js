@@ -27,7 +27,7 @@ export function mountScene(
   const stage = new Stage(holder, text.stage, { onKey, onFrame });
   const notices = mountNotices(holder, text.stage, { onCancel, onRetry });
   const names = createNames(holder, stage);
-  const key = createKey(text.stage.key);
+  const key = createKey(holder, text.stage.key);
   const camera = createCamera(page, stage, text.stage, {
     drawing,
     names: isNamed,

@@ -74,7 +74,7 @@ export const pageText = {
     plan: "Back to the plan view",
     across: (/** @type {number} */ factor) => `×${factor} across the line`,
     key: {
-      label: "Marks in the scene",
+      label: "Marks",
       marks: /** @type {Record<string, string>} */ ({
         window: "points of the window",
         seeds: "seed of a line",
