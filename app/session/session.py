@@ -235,13 +235,17 @@ class Session:
             log.debug("the scene sent an invalid change: %s", error)
 
     def _pick(self, point: tuple[float, float], radius: float, beside: bool) -> None:
-        """Select the beam whose point is nearest to a click, or none if no point is near; or another beside it."""
+        """Select the beam whose point is nearest to a click, or none if no point is near.
+
+        beside: compare it with the selected one; a click where no point is near changes nothing.
+        """
         shown = self.shown
         if shown is None:
             return
         beam = beam_near(shown.found.scan, point, radius)
         if beside and shown.view.selected is not None:
-            self._change_from_scene({"beside": beam})
+            if beam is not None:
+                self._change_from_scene({"beside": beam})
         else:
             self._change_from_scene({"selected": beam})
 
