@@ -22,7 +22,8 @@ export class Fit {
   /** @type {Knob[]} */ #knobs = [];
   /** @type {Params} */ #params = {};
   /** The recording and the method that the answer is for. */ #place = "";
-  /** What the last answer was asked for. */ #asked = "";
+  /** What is to be asked for, and what was. */ #wanted = "";
+  #asked = "";
   #timer = 0;
   /** @type {Answer | null} */ #answer = null;
   #says = h("p", { class: "fit-text", role: "status" });
@@ -42,6 +43,7 @@ export class Fit {
     tooltip(this.#use, () => text.usesHelp(this.#listed()), "left");
     const words = h("div", { class: "fit-words" }, this.#says, this.#use);
     this.element = h("section", { class: "fit", "aria-label": text.label }, this.#frame, words);
+    new ResizeObserver(() => this.#askIn(0)).observe(this.element);
     this.#show();
   }
 
@@ -118,18 +120,23 @@ export class Fit {
     // A live recording is looked at again when it has become twice as long.
     const size = live === null ? frames : Math.floor(Math.log2(frames));
     const wanted = JSON.stringify([place, params, size]);
-    if (wanted === this.#asked) return;
+    if (wanted === this.#wanted) return;
     if (place !== this.#place) this.#forget();
     this.#place = place;
-    this.#asked = wanted;
-    this.#handlers.stop();
-    clearTimeout(this.#timer);
+    this.#wanted = wanted;
+    if (this.#asked) this.#handlers.stop();
     this.#askIn(this.#answer ? PAUSE_MS : 0);
   }
 
-  /** @param {number} wait [ms] */
+  /** Asks, if it is visible and out of date. @param {number} wait [ms] */
   #askIn(wait) {
-    this.#timer = setTimeout(() => (pointerHeld() ? this.#askIn(PAUSE_MS) : this.#handlers.ask()), wait);
+    clearTimeout(this.#timer);
+    this.#timer = setTimeout(() => {
+      if (this.#asked === this.#wanted || !this.element.checkVisibility()) return;
+      if (pointerHeld()) return this.#askIn(PAUSE_MS);
+      this.#asked = this.#wanted;
+      this.#handlers.ask();
+    }, wait);
   }
 
   #forget() {

@@ -21,7 +21,7 @@ export class Sensitivity {
   #all;
   #keys;
   /** @type {Map<string, ReturnType<typeof createCurve>>} */ #curves = new Map();
-  /** Whether the recording has truth. */ hasTruth = false;
+  /** Whether the recording has truth. */ #truth = false;
 
   /** @param {Text} text @param {{onSet: (name: string, value: number) => void, onShow: () => void, row: (name: string) => import("./tuner.js").Row | null}} handlers */
   constructor(text, { onSet, onShow, row }) {
@@ -61,17 +61,23 @@ export class Sensitivity {
     if (line === "all") this.#onShow();
   }
 
-  /** Whether there are curves at all. */
-  get shown() {
-    return !this.#hidden.has("all");
+  /** Whether there are curves, and a person can see them. */
+  get visible() {
+    return !this.#hidden.has("all") && this.legend.checkVisibility();
+  }
+
+  /** @param {boolean} truth whether the recording has truth */
+  setTruth(truth) {
+    this.#truth = truth;
+    this.#show();
   }
 
   #show() {
-    const { shown } = this;
+    const shown = !this.#hidden.has("all");
     this.#all.setAttribute("aria-pressed", String(shown));
     for (const [line, key] of this.#keys) {
       key.setAttribute("aria-pressed", String(!this.#hidden.has(line)));
-      key.hidden = !shown || (!this.hasTruth && LINES.indexOf(line) >= WITHOUT_TRUTH);
+      key.hidden = !shown || (!this.#truth && LINES.indexOf(line) >= WITHOUT_TRUTH);
     }
     this.#note.hidden = !shown;
     for (const curve of this.#curves.values()) {
@@ -106,8 +112,6 @@ export class Sensitivity {
     if (message) setText(this.#note, message);
     if (done || !curves) return;
     setText(this.#note, this.#text.sample(frames ?? 0, of ?? 0));
-    this.hasTruth = Object.values(curves).some((curve) => "true_rate" in curve);
     for (const [name, curve] of Object.entries(curves)) this.#curves.get(name)?.set(curve);
-    this.#show();
   }
 }

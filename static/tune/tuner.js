@@ -36,6 +36,7 @@ class Tuner {
   /** Identifies the drawn recording. */ #place = "";
   /** What the last request for curves was for. */ #asked = "";
   #timer = 0;
+  /** Whether the recording has truth. */ #truth = false;
   /** Whether the selected method can be run over whole recordings. */ #able = true;
 
   /** @param {typeof import("../text/tuning.js").tuningText} text @param {Handlers} handlers */
@@ -44,7 +45,7 @@ class Tuner {
       onAnswer: (answer) => this.#receive(answer),
       onMeasures: (measures) => {
         this.#map.setMeasures(measures);
-        this.#tellTruth();
+        this.#map.setTruth(this.#truth);
       },
     });
     this.#sensitivity = new Sensitivity(text.curves, {
@@ -69,6 +70,7 @@ class Tuner {
       onFits,
     });
     this.above = [this.#fit.element, this.#sensitivity.legend];
+    new ResizeObserver(() => this.#ask()).observe(this.#sensitivity.legend);
     this.pages = [
       { name: "map", label: text.pages.map, content: this.#map.element },
       { name: "auto", label: text.pages.auto, content: this.#auto.element },
@@ -78,18 +80,20 @@ class Tuner {
   /** @param {Answer} answer */
   #receive(answer) {
     ({ curves: this.#sensitivity, map: this.#map, auto: this.#auto, fit: this.#fit })[answer.type].receive(answer);
-    if (answer.type === "curves" && answer.curves) this.#tellTruth();
   }
 
-  #tellTruth() {
-    this.#map.setTruth(this.#sensitivity.hasTruth);
-    this.#auto.setTruth(this.#sensitivity.hasTruth);
+  /** @param {boolean} truth */
+  #setTruth(truth) {
+    this.#truth = truth;
+    this.#sensitivity.setTruth(truth);
+    this.#map.setTruth(truth);
+    this.#auto.setTruth(truth);
   }
 
-  /** Requests the curves. */
+  /** Requests the curves if they are visible and out of date. */
   #ask() {
     const wanted = JSON.stringify([this.#place, this.#params]);
-    if (!this.#place || wanted === this.#asked || !this.#sensitivity.shown) return;
+    if (!this.#place || wanted === this.#asked || !this.#sensitivity.visible) return;
     this.#asked = wanted;
     this.#sensitivity.pending();
     this.#bench.ask("curves", { params: this.#params });
@@ -120,12 +124,15 @@ class Tuner {
 
   /** @param {State} state */
   setState(state) {
+    // The map needs the measures also if nothing is asked for yet.
+    this.#bench.connect();
     this.#fit.setState(state);
     if (!this.#able || state.method !== METHOD) return;
     const here = state.place;
     this.#params = state.params;
     if (here !== this.#place) {
       this.#place = here;
+      this.#setTruth(state.truth);
       this.#map.forget();
       this.#auto.forget();
     }

@@ -42,10 +42,11 @@ export class Workbench {
   /** @param {object} message */
   #post(message) {
     if (this.#socket?.readyState === WebSocket.OPEN) this.#socket.send(JSON.stringify(message));
-    else this.#connect();
+    else this.connect();
   }
 
-  #connect() {
+  /** Connects, if there is a session and no connection yet. */
+  connect() {
     const url = this.#url();
     if (this.#socket || !url) return;
     const socket = new WebSocket(url);
@@ -56,7 +57,7 @@ export class Workbench {
     socket.onmessage = ({ data }) => this.#receive(JSON.parse(data));
     socket.onclose = () => {
       this.#socket = null;
-      if ([...this.#latest.values()].some(({ wish }) => wish)) setTimeout(() => this.#connect(), RETRY_MS);
+      if ([...this.#latest.values()].some(({ wish }) => wish)) setTimeout(() => this.connect(), RETRY_MS);
     };
   }
 
