@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from pydantic import BaseModel
 
 from lineseg import Params, Recording, Thresholds, differences
-from lineseg.doubt import COLUMN, SCORES
+from lineseg.doubt.scores import COLUMN, SCORES
 from lineseg.doubt.suspicion import suspicion
 from lineseg.readers import Cancelled
 from lineseg.survey import BESIDE, Survey, survey

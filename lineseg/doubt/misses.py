@@ -20,7 +20,7 @@ from ..region_growing.points import stored_points
 from ..region_growing.trace import GrowthTrace, Trace, longest, nearest
 from ..scan import Scan
 from ..tracing.log import Row
-from . import probable_misses
+from .scores import probable_misses
 
 
 @dataclass(frozen=True)

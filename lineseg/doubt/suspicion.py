@@ -13,7 +13,7 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
-from . import SCORES
+from .scores import SCORES
 
 # A tenth of normally distributed numbers lie more than this many standard deviations above the median.
 TENTH = 1.2816

@@ -20,8 +20,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arguments import need_recording
-from ..doubt import COLUMN
 from ..doubt.neighbours import VOTES, mark_frame, views_of
+from ..doubt.scores import COLUMN
 from ..kernel import entry_kernel, kernel
 from ..params import Params
 from ..scan import Recording

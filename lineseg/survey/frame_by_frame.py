@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..doubt import SCORES, Spans, score_frame, spans_of
+from ..doubt.scores import SCORES, Spans, score_frame, spans_of
 from ..extractors import method_of
 from ..kernel import entry_kernel, kernel
 from ..knobs import Thresholds

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ..doubt import CHANGE_OF_THRESHOLD, SCORES
+from ..doubt.scores import CHANGE_OF_THRESHOLD, SCORES
 from ..kernel import entry_kernel, kernel
 from ..knobs import Thresholds
 from ..scan import Recording

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..doubt import SCORES, Spans, score_frame, spans_of
+from ..doubt.scores import SCORES, Spans, score_frame, spans_of
 from ..kernel import entry_kernel, kernel
 from ..params import Params
 from ..region_growing import Memory, extract_lines

@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arguments import need_recording
-from ..doubt import LOOSER, NEAR_EPSILON, SCORES, find_splits
 from ..doubt.misses import misses, why_none
 from ..doubt.neighbours import VOTES, mark_frame, moved, views_of
+from ..doubt.scores import LOOSER, NEAR_EPSILON, SCORES, find_splits
 from ..doubt.suspicion import AROUND, WEIGHTS, doubts
 from ..extractors import extract, trace
 from ..knobs import Thresholds
