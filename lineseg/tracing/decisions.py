@@ -15,6 +15,9 @@ from ..segment import Extraction
 from .log import Ends, Line, Row
 from .vocabulary import Effect, Sentence, Vocabulary, metres
 
+# Decisions made together when a trace is gone through.
+AT_ONCE = 1000
+
 
 @dataclass(frozen=True)
 class Decision:
@@ -101,7 +104,8 @@ class Trace:
         return len(self.log)
 
     def __iter__(self) -> Iterator[Decision]:
-        return (self[i] for i in range(len(self)))
+        for start in range(0, len(self), AT_ONCE):
+            yield from self.at(np.arange(start, min(start + AT_ONCE, len(self))))
 
     def __getitem__(self, index: int) -> Decision:
         if not -len(self) <= index < len(self):
