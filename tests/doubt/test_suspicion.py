@@ -1,6 +1,7 @@
 """The ranking puts failures first: it finds planted failures in recordings that also have their own."""
 
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -29,9 +30,10 @@ def column(name, values):
     return scores
 
 
-def fails_by_itself(recording):
+@cache
+def fails_by_itself(file):
     """(frames,) whether a true line is missed in each frame."""
-    found = (agreement(extract(scan, FAILING), true_lines(scan)) for scan in recording)
+    found = (agreement(extract(scan, FAILING), true_lines(scan)) for scan in open_recording(file))
     return np.array([each.matches < each.true_lines for each in found])
 
 
@@ -43,11 +45,11 @@ def test_nine_of_ten_planted_failures_are_among_the_fifteen_worst(name, found_le
     Frames that fail on their own, a third of each recording, are not counted among the fifteen: they rightly rank high.
     No wall of the laboratory is seen at an angle small enough for a line to bridge an open door.
     """
-    sample = open_recording(SAMPLES / f"{name}.npz")
-    recording, where = planted(sample, seed)
+    file = SAMPLES / f"{name}.npz"
+    recording, where = planted(open_recording(file), seed)
     unplantable = {"bridged_door"} if name == "laboratory" else set()
     assert set(where.values()) == {plant.__name__ for plant in PLANTS} - unplantable
-    own = fails_by_itself(sample)
+    own = fails_by_itself(file)
     ranked = worst_first(with_disputes(recording, survey(recording, FAILING)).scores).tolist()
     worst = [frame for frame in ranked if frame in where or not own[frame]][:15]
     found = {where[frame] for frame in worst if frame in where}
