@@ -12,9 +12,12 @@ run: .venv/installed
 install: .venv/installed
 	$(BIN)/pip install --quiet -c constraints.txt -e '.[$(EXTRAS)]'
 
-# What needs neither a server nor a browser.
+# Tests start many programs, which begin sooner if Python's compiled modules are kept, whatever the environment says.
+quick test: export PYTHONDONTWRITEBYTECODE =
+
+# What needs neither a server nor a browser, with fewer made examples.
 quick: .venv/installed-dev
-	$(PYTEST) -m "not server"
+	$(PYTEST) -m "not server" --hypothesis-profile quick
 
 test: .venv/installed-dev
 	$(PYTEST)

@@ -8,6 +8,8 @@ from hypothesis import settings
 
 # How long an example takes says nothing about its truth, and what passes here is to pass everywhere.
 settings.register_profile("lineseg", settings.default, deadline=None, derandomize=True)
+# Fewer examples, for `make quick`.
+settings.register_profile("quick", settings.get_profile("lineseg"), max_examples=30)
 settings.load_profile("lineseg")
 
 

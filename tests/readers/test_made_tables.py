@@ -21,7 +21,7 @@ HEADERS = {
         "mm": ("distance", "distance_mm", "Distance (mm)"),
     },
 }
-EXAMPLES = int(os.environ.get("LINESEG_TABLES", "150"))
+EXAMPLES = int(os.environ.get("LINESEG_TABLES", 3 * settings.default.max_examples // 2))
 
 
 def room(view, step, start):

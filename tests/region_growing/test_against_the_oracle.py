@@ -9,7 +9,7 @@ from scenes import chipped, scans
 
 from lineseg import Params, Scan, extract, trace
 
-lively = settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+lively = settings(max_examples=3 * settings.default.max_examples // 2, suppress_health_check=[HealthCheck.too_slow])
 
 
 @st.composite

@@ -22,7 +22,7 @@ def edge(ranges, bearings, delta):
     return is_edge(points, 1, unpacked(limits_of(Params(delta=delta))))
 
 
-@settings(max_examples=500)
+@settings(max_examples=5 * settings.default.max_examples)
 @given(angles, errors, st.floats(-3.0, 3.0), st.floats(0.01, 20.0), st.sampled_from([0.01, 0.1, 1.0]))
 @example([0.5, 0.5, 0.5], [-1.0, -0.99, 0.0], 0.0, 0.25, 0.01)
 def test_points_within_delta_of_a_line_are_not_an_edge(angles, errors, direction, distance, delta):
