@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Annotated, Literal
 
 import msgspec
+import numpy as np
 from pydantic import BaseModel, Field, GetPydanticSchema
 from pydantic_core import core_schema
 
@@ -217,12 +218,19 @@ class Failure(BaseModel):
     refused: Refused | None = None
 
 
+def _plain(value: object) -> object:
+    """Numbers of numpy, which readers find in files, as Python's."""
+    if isinstance(value, np.generic):
+        return value.item()
+    raise TypeError(f"{type(value).__name__} has no JSON")
+
+
 class Quick(BaseModel):
     """A message that is sent many times a second."""
 
     def as_json(self) -> str:
         """Much faster than pydantic's, which asks the type of everything."""
-        return msgspec.json.encode(vars(self)).decode()
+        return msgspec.json.encode(vars(self), enc_hook=_plain).decode()
 
 
 class Traced(Quick):
