@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from typing import NamedTuple
 
@@ -115,7 +116,7 @@ def _with_view(source: Source, lines: list[Line], settings: dict[bytes, bytes], 
     # The other of half a turn and three quarters, which most lasers have.
     other = 270.0 if view is None and usual is None else 180.0
     change = {"angle_min": -other / 2, "angle_increment": other / (beams - 1)}
-    source.notes.guess("angle_min", text, why, **{name: round(np.deg2rad(each), 8) for name, each in change.items()})
+    source.notes.guess("angle_min", text, why, **{name: round(math.radians(each), 8) for name, each in change.items()})
     low, step = np.deg2rad(low), np.deg2rad(step)
     return [line._replace(angle_min=low, angle_increment=step) for line in lines]
 
