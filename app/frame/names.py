@@ -86,19 +86,15 @@ def _tested(found: Findings, decision: Decision, first: str, last: str, index: s
             )
     elif decision.check == "epsilon":
         measures = (Measure(f"d = {_m(decision.value)}", point_of(point), point_of(feet(point, line))),)
-    names += (Name(_epsilon(found, decision), point_of(_band_end(found, decision))),)
+    names += (Name(f"ε = {_m(_epsilon(found, decision.beam))}", point_of(_band_end(found, decision))),)
     return names + ((Name("P′", point_of(predicted), refused),) if in_sight else ()), measures
 
 
-def _epsilon(found: Findings, decision: Decision) -> str:
-    return f"ε = {_m(_band(found, decision))}"
-
-
-def _band(found: Findings, decision: Decision) -> float:
-    """Half the width of the band at the first point of a decision [m]."""
+def _epsilon(found: Findings, beam: int) -> float:
+    """ε at the range of a beam [m]."""
     params = found.trace.params
     if isinstance(params, Params):
-        return float(params.epsilon_at(np.hypot(*found.scan.xy[decision.first])))
+        return float(params.epsilon_at(np.hypot(*found.scan.xy[beam])))
     return float(params.epsilon)
 
 
@@ -109,7 +105,7 @@ def _band_end(found: Findings, decision: Decision) -> NDArray[np.float64]:
     beams = found.trace.beams(decision.first, decision.last)
     ordered = beams[::-1] if decision.direction > 0 else beams
     at = ordered[min(len(ordered) - 1, BAND_NAME)] if decision.direction else decision.first
-    return feet(found.scan.xy[at], line) + side * _band(found, decision) * np.array(line[:2])
+    return feet(found.scan.xy[at], line) + side * _epsilon(found, at) * np.array(line[:2])
 
 
 def _measured(found: Findings, decision: Decision) -> Told:
