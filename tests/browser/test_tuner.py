@@ -91,6 +91,16 @@ def test_curves_stand_under_the_sliders_follow_them_and_can_be_clicked(tab):
     )
 
 
+def test_what_is_hidden_is_not_computed_until_it_is_opened(new_tab):
+    tab = new_tab("#mode=inspect")
+    tab.page.locator(".frames-row").first.wait_for()
+    assert tuner(tab, "fit", "true")["text"] == "Measuring how much the points scatter…"
+    assert tab.page.locator(".curves-note").text_content() == ""
+    tab.page.get_by_role("tab", name="Thresholds").click()
+    curves_of(tab)
+    tuner(tab, "fit", "s.text.includes('Points scatter by 10 mm here')")
+
+
 def test_a_click_on_the_map_sets_both_thresholds(tab):
     curves_of(tab)
     tab.page.get_by_role("tab", name="Map").click()
