@@ -18,7 +18,7 @@ def drawn_in(tab, selector: str):
 
 def test_a_word_of_an_answer_lights_what_it_names_and_a_click_goes_there(new_tab):
     tab = new_tab("#frame=39&beam=180")
-    card = tab.page.get_by_label("Why")
+    card = tab.page.locator(".explanation")
     words = card.locator(".named")
     tab.eventually(lambda: words.count() >= 3, "no words to point at")
     tab.eventually(lambda: words.all_inner_texts()[:2] == ["beam 180", "segment 0"], "other words")
@@ -34,7 +34,7 @@ def test_a_word_of_an_answer_lights_what_it_names_and_a_click_goes_there(new_tab
 def test_a_threshold_in_a_sentence_lights_its_slider_and_leads_to_it(new_tab):
     tab = new_tab("#frame=39&beam=180")
     tab.page.get_by_role("tab", name="Lines").click()
-    symbol = tab.page.get_by_label("Why").locator(".named .symbol").first
+    symbol = tab.page.locator(".explanation").locator(".named .symbol").first
     symbol.hover()
     tab.eventually(tab.page.locator("[data-knob=epsilon].lit").count, "the slider is not lit")
     symbol.click()
@@ -70,7 +70,7 @@ def test_the_selected_row_says_all_and_a_chosen_finding_is_drawn(new_tab, hallwa
 
 def test_a_second_point_clicked_with_shift_asks_why_both_are_apart(new_tab, hallway):
     tab = new_tab("#frame=39&beam=100")
-    card = tab.page.get_by_label("Why")
+    card = tab.page.locator(".explanation")
     tab.eventually(tab.page.locator("iframe.scene.ready").count, "no scene")
 
     def ask() -> bool:
