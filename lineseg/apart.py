@@ -26,8 +26,8 @@ from .what_if import nearest
 
 # So many thresholds together are tried, if none alone joins two lines.
 MOST_TOGETHER = 4
-# Thresholds that part a line where they refuse something above them.
-PARTING = frozenset(["epsilon", "max_dropout", "max_gap", "max_void", "merge_angle", "merge_rms"])
+# It refuses seeds only, which parts no line.
+OF_SEEDS = "delta"
 
 
 @dataclass(frozen=True)
@@ -169,17 +169,17 @@ def _several(pair: _Pair) -> Iterator[Change]:
 
 
 def _parts(pair: _Pair, row: Row) -> bool:
-    return pair.trace.told(row).check.name in PARTING
+    """Whether a threshold parted a line there, by refusing something above it."""
+    name = pair.trace.told(row).check.name
+    knobs = {each: knob for each, _, knob in pair.params.knobs()}
+    return name in knobs and bool(knobs[name].refuses) and not knobs[name].floor and name != OF_SEEDS
 
 
 def _needed(params: Any, name: str, row: Row) -> int | float | None:
     """A value that would have allowed what a threshold refused; None if its slider does not reach it."""
     kind, knob = next((kind, knob) for each, kind, knob in params.knobs() if each == name)
-    if name in ("epsilon", "merge_rms"):
-        # The limit grows with the range, or is a multiple of the rms.
-        wanted = getattr(params, name) * row.value / max(row.limit, 1e-12)
-    else:
-        wanted = row.value
+    # The limit is the threshold, or that times something else, such as an rms.
+    wanted = getattr(params, name) * row.value / row.limit if row.limit > 0.0 else row.value
     steps = math.floor(wanted / knob.step + 1e-6) + (0 if kind is int else 1)
     value = kind(round(steps * knob.step, 9))
     return value if value <= knob.high else None

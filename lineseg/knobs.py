@@ -21,6 +21,7 @@ class Knob:
     refuses: what is said of what it refuses, in the fields of `Sentence`: a check of this name is then there for the
     kernels; floor: it refuses what is below it, not what is above. counted: what its histogram counts, if it has one.
     scatter: of a threshold that follows the noise, how many times as large it is as ε; 0 for all others.
+    equation, lesson: where the paper and which lesson explain it, "" for none.
     growth: of a threshold by which ε grows with the range, what share of the growth of the noise it follows; or 0.
     """
 
@@ -42,6 +43,8 @@ class Knob:
     floor: bool = False
     scatter: float = 0.0
     growth: float = 0.0
+    equation: str = ""
+    lesson: str = ""
 
     def reaching(self, *values: float) -> Knob:
         """The same with a slider that reaches these values: an end that is too near moves to the next round number."""

@@ -16,7 +16,7 @@ Epsilon = Annotated[
     float,
     Knob(
         "ε", 0.005, 0.50, "m", 0.001, log=True, least=1e-6, most=100.0, ros="least_thresh", scatter=1.0,
-        label="distance to the line",
+        label="distance to the line", equation="Eq. 3", lesson="07_epsilon",
         why="a distance of 0 would refuse every measured point",
         help="Largest distance of a point from its line. Higher accepts noisier points. Set it near the laser's range "
         "noise.",
@@ -28,7 +28,7 @@ Delta = Annotated[
     float,
     Knob(
         "δ", 0.01, 1.0, "m", 0.005, log=True, least=1e-6, most=1000.0, ros="predict_distance", scatter=1.5,
-        label="distance to the predicted point",
+        label="distance to the predicted point", equation="Eqs. 4–6", lesson="02_delta",
         why="a distance of 0 would refuse every measured point",
         help="Largest distance, in a seed, from a point to where its beam meets the line. Lower keeps range jumps out "
         "of seeds.",
@@ -40,7 +40,7 @@ SeedPoints = Annotated[
     int,
     Knob(
         "S_num", 3, 20, "", 1, least=3, most=1000, ros="seed_line_points",
-        label="points in a seed",
+        label="points in a seed", equation="Algorithm 1", lesson="01_seed",
         why="a seed needs 3 or more points, because any 2 points fit a line exactly",
         help="Consecutive points in a seed. Higher gives fewer and more reliable seeds.",
     ),
@@ -49,7 +49,7 @@ MinPoints = Annotated[
     int,
     Knob(
         "P_min", 3, 100, "", 1, least=2, most=100_000, ros="min_line_points",
-        label="points in a line",
+        label="points in a line", equation="Algorithm 2", lesson="08_how_much",
         why="a line needs at least 2 points",
         help="Fewest points in a line. Higher drops more small lines.",
         refuses="{value:g} points < P_min = {limit:g} (short by {short:g})",
@@ -61,7 +61,7 @@ MinLength = Annotated[
     float,
     Knob(
         "L_min", 0.0, 3.0, "m", 0.01, least=0.0, most=1000.0, ros="min_line_length",
-        label="length of a line",
+        label="length of a line", equation="Algorithm 2", lesson="08_how_much",
         why="a length is never negative",
         help="Shortest length of a line, from endpoint to endpoint. Higher drops more short lines.",
         refuses="{value:m} < L_min = {limit:m} (short by {short:m})",
@@ -84,7 +84,7 @@ class Params(Thresholds):
         int,
         Knob(
             "D_max", 0, 40, "beams", 1, least=0, most=100_000,
-            label="dropout crossed",
+            label="dropout crossed", lesson="11_doorway",
             why="a number of beams is never negative",
             help="Largest number of consecutive beams without a return that a seed or line may cross. 0 allows none, "
             "like the authors' program.",
@@ -108,7 +108,7 @@ class Params(Thresholds):
         float,
         Knob(
             "α_merge", 0.0, 0.5, "rad", 0.005, least=0.0, most=math.pi / 2,
-            label="merge angle",
+            label="merge angle", lesson="04_collinear",
             why="two lines are never more than a right angle apart",
             help="Overlapping neighbours that differ by less than this angle are merged. Higher merges more; 0 merges "
             "none.",
@@ -120,7 +120,7 @@ class Params(Thresholds):
         float,
         Knob(
             "γ_merge", 0.0, 3.0, "", 0.05, least=0.0, most=1e6,
-            label="rms growth in a merge",
+            label="rms growth in a merge", lesson="09_shallow",
             why="a factor is never negative",
             help="Largest factor by which a merge may raise the rms distance. Above 0, lines separated by up to D_max "
             "stray points can merge too. 0 turns both off, as in the paper.",

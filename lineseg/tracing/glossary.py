@@ -21,27 +21,13 @@ class Term(NamedTuple):
     lesson: str = ""
 
 
-# Where the paper and the lessons explain each threshold.
-_THRESHOLDS = {
-    "epsilon": ("Eq. 3", "07_epsilon"),
-    "delta": ("Eqs. 4–6", "02_delta"),
-    "seed_points": ("Algorithm 1", "01_seed"),
-    "min_points": ("Algorithm 2", "08_how_much"),
-    "min_length": ("Algorithm 2", "08_how_much"),
-    "max_dropout": ("", "11_doorway"),
-    "merge_angle": ("", "04_collinear"),
-    "merge_rms": ("", "09_shallow"),
-}
-
-
 def _thresholds() -> tuple[Term, ...]:
     """The thresholds, explained by their declarations."""
     terms = []
-    for name, _, knob in Params.knobs():
-        equation, lesson = _THRESHOLDS.get(name, ("", ""))
+    for _, _, knob in Params.knobs():
         origin = " Not in the paper." if knob.extension else ""
         label = f"{knob.label[0].upper()}{knob.label[1:]}."
-        terms.append(Term(knob.symbol, f"{label} {knob.help}{origin}", (knob.symbol,), equation, lesson))
+        terms.append(Term(knob.symbol, f"{label} {knob.help}{origin}", (knob.symbol,), knob.equation, knob.lesson))
     return tuple(terms)
 
 
