@@ -18,6 +18,10 @@ DISTANCES = (
 STAMPS = ("stamp", "timestamp", "time", "t", "secs", "sec", "seconds", "zeit", "rosbagtimestamp", "datetime")
 BEAMS = ("beam", "beam_id", "beam_index", "beam_number", "beam_no", "ray", "point_id", "index", "idx", "i", "step")
 SCANS = ("scan", "scan_id", "scan_number", "frame", "sweep", "scan_index", "scan_no", "turn", "revolution", "rev")
+LASERS = (
+    "frame_id", "header_frame_id", "laser", "laser_id", "laser_name", "lidar", "lidar_id", "lidar_name", "sensor",
+    "sensor_id", "sensor_name", "device", "device_id", "scanner", "scanner_id", "source", "topic",
+)  # fmt: skip
 LENGTHS: dict[str, Unit] = {
     "m": "m", "metre": "m", "metres": "m", "meter": "m", "meters": "m",
     "cm": "cm", "centimetre": "cm", "centimetres": "cm", "centimeter": "cm", "centimeters": "cm",

@@ -39,23 +39,35 @@ def _without_stumps(recording: Recording, notes: Notes) -> Recording:
 def _one_frame_id(recording: Recording, reading: Reading, notes: Notes) -> Recording:
     names = dict.fromkeys(recording.frame_ids)
     wanted = reading.frame_id
-    if wanted is not None and wanted not in names:
-        listed = ", ".join(map(repr, list(names)[:MOST_LASERS]))
-        raise ValueError(f"{recording.name} has no frame_id {wanted!r}; it has {listed}.")
+    if wanted is not None:
+        need_laser(recording.name, wanted, list(names))
     if len(names) < 2:
         return recording
     ids = np.array(recording.frame_ids)
-    taken = next(iter(names)) if wanted is None else wanted
-    notes.found["frame_id"], notes.lasers["frame_id"] = taken, tuple(names)
+    counts = {name: int(np.count_nonzero(ids == name)) for name in names}
+    taken = choose_laser(counts, "scans", recording.topic or "the file", wanted, notes)
+    return _kept(recording, ids == taken, notes)
+
+
+def need_laser(file: str, wanted: str, names: list[str]) -> None:
+    """Raises ValueError if the file has no laser of this name."""
+    if wanted not in names:
+        raise ValueError(f"{file} has no frame_id {wanted!r}; it has {', '.join(map(repr, names[:MOST_LASERS]))}.")
+
+
+def choose_laser(counts: dict[str, int], what: str, where: str, wanted: str | None, notes: Notes) -> str:
+    """The frame_id that is wanted, or else the first of several, which is told. counts: of scans or beams, by name."""
+    taken = next(iter(counts)) if wanted is None else wanted
+    notes.found["frame_id"], notes.lasers["frame_id"] = taken, tuple(counts)
     if wanted is None:
-        listed = ", ".join(f"{name} ({np.count_nonzero(ids == name)} scans)" for name in list(names)[:MOST_LASERS])
-        other = next(name for name in names if name != taken)
+        listed = ", ".join(f"{name} ({count} {what})" for name, count in list(counts.items())[:MOST_LASERS])
+        other = next(name for name in counts if name != taken)
         notes.notice(
             "several lasers",
-            f"{len(names)} lasers share {recording.topic or 'the file'}: {listed}. {taken} is shown; show another?",
+            f"{len(counts)} lasers share {where}: {listed}. {taken} is shown; show another?",
             frame_id=other,
         )
-    return _kept(recording, ids == taken, notes)
+    return taken
 
 
 def _one_geometry(recording: Recording, reading: Reading, notes: Notes) -> Recording:

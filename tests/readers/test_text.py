@@ -160,3 +160,22 @@ def test_a_row_that_breaks_off_is_skipped_and_named(text):
 def test_options_without_sense_are_refused(options, sentence):
     with pytest.raises(ValueError, match=sentence):
         Reading(**options)
+
+
+@pytest.mark.parametrize("beam", ["angle_deg", "beam"])
+@pytest.mark.parametrize("alternating", [False, True])
+def test_lasers_named_in_a_column_are_not_mixed(text, beam, alternating):
+    rows = [("front", k, 2.0 + k / 100) for k in range(60)] + [("rear", k, 5.0 + k / 100) for k in range(60)]
+    if alternating:
+        rows.sort(key=lambda row: row[1])
+    lines = "".join(f"{laser},{k},{distance}\n" for laser, k, distance in rows)
+    path = text(f"laser,{beam},distance_m\n{lines}")
+    wanted = {} if beam == "angle_deg" else {"angle_min": 0.0, "angle_increment": 0.01}
+    front = open_recording(path, Reading(**wanted))
+    assert (len(front), front.frame_ids, front.ranges[0]) == (1, ("front",), 2.0)
+    assert front.account is not None
+    (notice,) = [each for each in front.account.notices if each.kind == "several lasers"]
+    assert "front (60 beams), rear (60 beams)" in notice.text and notice.change == {"frame_id": "rear"}
+    assert open_recording(path, Reading(frame_id="rear", **wanted)).ranges[0] == 5.0
+    with pytest.raises(ValueError, match="no frame_id 'left'; it has 'front', 'rear'"):
+        open_recording(path, Reading(frame_id="left", **wanted))
