@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
+from collections import Counter
+from collections.abc import Iterable
+
 import numpy as np
 
 from ..scan import Recording
 from .account import Notes
+from .dialect import Dialect, Row, text_of
+from .headers import LASERS, Name, column_of
 from .reading import Reading
+from .source import Source
 
 MOST_LASERS = 8
 # Scans of one laser vary in length; those of two lasers differ by more than this.
@@ -47,6 +53,27 @@ def _one_frame_id(recording: Recording, reading: Reading, notes: Notes) -> Recor
     counts = {name: int(np.count_nonzero(ids == name)) for name in names}
     taken = choose_laser(counts, "scans", recording.topic or "the file", wanted, notes)
     return _kept(recording, ids == taken, notes)
+
+
+def rows_of_one_laser(
+    source: Source, reading: Reading, rows: Iterable[Row], dialect: Dialect, names: list[Name]
+) -> tuple[Iterable[Row], str]:
+    """The rows of one laser and its name, if a column of a table of beams tells it; otherwise all rows, and ""."""
+    column = column_of(names, lambda name: name.plain in LASERS)
+    if column is None:
+        return rows, ""
+    rows = list(rows)
+    cells = [dialect.cells(row.text) for row in rows]
+    lasers = [text_of(row[column]).strip() if len(row) > column else "" for row in cells]
+    counts = Counter(filter(None, lasers))
+    if not counts or len(counts) > MOST_LASERS:
+        return rows, ""
+    if reading.frame_id is not None:
+        need_laser(source.name, reading.frame_id, list(counts))
+    if len(counts) == 1:
+        return rows, next(iter(counts))
+    taken = choose_laser(counts, "beams", "the file", reading.frame_id, source.notes)
+    return [row for row, laser in zip(rows, lasers, strict=True) if laser == taken], taken
 
 
 def need_laser(file: str, wanted: str, names: list[str]) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from itertools import chain
 from typing import Any, TypeGuard
 
@@ -15,6 +16,7 @@ from .dialect import LEFT_OUT, Dialect, Row
 from .headers import is_angle, is_distance, name_of
 from .json_scans import json_values, parsed, scan_of
 from .laser_scan import LaserScan, decode_json
+from .lasers import rows_of_one_laser
 from .source import Reader, Source, Sweeps
 from .stamping import stamp_unit
 
@@ -178,7 +180,10 @@ def _beams(source: Source, beams: list[Mapping[str, Any]]) -> Recording:
     """Objects with an angle and a distance each, or with x and y."""
     keys = list(beams[0])
     rows = (Row(at, b"\t".join(str(beam.get(key)).encode() for key in keys)) for at, beam in enumerate(beams, 1))
-    return read_beams(source, source.reading, rows, Dialect(b"\t"), [name_of(key) for key in keys])
+    names, dialect = [name_of(key) for key in keys], Dialect(b"\t")
+    rows, frame_id = rows_of_one_laser(source, source.reading, rows, dialect, names)
+    recording = read_beams(source, source.reading, rows, dialect, names)
+    return replace(recording, frame_ids=(frame_id,) * len(recording))
 
 
 # YAML

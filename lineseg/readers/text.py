@@ -12,8 +12,8 @@ from typing import Any
 from ..scan import Recording
 from .beam_rows import read_beams
 from .dialect import COMMENTS, Dialect, Row, bracketed, dialect_of, is_list, labels_of, text_of, unlabelled
-from .headers import LASERS, TURNS, Name, array_columns, column_of, is_angle, is_beam, is_distance, name_of
-from .lasers import MOST_LASERS, choose_laser, need_laser
+from .headers import TURNS, Name, array_columns, column_of, is_angle, is_beam, is_distance, name_of
+from .lasers import rows_of_one_laser
 from .numbered import read_numbered
 from .reading import Reading, columns_of
 from .scan_rows import read_scans
@@ -195,14 +195,12 @@ def _read_named(
     beams = array_columns(names)
     if ranges is not None or beams:
         return read_table(source, reading, rows, dialect, names)
-    if (laser := column_of(names, lambda name: name.plain in LASERS)) is not None:
-        rows, frame_id = _of_one_laser(source, reading, list(rows), dialect, laser)
-        recording = _read_beam_rows(source, reading, rows, dialect, names)
-        return replace(recording, frame_ids=(frame_id,) * len(recording))
-    return _read_beam_rows(source, reading, rows, dialect, names)
+    rows, frame_id = rows_of_one_laser(source, reading, rows, dialect, names)
+    recording = _read_beams(source, reading, rows, dialect, names)
+    return replace(recording, frame_ids=(frame_id,) * len(recording))
 
 
-def _read_beam_rows(
+def _read_beams(
     source: Source, reading: Reading, rows: Iterable[Row], dialect: Dialect, names: list[Name]
 ) -> Recording:
     if any(map(is_distance, names)) and any(map(is_angle, names)):
@@ -216,24 +214,6 @@ def _read_beam_rows(
         f"{source.name} begins with {shown[:60]!r}, which names no column angle; {TEXT_FORMS} "
         "The flag --columns says what the columns hold."
     )
-
-
-def _of_one_laser(
-    source: Source, reading: Reading, rows: list[Row], dialect: Dialect, column: int
-) -> tuple[list[Row], str]:
-    """The rows of one laser, and its name; all, and "", if a column with the name of a laser tells something else."""
-    cells = [dialect.cells(row.text) for row in rows]
-    lasers = [text_of(row[column]).strip() if len(row) > column else "" for row in cells]
-    counts = Counter(lasers)
-    del counts[""]
-    if not counts or len(counts) > MOST_LASERS:
-        return rows, ""
-    if reading.frame_id is not None:
-        need_laser(source.name, reading.frame_id, list(counts))
-    if len(counts) == 1:
-        return rows, next(iter(counts))
-    taken = choose_laser(counts, "beams", "the file", reading.frame_id, source.notes)
-    return [row for row, laser in zip(rows, lasers, strict=True) if laser == taken], taken
 
 
 def _read_columns(

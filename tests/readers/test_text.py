@@ -1,3 +1,5 @@
+import json
+
 import numpy as np
 import pytest
 
@@ -179,3 +181,10 @@ def test_lasers_named_in_a_column_are_not_mixed(text, beam, alternating):
     assert open_recording(path, Reading(frame_id="rear", **wanted)).ranges[0] == 5.0
     with pytest.raises(ValueError, match="no frame_id 'left'; it has 'front', 'rear'"):
         open_recording(path, Reading(frame_id="left", **wanted))
+
+
+def test_lasers_named_in_objects_of_beams_are_not_mixed(text):
+    beams = [{"laser": name, "angle": k, "distance": far} for k in range(60) for name, far in (("a", 2.0), ("b", 5.0))]
+    path = text(json.dumps(beams), "beams.json")
+    assert open_recording(path).frame_ids == ("a",)
+    assert set(open_recording(path, Reading(frame_id="b")).ranges.tolist()) == {5.0}
