@@ -64,7 +64,7 @@ def extract(scan: Scan, params: Thresholds | None = None) -> Extraction:
 def trace(scan: Scan, params: Thresholds | None = None) -> Trace:
     """Like `extract`, with every decision recorded; `.extraction` is what `extract` returns. Raises the same errors."""
     need_scan(scan)
-    params = params or DEFAULT
+    params = DEFAULT if params is None else params
     return method_of(params).trace(scan, params)
 
 
