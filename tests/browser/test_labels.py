@@ -220,8 +220,9 @@ def test_tags_and_notes_are_kept_undone_and_filter_the_frames(label, hall, sidec
     tab.eventually(lambda: "#glass (1)" in tag.inner_text(), "the tag is not offered")
     tag.select_option(label="#glass (1)")
     tab.eventually(lambda: listed() == [str(FRAME)], "not filtered")
-    # The row's text is drawn anew a moment after the frame's tags are saved.
-    tab.eventually(lambda: "#glass the pane of the entrance" in row.inner_text(), "the tags in the list are old")
+    said = page.locator(".frames-said")
+    # Drawn a moment after the frame's tags are saved.
+    tab.eventually(lambda: "#glass the pane of the entrance" in said.inner_text(), "the tags in the list are old")
     tag.select_option(label="any tag")
     words = page.get_by_label(re.compile("Show only frames with these words"))
     words.fill("ENTRANCE")
