@@ -606,7 +606,7 @@ export interface Framing {
  * if the recording can have labels. framing: of the decision on the screen, ahead: of the next one without its
  * outcome; null where the whole plan is shown. nodes: what the scene shows. references: available references;
  * judgedBy: the one in use, "" without truth. extent: box around the points of the frame, bounds: of the recording
- * [m]. extractionUs: time of the extraction [µs].
+ * [m]; square: side of the grid's squares [m]. extractionUs: time of the extraction [µs].
  */
 export interface Scene {
   view: View;
@@ -644,6 +644,7 @@ export interface Scene {
   difference: Record<string, number> | null;
   extent: [number, number, number, number];
   bounds: [number, number, number, number];
+  square: number;
   segments: Segment[];
   dropped: Dropped[];
   decision: Decision | null;
@@ -709,6 +710,7 @@ export interface DrawnState {
   difference: Record<string, number> | null;
   extent: [number, number, number, number];
   bounds: [number, number, number, number];
+  square: number;
   segments: Segment[];
   dropped: Dropped[];
   decision: Decision | null;

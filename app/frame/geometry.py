@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -95,3 +96,10 @@ def beam_near(scan: Scan, point: tuple[float, float], radius: float) -> int | No
     distances = np.hypot(*(scan.xy - point).T)
     nearest = int(np.nanargmin(distances))
     return nearest if distances[nearest] <= radius else None
+
+
+def square_of(bounds: Bounds) -> float:
+    """Side of the grid's squares [m]: 1, 2 or 5 × 10ⁿ m, such that 6 to 12 cover the longer side of a recording."""
+    rough = max(bounds[2] - bounds[0], bounds[3] - bounds[1], 1e-3) / 12
+    power = 10.0 ** math.floor(math.log10(rough))
+    return next(step * power for step in (1, 2, 5, 10) if step * power >= rough)

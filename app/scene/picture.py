@@ -16,7 +16,7 @@ from lineseg.survey.difference import KEPT
 from lineseg.survey.remark import Ghost
 
 from ..frame.findings import Findings
-from ..frame.geometry import Bounds, voids
+from ..frame.geometry import Bounds, square_of, voids
 from ..frame.judge import Judged
 from ..view import View
 from .palette import DARK, LIGHT, Colours, Theme
@@ -219,10 +219,11 @@ def laser(bounds: Bounds, theme: Theme) -> Lines:
 
 @lru_cache(maxsize=CACHED)
 def grid(bounds: Bounds, theme: Theme) -> Lines:
-    """Grid lines 1, 2 or 5 × 10ⁿ m apart, about a dozen across the recording, with highlighted axes."""
-    spacing = grid_spacing(max(bounds[2] - bounds[0], bounds[3] - bounds[1]))
-    x1, y1 = (spacing * (math.floor(low / spacing) - 1) for low in bounds[:2])
-    x2, y2 = (spacing * (math.ceil(high / spacing) + 1) for high in bounds[2:])
+    """Grid lines `square_of` apart, with highlighted axes, also beyond the recording, since a stage may be wide."""
+    spacing = square_of(bounds)
+    beyond = max(bounds[2] - bounds[0], bounds[3] - bounds[1])
+    x1, y1 = (spacing * math.floor((low - beyond) / spacing) for low in bounds[:2])
+    x2, y2 = (spacing * math.ceil((high + beyond) / spacing) for high in bounds[2:])
     xs, ys = np.arange(x1, x2 + spacing / 2, spacing), np.arange(y1, y2 + spacing / 2, spacing)
     upright = _parallels(xs, lambda x: ((x, y1), (x, y2)), theme)
     level = _parallels(ys, lambda y: ((x1, y), (x2, y)), theme)
@@ -233,10 +234,3 @@ def _parallels(places: NDArray, ends_at: Callable[[float], tuple], theme: Theme)
     colours = np.where(np.abs(places)[:, None] < 1e-9, theme.axis, theme.grid).astype(np.uint8)
     ends = np.array([ends_at(float(place)) for place in places])
     return lines_between(ends[:, 0], ends[:, 1], colours)
-
-
-def grid_spacing(wide: float) -> float:
-    """1, 2 or 5 × 10ⁿ m, such that 6 to 15 spacings cover the width."""
-    rough = wide / 12
-    power = 10.0 ** math.floor(math.log10(rough))
-    return next(step * power for step in (1, 2, 5, 10) if step * power >= rough)

@@ -239,7 +239,8 @@ class Scene(TypedDict):
     agreement: in the mode Inspect if the truth is known; labels: in the mode Inspect if the recording can have labels.
     framing: of the decision on the screen, ahead: of the next one without its outcome; null where the whole plan is
     shown. nodes: what the scene shows. references: available references; judgedBy: the one in use, "" without truth.
-    extent: box around the points of the frame, bounds: of the recording [m]. extractionUs: time of the extraction [µs].
+    extent: box around the points of the frame, bounds: of the recording [m]; square: side of the grid's squares [m].
+    extractionUs: time of the extraction [µs].
     """
 
     view: Annotated[dict[str, Any], As("View")]
@@ -277,6 +278,7 @@ class Scene(TypedDict):
     difference: dict[str, int] | None
     extent: Box
     bounds: Box
+    square: float
     segments: list[Segment]
     dropped: list[Dropped]
     decision: Decision | None

@@ -54,6 +54,8 @@ export class LessonList {
 
   /** @param {string} why */
   complain(why) {
+    // The same link may be read more than once.
+    if ([...this.#broken.children].some(({ textContent }) => textContent === why)) return;
     this.#broken.append(h("p", {}, why));
   }
 

@@ -51,7 +51,8 @@ export function createCamera(page, stage, text, { drawing, names, onLook, onFram
       freeButton.setAttribute("aria-label", camera === "free" ? text.plan : text.free);
     },
     /** @param {import("../wire.js").State} state */
-    setState({ recording, place: scans, framing }) {
+    setState({ recording, place: scans, framing, square }) {
+      stage.square = square;
       // A drawn world stays where it is while it changes.
       const place = drawing() ? "drawn" : scans;
       if (place !== fitted) {

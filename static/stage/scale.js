@@ -5,6 +5,8 @@ import { h, setText, svg } from "../widgets/dom.js";
 /** @typedef {import("./viser.js").Stretch} Stretch */
 
 const BAR_PX = 110;
+// Widths at which a square of the grid serves as the bar.
+const SQUARE_PX = [30, 180];
 const ARM_PX = 70;
 const CORNER = 46;
 
@@ -24,15 +26,16 @@ export function createScale(across) {
 
   return {
     element,
-    /** @param {number | null} pxPerMetre null: the scene has no scale @param {Stretch | null} stretch */
-    set(pxPerMetre, stretch) {
+    /** @param {number | null} pxPerMetre null: the scene has no scale @param {Stretch | null} stretch @param {number} square side of the grid's squares [m] */
+    set(pxPerMetre, stretch, square) {
       element.hidden = pxPerMetre === null;
       if (pxPerMetre === null) return;
       bar.hidden = stretch !== null;
       cross.style.display = stretch ? "" : "none";
       words.hidden = !stretch;
       if (stretch) return drawCross(pxPerMetre, stretch);
-      const metres = niceLength(BAR_PX / pxPerMetre);
+      const [narrow, wide] = SQUARE_PX.map((px) => px / pxPerMetre);
+      const metres = narrow <= square && square <= wide ? square : niceLength(BAR_PX / pxPerMetre);
       bar.style.width = `${Math.round(metres * pxPerMetre)}px`;
       setText(barWords, lengthWords(metres));
     },

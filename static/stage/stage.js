@@ -71,6 +71,7 @@ export class Stage {
   #hoverListeners = [];
   #handlers;
   #scaleMark;
+  #square = 0;
 
   /** @param {HTMLElement} holder @param {typeof import("../text/page.js").pageText.stage} text @param {Handlers} handlers */
   constructor(holder, text, handlers) {
@@ -183,7 +184,7 @@ export class Stage {
   #tellMoved() {
     for (const listener of this.#moveListeners) listener();
     const scale = this.#mode === "plan" ? this.#scale : null;
-    this.#scaleMark.set(scale?.pxPerMetre ?? null, this.#stretch);
+    this.#scaleMark.set(scale?.pxPerMetre ?? null, this.#stretch, this.#square);
   }
 
   /** The scale of the plan; null before it is loaded and in the free view. */
@@ -199,6 +200,13 @@ export class Stage {
     this.#source = path;
     this.frame.classList.remove("ready");
     this.frame.src = path;
+  }
+
+  /** @param {number} square side of the grid's squares [m] */
+  set square(square) {
+    if (square === this.#square) return;
+    this.#square = square;
+    this.#tellMoved();
   }
 
   /** Shows the whole box. @param {Box} box */

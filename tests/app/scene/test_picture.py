@@ -10,11 +10,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 from lineseg_app.frame.findings import BINS, findings, histogram
-from lineseg_app.frame.geometry import bounds_of
+from lineseg_app.frame.geometry import bounds_of, square_of
 from lineseg_app.frame.judge import Reference, judged
 from lineseg_app.frame.state import state_of
 from lineseg_app.scene.palette import LIGHT, linear
-from lineseg_app.scene.picture import grid_spacing, picture
+from lineseg_app.scene.picture import picture
 from lineseg_app.scene.shapes import Lines, Points, dashed, points_at
 from lineseg_app.view import Layers, View
 from scenes import corner, scan_of, wall_ahead
@@ -191,8 +191,8 @@ def test_bounds_hold_the_laser_and_are_not_widened_by_a_stray_point():
 
 
 @pytest.mark.parametrize(("wide", "spacing"), [(10, 1), (30, 5), (4, 0.5), (200, 20), (0.9, 0.1)])
-def test_the_grid_has_round_spacings(wide, spacing):
-    assert grid_spacing(wide) == pytest.approx(spacing)
+def test_the_squares_of_the_grid_have_round_sides(wide, spacing):
+    assert square_of((-1.0, 2.0, wide - 1.0, 2.5)) == pytest.approx(spacing)
 
 
 def test_dashes_cover_half_of_a_line_and_stay_on_it():
