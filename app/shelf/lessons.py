@@ -178,7 +178,10 @@ def read_lessons(files: list[Path]) -> Lessons:
 
 def looked_at(id: str, page: int) -> tuple[str, Looked] | None:
     """The recording of a lesson, and what one of its pages looks at; the task comes after the steps."""
-    file = data_folder("sample_scans") / "lessons" / f"{id}.json"
+    # Looked up, not made from the id, which comes from a link.
+    file = next((file for file in lesson_files() if file.stem == id), None)
+    if file is None:
+        return None
     try:
         lesson = _read(file.stem, file.read_text("utf-8"))
     except (OSError, ValueError):

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import os
+import shutil
 from pathlib import Path
 
 import pytest
 from lineseg_app.shelf.lesson_numbers import found
-from lineseg_app.shelf.lessons import NamedLesson, lesson_files, read_lessons, scan_of
+from lineseg_app.shelf.lessons import NamedLesson, lesson_files, looked_at, read_lessons, scan_of
 from live import Address
 
 from lineseg import Params, trace
@@ -74,3 +76,12 @@ def test_a_beam_that_the_scan_does_not_have_is_named_with_its_place(tmp_path: Pa
 def test_the_server_offers_the_lessons_in_order(server: Address):
     told = server.get("/api/lessons").json()
     assert [lesson["id"] for lesson in told["lessons"]] == [file.stem for file in lesson_files()]
+
+
+def test_the_id_of_a_lesson_is_no_path(tmp_path):
+    lesson = lesson_files()[0]
+    assert looked_at(lesson.stem, 0) is not None
+    elsewhere = shutil.copy(lesson, tmp_path / "elsewhere.json")
+    path = os.path.relpath(elsewhere, lesson.parent).removesuffix(".json")
+    assert looked_at(path, 0) is None
+    assert looked_at(str(elsewhere).removesuffix(".json"), 0) is None
