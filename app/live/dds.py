@@ -22,15 +22,14 @@ from cyclonedds.topic import Topic
 from cyclonedds.util import duration
 
 from lineseg.readers.decoders import plain_type
-from lineseg.readers.laser_scan import TYPES, decode_cdr
+from lineseg.readers.laser_scan import decode_cdr
 
 from .bridge import Told
 from .dds_domain import join
 from .dds_types import serialised_type
 from .outgoing import Message, full_type
-from .topics import why_none
+from .topics import LASER_SCAN, Offer, chosen_topic, of_lasers
 
-LASER_SCAN = TYPES[1]
 PREFIX = "rt"
 MOST_WAITING = 64
 LOOK_SECONDS = 0.1
@@ -52,17 +51,11 @@ OFFERED = Qos(
 
 
 @dataclass(frozen=True)
-class Offer:
-    """What a publisher offers. type: as ROS 2 names it."""
+class DdsOffer(Offer):
+    """reliable, kept: the QoS, of which kept stands for transient local."""
 
-    topic: str
-    type: str
     reliable: bool
     kept: bool
-
-    @property
-    def is_laser(self) -> bool:
-        return self.type == LASER_SCAN
 
 
 @contextmanager
@@ -75,11 +68,11 @@ def open_dds(domain: int | None) -> Iterator[Dds]:
         bridge.leave()
 
 
-def laser_topics(domain: int | None, seconds: float) -> list[Offer]:
+def laser_topics(domain: int | None, seconds: float) -> list[DdsOffer]:
     """The publishers of scans that show up within a time, sorted by topic."""
-    bridge = Dds(join(domain))
-    time.sleep(seconds)
-    return sorted({offer for offer in bridge.offers() if offer.is_laser}, key=lambda offer: offer.topic)
+    with open_dds(domain) as bridge:
+        time.sleep(seconds)
+        return of_lasers(bridge.offers())
 
 
 class Dds:
@@ -104,7 +97,7 @@ class Dds:
         self._writers.clear()
         self._topics.clear()
 
-    def offers(self) -> list[Offer]:
+    def offers(self) -> list[DdsOffer]:
         """All publishers of ROS topics that are known at present."""
         found = self._discovered.read(1000)
         return [
@@ -138,19 +131,18 @@ class Dds:
             if error.code != DDSException.DDS_RETCODE_TIMEOUT:  # a slow receiver, which misses this one
                 raise ValueError(f"nothing can be published to {topic}: {error.msg}") from None
 
-    def _wait_for(self, wanted: str | None, told: Told) -> list[Offer]:
+    def _wait_for(self, wanted: str | None, told: Told) -> list[DdsOffer]:
         """The offers of the topic, or of the first laser topic, as soon as there are some; [] on closing."""
         while not self._closing.is_set():
             offers = self.offers()
-            lasers = sorted({offer.topic for offer in offers if offer.is_laser})
-            chosen = wanted or next(iter(lasers), None)
-            if chosen in lasers:
+            chosen, why = chosen_topic(wanted, offers)
+            if chosen is not None:
                 return [offer for offer in offers if offer.is_laser and offer.topic == chosen]
-            told.waits(why_none(wanted, [(offer.topic, offer.type) for offer in offers], lasers))
+            told.waits(why)
             self._closing.wait(LOOK_SECONDS)
         return []
 
-    def _receive(self, offers: list[Offer], told: Told) -> None:
+    def _receive(self, offers: list[DdsOffer], told: Told) -> None:
         """Hand over scans until the topic is offered in another way, or on closing."""
         topic, asked = offers[0].topic, _asked(offers)
         reader = DataReader(self._participant, self._topic(topic, LASER_SCAN), qos=asked)
@@ -203,9 +195,9 @@ class _Watch:
             told.misses(why)
 
 
-def _offer(found: Any) -> Offer:
+def _offer(found: Any) -> DdsOffer:
     qos = found.qos
-    return Offer(
+    return DdsOffer(
         found.topic_name.removeprefix(PREFIX),
         plain_type(found.type_name),
         isinstance(qos[Policy.Reliability], Policy.Reliability.Reliable),
@@ -213,7 +205,7 @@ def _offer(found: Any) -> Offer:
     )
 
 
-def _asked(offers: list[Offer]) -> Qos:
+def _asked(offers: list[DdsOffer]) -> Qos:
     """What every one of these publishers can give."""
     reliable, kept = all(offer.reliable for offer in offers), all(offer.kept for offer in offers)
     return Qos(

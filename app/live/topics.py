@@ -1,8 +1,43 @@
-"""Words for the topics of a ROS 2 robot."""
+"""The topics of a ROS 2 robot, and words for them."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import TypeVar
+
+from lineseg.readers.laser_scan import TYPES
+
+LASER_SCAN = TYPES[1]
+
+
+@dataclass(frozen=True)
+class Offer:
+    """What a publisher offers. type: as ROS 2 names it."""
+
+    topic: str
+    type: str
+
+    @property
+    def is_laser(self) -> bool:
+        return self.type == LASER_SCAN
+
+
+Offers = TypeVar("Offers", bound=Offer)
+
+
+def of_lasers(offers: Iterable[Offers]) -> list[Offers]:
+    """The publishers of scans, each once, sorted by topic."""
+    return sorted({offer for offer in offers if offer.is_laser}, key=lambda offer: offer.topic)
+
+
+def chosen_topic(wanted: str | None, offers: Sequence[Offer]) -> tuple[str | None, str]:
+    """The topic of scans that is wanted, or the first if None is; or None, and why there is none."""
+    lasers = list(dict.fromkeys(offer.topic for offer in of_lasers(offers)))
+    chosen = wanted or next(iter(lasers), None)
+    if chosen in lasers:
+        return chosen, ""
+    return None, why_none(wanted, [(offer.topic, offer.type) for offer in offers], lasers)
 
 
 def why_none(topic: str | None, offers: Sequence[tuple[str, str]], lasers: Sequence[str]) -> str:

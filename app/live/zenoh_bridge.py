@@ -17,19 +17,17 @@ import threading
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
 from typing import Any
 
 import zenoh
 
 from lineseg.readers.decoders import plain_type
-from lineseg.readers.laser_scan import TYPES, decode_cdr
+from lineseg.readers.laser_scan import decode_cdr
 
 from .bridge import OPEN_SECONDS, Told
 from .outgoing import Message, dds_type, full_type, typestore
-from .topics import why_none
+from .topics import LASER_SCAN, Offer, chosen_topic, of_lasers
 
-LASER_SCAN = TYPES[1]
 SPACE = "@ros2_lv"
 PUBLISHER, NODE, SUBSCRIPTION = "MP", "NN", "MS"
 NODE_NAME = "lineseg"
@@ -38,18 +36,6 @@ QOS = "::,10:,:,:,,"
 LOOK_SECONDS = 0.1
 MOST_WAITING = 64
 STATE = struct.Struct("<qqB")
-
-
-@dataclass(frozen=True)
-class Offer:
-    """What a publisher offers. type: as ROS 2 names it."""
-
-    topic: str
-    type: str
-
-    @property
-    def is_laser(self) -> bool:
-        return self.type == LASER_SCAN
 
 
 @contextmanager
@@ -72,7 +58,7 @@ def zenoh_topics(router: str, domain: int, seconds: float) -> list[Offer]:
     """The publishers of scans that show up within a time, sorted by topic."""
     with open_zenoh(router, domain) as bridge:
         time.sleep(seconds)
-        return sorted({offer for offer in bridge.offers() if offer.is_laser}, key=lambda offer: offer.topic)
+        return of_lasers(bridge.offers())
 
 
 class Zenoh:
@@ -168,12 +154,10 @@ class Zenoh:
     def _wait_for(self, wanted: str | None, told: Told) -> str | None:
         """The topic, or the first laser topic, as soon as it is published; None on closing."""
         while not self._closing.is_set():
-            offers = self.offers()
-            lasers = sorted({offer.topic for offer in offers if offer.is_laser})
-            chosen = wanted or next(iter(lasers), None)
-            if chosen in lasers:
+            chosen, why = chosen_topic(wanted, self.offers())
+            if chosen is not None:
                 return chosen
-            told.waits(why_none(wanted, [(offer.topic, offer.type) for offer in offers], lasers))
+            told.waits(why)
             self._closing.wait(LOOK_SECONDS)
         return None
 
