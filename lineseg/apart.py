@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from .arguments import need_scan, need_thresholds
 from .extractors import EXTRACTORS
-from .knobs import Knob, Thresholds
+from .knobs import Thresholds
 from .region_growing.checks import GROWTH_STOPPED, LINE_DROPPED, LINES_KEPT_APART, LINES_MERGED, OVERLAP_CUT
 from .region_growing.trace import GrowthTrace, longest
 from .scan import Scan
@@ -187,13 +187,9 @@ def _needed(params: Any, name: str, row: Row) -> int | float | None:
 
 def _change(pair: _Pair, values: dict[str, int | float], told: tuple[str, int, int]) -> Change:
     knobs = {name: knob for name, _, knob in pair.params.knobs()}
-    settings = " and ".join(_setting(knobs[name], value) for name, value in values.items())
+    settings = " and ".join(knobs[name].told(value) for name, value in values.items())
     text, first, last = told
     return Change(dict(values), first, last, f"with {settings} {text}")
-
-
-def _setting(knob: Knob, value: int | float) -> str:
-    return f"{knob.symbol} = {value:g}{f' {knob.unit}' if knob.unit else ''}"
 
 
 def _why_two(pair: _Pair) -> str:

@@ -46,6 +46,10 @@ class Knob:
     equation: str = ""
     lesson: str = ""
 
+    def told(self, value: float) -> str:
+        """The threshold and a value in words: ε = 0.03 m."""
+        return f"{self.symbol} = {value:g}{f' {self.unit}' if self.unit else ''}"
+
     def reaching(self, *values: float) -> Knob:
         """The same with a slider that reaches these values: an end that is too near moves to the next round number."""
         low, high = min(values), max(values)

@@ -67,7 +67,7 @@ class Rows(Protocol):
 
     def segments(self) -> tuple[Segment, ...]: ...
     def labels(self) -> NDArray[np.int32]: ...
-    def drops(self) -> tuple[Dropped, ...]: ...
+    def dropped(self) -> tuple[Dropped, ...]: ...
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,8 +95,7 @@ class Extraction:
         rows = self.__dict__.get("_rows")
         if rows is None or name not in ("segments", "labels", "dropped"):
             raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}", name=name, obj=self)
-        part = rows.drops() if name == "dropped" else getattr(rows, name)()
-        return self.__dict__.setdefault(name, part)
+        return self.__dict__.setdefault(name, getattr(rows, name)())
 
     @cached_property
     def covered(self) -> int:

@@ -96,7 +96,7 @@ def first_change(apart: NDArray[np.float64], widest: float, differs: Callable[[i
 
 
 def _changed(beam: int, name: str, knob: Knob, value: int | float, found: Extraction, now: Extraction) -> WhatIf:
-    at = f"with {knob.symbol} = {value:g}{f' {knob.unit}' if knob.unit else ''} beam {beam} would be in"
+    at = f"with {knob.told(value)} beam {beam} would be in"
     segment, before = int(found.labels[beam]), int(now.labels[beam])
     if segment < 0:
         return WhatIf(name, value, -1, -1, -1, f"{at} no line")

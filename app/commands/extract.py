@@ -16,6 +16,7 @@ from lineseg.writers import SEGMENT_WRITERS, write_segments
 
 from ..made import about_of
 from .flag_types import Files, Switch, Unset
+from .noise import noise_of
 from .progress import counted, open_with_progress
 from .reading import ReadingFlags, each_file, files_of, reading_of
 from .thresholds import Choice, Flags, suggested
@@ -47,9 +48,7 @@ def extract(
         suggest: use thresholds that fit the noise of each recording, and print them.
     """
     chosen, how = method.thresholds(threshold), reading_of(reading)
-    noise = None
-    if range_noise is not None or bearing_noise is not None:
-        noise = Noise(range_noise or 0.0, bearing_noise or 0.0)
+    noise = noise_of(range_noise, bearing_noise)
     targets = _targets(files_of(files), out)
 
     def work(file: Path) -> None:

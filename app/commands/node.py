@@ -10,10 +10,10 @@ from typing import Annotated, Any
 
 from tyro.conf import OmitArgPrefixes, Positional, arg
 
-from lineseg.covariance import Noise
 from lineseg.knobs import Thresholds
 
 from .flag_types import Switch, Unset
+from .noise import noise_of
 from .sources import address_of, list_topics
 from .thresholds import Choice, Flags
 
@@ -51,9 +51,7 @@ def node(
     if list_topics(address):
         return
     newest = _thresholds(method, threshold)
-    noise = None
-    if range_noise is not None or bearing_noise is not None:
-        noise = Noise(range_noise or 0.0, bearing_noise or 0.0)
+    noise = noise_of(range_noise, bearing_noise)
 
     from ..live.node import OWNER, Node
     from ..live.source import Publishing

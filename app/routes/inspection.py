@@ -8,6 +8,7 @@ from starlette.exceptions import HTTPException
 from lineseg import Relation, Remark, Thresholds, what_if, why, why_apart
 
 from ..frame.judge import Reference, agreement_told, judged, judged_recording
+from ..session.session import Shown
 from ..session.sessions import Sessions
 from ..shelf.label_files import LabelFiles
 from ..told.answers import Apart, Finding, Judgement, Truth, WhatIfs, Whys
@@ -49,6 +50,12 @@ def _finding(remark: Remark, params: type[Thresholds]) -> Finding:
 
 def add_inspection(app: FastAPI, sessions: Sessions, files: LabelFiles) -> None:
     """Routes of /api that inspect what a tab shows."""
+
+    def reference_of(session: str) -> tuple[Shown, Reference]:
+        """What a tab shows, and the true lines with which it is compared."""
+        shown = sessions.shown(session)
+        known = files.known(shown.view.recording, shown.recording)
+        return shown, Reference.of(shown.view.reference, shown.recording, known)
 
     @app.get("/api/what-if")
     def what_would_change(session: str = "") -> WhatIfs:
@@ -103,10 +110,8 @@ def add_inspection(app: FastAPI, sessions: Sessions, files: LabelFiles) -> None:
 
     @app.get("/api/judged")
     def judged_frame(session: str = "") -> Judgement:
-        shown = sessions.shown(session)
+        shown, reference = reference_of(session)
         view = shown.view
-        known = files.known(view.recording, shown.recording)
-        reference = Reference.of(view.reference, shown.recording, known)
         said = reference.said.of(view.frame) if reference.said is not None else None
         found = judged(shown.found, said) if reference.chosen else None
         return {
@@ -118,10 +123,8 @@ def add_inspection(app: FastAPI, sessions: Sessions, files: LabelFiles) -> None:
 
     @app.get("/api/truth")
     def truth(session: str = "") -> Truth:
-        shown = sessions.shown(session)
+        shown, reference = reference_of(session)
         view = shown.view
-        known = files.known(view.recording, shown.recording)
-        reference = Reference.of(view.reference, shown.recording, known)
         if not reference.chosen:
             raise HTTPException(404, "the true lines of this recording are not known; label some frames first")
         said = reference.said

@@ -20,7 +20,7 @@ class KernelOutput(NamedTuple):
 
     scan: Scan
     lines: NDArray[np.void]
-    dropped: NDArray[np.void]
+    drops: NDArray[np.void]
     beams: NDArray[np.integer]
 
     def segments(self) -> tuple[Segment, ...]:
@@ -39,9 +39,9 @@ class KernelOutput(NamedTuple):
             labels[self.beams[first : last + 1]] = label
         return labels
 
-    def drops(self) -> tuple[Dropped, ...]:
+    def dropped(self) -> tuple[Dropped, ...]:
         """The candidates that were not kept."""
-        rows, scan = self.dropped, self.scan
+        rows, scan = self.drops, self.scan
         first, last = self.beams[rows["first"]], self.beams[rows["last"]]
         # A program that treats dropouts as points may end a line at a dropout.
         with np.errstate(invalid="ignore"):
