@@ -2,6 +2,7 @@
 // The scene: viser's page in a frame of the same origin. Its camera is set here; picking is the server's.
 import { h } from "../widgets/dom.js";
 import { closePopovers } from "../widgets/menu.js";
+import { around, CLOSE, project, towards, unproject, WHOLE } from "./plan.js";
 import { createScale } from "./scale.js";
 import {
   bend,
@@ -14,7 +15,6 @@ import {
   PLAN_FOV_DEG,
   planOf,
   rad,
-  stretched,
   unlock,
 } from "./viser.js";
 
@@ -27,17 +27,6 @@ import {
  * @typedef {{onKey: (event: KeyboardEvent) => boolean, onFrame: (frame: Window) => void}} Handlers
  */
 
-const MARGIN = 1.12;
-// What is gone to fills this share of the stage, unless it can be seen already.
-const SHARE = 0.25;
-const EASILY_SEEN_PX = 60;
-// And it is not as near as this to an edge.
-const EDGE_PX = 30;
-// The smallest half of a whole plan [m].
-const LEAST = 0.5;
-// Around a close-up there is room for names; the smallest half of one [m].
-const CLOSE_MARGIN = 1.35;
-const CLOSE_LEAST = 0.02;
 const CAMERA_KEYS = new Set(["KeyW", "KeyA", "KeyS", "KeyD", "KeyQ", "KeyE"]);
 // viser's own panel and notices go, because the page shows connection and values; its slow fade-in goes, too.
 const OVERRULED = `
@@ -183,15 +172,26 @@ export class Stage {
 
   #tellMoved() {
     for (const listener of this.#moveListeners) listener();
-    const scale = this.#mode === "plan" ? this.#scale : null;
-    this.#scaleMark.set(scale?.pxPerMetre ?? null, this.#stretch, this.#square);
+    this.#scaleMark.set(this.#sight?.pxPerMetre ?? null, this.#stretch, this.#square);
   }
 
-  /** The scale of the plan; null before it is loaded and in the free view. */
-  get #scale() {
+  get #size() {
+    return { width: this.frame.clientWidth, height: this.frame.clientHeight };
+  }
+
+  /** The plan as it is seen; null before it is loaded and in the free view. */
+  get #sight() {
     const plan = this.#plan;
     if (this.#mode !== "plan" || !plan) return null;
-    return { plan, pxPerMetre: this.frame.clientHeight / (2 * plan.height * TAN) };
+    const { width, height } = this.#size;
+    return {
+      x: plan.x,
+      y: plan.y,
+      pxPerMetre: height / (2 * plan.height * TAN),
+      width,
+      height,
+      stretch: this.#stretch,
+    };
   }
 
   /** @param {string} path of the session's viser page */
@@ -210,22 +210,20 @@ export class Stage {
   }
 
   /** Shows the whole box. @param {Box} box */
-  fit = (box) => this.#fit(box, null, MARGIN, LEAST);
+  fit = (box) => this.#fit(box, null, WHOLE);
 
   /** Shows the box from near by, with its plan stretched. @param {Box} box as drawn @param {Stretch} stretch */
   closeUp(box, stretch) {
-    this.#fit(box, stretch.factor === 1 ? null : stretch, CLOSE_MARGIN, CLOSE_LEAST);
+    this.#fit(box, stretch.factor === 1 ? null : stretch, CLOSE);
   }
 
-  /** @param {Box} box @param {Stretch | null} stretch @param {number} margin @param {number} least */
-  #fit(box, stretch, margin, least) {
-    const [xmin, ymin, xmax, ymax] = box;
-    const aspect = this.frame.clientWidth / Math.max(1, this.frame.clientHeight);
-    const half = Math.max(margin * Math.max((ymax - ymin) / 2, (xmax - xmin) / 2 / aspect, least), NEAREST * TAN);
+  /** @param {Box} box @param {Stretch | null} stretch @param {typeof WHOLE} room */
+  #fit(box, stretch, room) {
+    const { x, y, span } = around(box, this.#size, room);
     this.#stretch = stretch;
-    this.#away = margin === MARGIN;
-    this.#plan = this.#whole = { x: (xmin + xmax) / 2, y: (ymin + ymax) / 2, height: half / TAN };
-    this.#pendingFit = cameraIn(this.frame) ? null : () => this.#fit(box, stretch, margin, least);
+    this.#away = room === WHOLE;
+    this.#plan = this.#whole = { x, y, height: Math.max(span / 2 / TAN, NEAREST) };
+    this.#pendingFit = cameraIn(this.frame) ? null : () => this.#fit(box, stretch, room);
     this.#apply();
   }
 
@@ -251,18 +249,9 @@ export class Stage {
   }
 
   /** Moves the plan so that the box can be seen well, and zooms in if it is too small. @param {Box} box */
-  goTo = ([xmin, ymin, xmax, ymax]) => {
-    const { clientWidth, clientHeight } = this.frame;
-    const [wide, high] = [xmax - xmin, ymax - ymin];
-    const scale = this.#scale?.pxPerMetre ?? 0;
-    const large =
-      Math.max(wide, high) * scale > EASILY_SEEN_PX && wide * scale < clientWidth && high * scale < clientHeight;
-    const inside = [this.project(xmin, ymin), this.project(xmax, ymax)].every((at) =>
-      at?.every((place, k) => place > EDGE_PX && place < [clientWidth, clientHeight][k] - EDGE_PX),
-    );
-    if (large && inside) return;
-    const near = Math.max(high, (wide * clientHeight) / Math.max(1, clientWidth), 0.5) / SHARE;
-    this.lookAt({ x: (xmin + xmax) / 2, y: (ymin + ymax) / 2, span: large ? clientHeight / scale : near });
+  goTo = (box) => {
+    const look = towards(this.#sight, this.#size, box);
+    if (look) this.lookAt(look);
   };
 
   /** Position of a point of the plan on the stage [px], in any view; null if it cannot be seen. @param {number} x @param {number} y @returns {[number, number] | null} */
@@ -274,22 +263,10 @@ export class Stage {
   };
 
   /** Position of a point of the plan on the stage [px]; null in the free view. @param {number} x @param {number} y @returns {[number, number] | null} */
-  project = (x, y) => {
-    if (!this.#scale) return null;
-    const { plan, pxPerMetre } = this.#scale;
-    const { clientWidth, clientHeight } = this.frame;
-    const [left, up] = stretched(this.#stretch, [x, y]);
-    return [clientWidth / 2 + (left - plan.x) * pxPerMetre, clientHeight / 2 - (up - plan.y) * pxPerMetre];
-  };
+  project = (x, y) => this.#sight && project(this.#sight, x, y);
 
   /** The point of the plan at a place on the stage [px]; null in the free view. @param {number} left @param {number} top @returns {[number, number] | null} */
-  unproject = (left, top) => {
-    if (!this.#scale) return null;
-    const { plan, pxPerMetre } = this.#scale;
-    const { clientWidth, clientHeight } = this.frame;
-    const drawn = [plan.x + (left - clientWidth / 2) / pxPerMetre, plan.y - (top - clientHeight / 2) / pxPerMetre];
-    return stretched(this.#stretch, /** @type {[number, number]} */ (drawn), true);
-  };
+  unproject = (left, top) => this.#sight && unproject(this.#sight, left, top);
 
   /** Passes to the scene a wheel event that an element over it received. @param {WheelEvent} event */
   pass = (event) => {
