@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import math
 from collections.abc import Callable
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 import viser
@@ -15,6 +15,7 @@ from viser._messages import SceneNodeUpdateMessage
 from lineseg import Knob, Params, Thresholds
 
 from ..frame.geometry import Bounds
+from .looks import CLOUDS, LINES, ORDER
 from .palette import linear
 from .picture import Picture
 from .portless import Door, PortlessServer
@@ -24,45 +25,9 @@ PLAN_FOV = math.radians(10)
 NEAR, FAR = 0.5, 20_000.0
 PICK_PIXELS = 20.0
 
-# name: (size on the screen [pixels], which viser draws about twice as wide; shape)
-CLOUDS: dict[str, tuple[float, Literal["circle", "square", "diamond"]]] = {
-    "points": (2.2, "circle"),
-    "seeds": (3.2, "square"),
-    "endpoints": (4.5, "circle"),
-    "window": (4.0, "circle"),
-    "predicted": (5.0, "diamond"),
-    "candidate": (5.5, "circle"),
-    "selected": (6.5, "diamond"),
-}
-# name: width on the screen [pixels]
-LINES = {
-    "grid": 1.0,
-    "pinned": 9.0,
-    "invalid": 1.0,
-    "truth": 3.0,
-    "dropped": 1.5,
-    "segments": 3.0,
-    "missed": 7.0,
-    "ghosts": 8.0,
-    "matched": 3.0,
-    "false": 5.0,
-    "normals": 1.5,
-    "laser": 2.0,
-    "growing": 3.5,
-    "other": 3.5,
-    "band": 1.5,
-    "ray": 1.5,
-    "selected ray": 1.5,
-}
-
 # Higher nodes hide lower ones; seen from the plan camera, 20 mm of height makes no visible difference.
 LEVEL = 0.02
-HEIGHTS = {name: LEVEL * level for level, name in enumerate([
-    "grid", "pinned", "invalid", "truth", "laser", "ray", "selected ray", "dropped", "band", "missed", "ghosts",
-    "points", "segments", "matched", "false", "normals", "other", "growing",
-    "seeds", "endpoints", "window", "predicted",
-    "candidate", "selected",
-])}  # fmt: skip
+HEIGHTS = {name: LEVEL * level for level, name in enumerate(ORDER)}
 
 Change = Callable[[dict[str, Any]], None]
 Pick = Callable[[tuple[float, float], float, bool], None]

@@ -1,0 +1,45 @@
+"""How the shapes of a Picture look: sizes on the screen, and what lies over what."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+Shape = Literal["circle", "square", "diamond"]
+
+# name: (size on the screen [pixels], which viser draws about twice as wide; shape)
+CLOUDS: dict[str, tuple[float, Shape]] = {
+    "points": (2.2, "circle"),
+    "seeds": (3.2, "square"),
+    "endpoints": (4.5, "circle"),
+    "window": (4.0, "circle"),
+    "predicted": (5.0, "diamond"),
+    "candidate": (5.5, "circle"),
+    "selected": (6.5, "diamond"),
+}
+# name: width on the screen [pixels]
+LINES = {
+    "grid": 1.0,
+    "pinned": 9.0,
+    "invalid": 1.0,
+    "truth": 3.0,
+    "dropped": 1.5,
+    "segments": 3.0,
+    "missed": 7.0,
+    "ghosts": 8.0,
+    "matched": 3.0,
+    "false": 5.0,
+    "normals": 1.5,
+    "laser": 2.0,
+    "growing": 3.5,
+    "other": 3.5,
+    "band": 1.5,
+    "ray": 1.5,
+    "selected ray": 1.5,
+}
+# Each lies over those before it.
+ORDER = (
+    "grid", "pinned", "invalid", "truth", "laser", "ray", "selected ray", "dropped", "band", "missed", "ghosts",
+    "points", "segments", "matched", "false", "normals", "other", "growing",
+    "seeds", "endpoints", "window", "predicted",
+    "candidate", "selected",
+)  # fmt: skip
