@@ -15,7 +15,7 @@ from . import view, view_field, wire
 from .live.node_params import Sent
 from .routes import labels, robot, tuning
 from .shelf import lessons
-from .told import answers, drawn, messages, words
+from .told import answers, drawn, handout, messages, words
 from .told.typescript import alias, interface
 
 HEAD = """// Generated from the server's types by `python -m lineseg_app.page_types`; a test fails if it is outdated.
@@ -70,7 +70,7 @@ def page_types() -> str:
     sent = [interface(each, sent=True) for module in (view, wire, labels, tuning, robot) for each in _declared(module)]
     told = [
         interface(each)
-        for module in (words, messages, drawn, answers, lessons, view_field)
+        for module in (words, messages, drawn, answers, lessons, handout, view_field)
         for each in _declared(module)
     ]
     told += [interface(each) for each in (Measure, WhatIf, Sent)]

@@ -1140,6 +1140,94 @@ export interface Lessons {
   terms: ExplainedTerm[];
 }
 
+/** How a kind of shape is drawn. px: the radius of points, the width of lines; shape: of points, "" for lines. */
+export interface Look {
+  name: string;
+  kind: "points" | "lines";
+  px: number;
+  shape: "circle" | "square" | "diamond" | "";
+}
+
+/** xy: x, y of points, or x1, y1, x2, y2 of lines [m]; tones: the colour of each, a number of the palette. */
+export interface FlatNode {
+  name: string;
+  kind: "points" | "lines";
+  px: number;
+  shape: "circle" | "square" | "diamond" | "";
+  xy: number[];
+  tones: number[];
+}
+
+/** palette: "#rrggbb"; nodes: each lies over those before it. */
+export interface FlatPicture {
+  palette: string[];
+  nodes: FlatNode[];
+}
+
+/** The view of a decision. tells: which of the names tell its outcome. */
+export interface Framed {
+  framing: Framing;
+  tells: number[];
+}
+
+/** The lines under some thresholds. moment: its picture; segments: in the pool. */
+export interface Result {
+  moment: number;
+  segments: number[];
+}
+
+/** The results over the range of one threshold while the others stand. */
+export interface Range {
+  values: number[];
+  results: number[];
+}
+
+/**
+ * The frame under a method and its thresholds, decision by decision.
+ *
+ * trace: without the points, which are in the handout; framings: of each decision; first: the picture of the first
+ * decision, followed by those of the others; ranges: by threshold; why: of each beam, why it is in a line or not.
+ */
+export interface Stand {
+  method: string;
+  params: Record<string, number>;
+  trace: TraceColumns;
+  framings: (Framed | null)[];
+  first: number;
+  result: number;
+  ranges: Record<string, Range>;
+  why: string[];
+}
+
+/**
+ * A page that stands alone: a lesson, or one frame.
+ *
+ * lesson: its id, or "". pages: the view of each page of the lesson that shows the whole result. x, y: of every
+ * beam [m]. answers: what the page would ask the server for. light, dark: the palette. next, index: addresses of
+ * other pages, or "".
+ */
+export interface Handout {
+  title: string;
+  recording: string;
+  frame: number;
+  lesson: string;
+  bounds: [number, number, number, number];
+  square: number;
+  x: (number | null)[];
+  y: (number | null)[];
+  light: string[];
+  dark: string[];
+  looks: Look[];
+  methods: Record<string, unknown>[];
+  stands: Stand[];
+  results: Result[];
+  segments: Segment[];
+  pages: (Framing | null)[];
+  answers: Record<string, string>;
+  next: string;
+  index: string;
+}
+
 /**
  * A field of the View as sent to the page; see ViewField.
  *

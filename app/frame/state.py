@@ -87,7 +87,7 @@ def state_of(
         "extent": extent_of(scan, bounds),
         "bounds": bounds,
         "square": square_of(bounds),
-        "segments": _segments(found.extraction.segments),
+        "segments": segments_told(found.extraction.segments),
         "dropped": _dropped_once(found),
         "decision": _decision(chosen, type(view.params)) if chosen is not None else None,
         "framing": _framed(found, view, view.step),
@@ -130,7 +130,8 @@ def _pack(about: PackAbout) -> told.Pack:
     }
 
 
-def _segments(segments: Sequence[Segment]) -> list[told.Segment]:
+def segments_told(segments: Sequence[Segment]) -> list[told.Segment]:
+    """The segments, with their colours."""
     colours = segment_colours(segments).tolist()
     codes = ["#{:02x}{:02x}{:02x}".format(*colour) for colour in colours]
     return [_segment(segment, code) for segment, code in zip(segments, codes, strict=True)]
@@ -238,10 +239,11 @@ def _framed(found: Findings, view: View, step: int | None) -> told.Framing | Non
         if looked is None or looked[0] != view.recording:
             return None
         framing = framing_near(found, looked[1].near, looked[1].names)
-    return framing and _framing(framing, outcome=step is None or step == view.step)
+    return framing and framing_told(framing, outcome=step is None or step == view.step)
 
 
-def _framing(framing: Framing, outcome: bool) -> told.Framing:
+def framing_told(framing: Framing, outcome: bool = True) -> told.Framing:
+    """The view of a decision; without its outcome, it lacks what would answer a question about it."""
     return {
         "box": framing.box,
         "factor": framing.factor,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 from numpy.typing import NDArray
@@ -52,6 +52,15 @@ DARK = Theme(
     pinned=(70, 76, 86), changed=(150, 88, 190),
     matched=(51, 160, 238), missed=(245, 246, 248), false=(255, 140, 70), ghost=(170, 140, 255),
 )  # fmt: skip
+# In place of both themes: the colour of a field is its number, as no segment has it.
+NUMBERED = Theme(*((number, 1, 254) for number in range(len(fields(Theme)))))
+
+
+def in_theme(colours: Colours, theme: Theme) -> Colours:
+    """(n, 3) colours of a picture in NUMBERED as they are in a theme."""
+    roles = np.array([getattr(theme, field.name) for field in fields(Theme)], dtype=np.uint8)
+    numbered = (colours[:, 1] == 1) & (colours[:, 2] == 254) & (colours[:, 0] < len(roles))
+    return np.where(numbered[:, None], roles[np.minimum(colours[:, 0], len(roles) - 1)], colours)
 
 
 def linear(colours: Colours) -> Colours:

@@ -55,13 +55,14 @@ def picture(
     pinned: Findings | None = None,
     judged: Judged | None = None,
     ghosts: Sequence[Ghost] = (),
+    theme: Theme | None = None,
 ) -> Picture:
     """The picture of a View, whose frame and step must be within the recording and the trace.
 
     pinned: the result of `view.against` in this frame; judged: its comparison with the truth;
-    ghosts: lines that the frame probably misses.
+    ghosts: lines that the frame probably misses. theme: if not that of the View.
     """
-    theme = DARK if view.dark else LIGHT
+    theme = theme or (DARK if view.dark else LIGHT)
     state = state_at(found, view.step)
     points = _points(view, found, state, theme)
     lines = _lines(view, recording, found, state, bounds, theme)

@@ -19,6 +19,17 @@ def values_of(kind: type, knob: Knob, most: int = MOST_VALUES) -> list[float]:
     return [float(value) for value in spread(knob.low, knob.high, most, kind, knob)]
 
 
+def on_slider(kind: type, knob: Knob, count: int) -> list[float]:
+    """At least `count` values over the range of the slider, in its steps; all of them if it has fewer."""
+    values, tried = [knob.low], count
+    while len(values) < count and tried <= 8 * count:
+        steps = dict.fromkeys(round(value / knob.step) for value in spread(knob.low, knob.high, tried, kind, knob))
+        stepped = [float(f"{step * knob.step:.6g}") for step in steps]
+        values = [value for value in stepped if knob.least <= value <= knob.most]
+        tried += count // 3
+    return values
+
+
 def sweep(scan: Scan, method: str, params: Thresholds, name: str) -> ThresholdSweep:
     """values; runs: the stretches of beams [first, last, "#rrggbb"] at each value; lines: number of lines."""
     kind, knob = {field: (kind, knob) for field, kind, knob in params.knobs()}[name]
