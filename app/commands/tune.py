@@ -68,7 +68,8 @@ def tune(
     base = Params() if params is None else read_params(params.read_text(encoding="utf-8-sig"))
     with pool(scheduler) as workers:
         blind = None if objective is None else objective == "label-free"
-        blocks = FileBlocks(files_of(files), workers, blind, split, reading_of(reading), most_frames, base)
+        recordings = files_of(files)
+        blocks = FileBlocks(recordings, workers, blind, split, reading_of(reading), most_frames, base)
         kind = objective or ("truth" if blocks.truth else "label-free")
         aim = Objective(kind, recall, completeness)
         tuning = Tuning(blocks, aim, study, thresholds, base)
@@ -78,7 +79,7 @@ def tune(
     print(verdict.text, file=sys.stderr)
     for name, share in tuning.importance().items():
         print(f"  {name:<14}{share:4.0%} importance", file=sys.stderr)
-    text = params_text(verdict.params, to)
+    text = params_text(verdict.params, to, ", ".join(each.name for each in recordings))
     if out is None:
         sys.stdout.write(text)
     else:

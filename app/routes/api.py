@@ -52,11 +52,13 @@ def add_api(app: FastAPI, library: Library, sessions: Sessions) -> None:
     async def write_params(request: Request) -> PlainTextResponse:
         values = dict(request.query_params)
         to, method = values.pop("to", "ros2"), values.pop("method", "region-growing")
+        shown = sessions.seen(values.pop("session", ""))
+        recording = "" if shown is None else f"{library.label(shown.view.recording)} {shown.recording.topic}"
         if to not in PARAMS_WRITERS:
             raise HTTPException(400, f"thresholds cannot be written as {to!r}; choose from {', '.join(PARAMS_WRITERS)}")
         try:
             params = _thresholds(method).but(**{name: _number(name, text) for name, text in values.items()})
-            return PlainTextResponse(params_text(params, to))
+            return PlainTextResponse(params_text(params, to, recording))
         except ValueError as error:
             raise HTTPException(400, str(error)) from None
 

@@ -59,10 +59,14 @@ class Sessions:
     def get(self, id: str) -> Session | None:
         return self._sessions.get(id)
 
+    def seen(self, id: str) -> Shown | None:
+        """What a tab shows; None if there is no such tab or it shows nothing."""
+        session = self._sessions.get(id)
+        return session.shown if session is not None else None
+
     def shown(self, id: str) -> Shown:
         """What a tab shows, for an HTTP response; 404 if there is no such tab or it shows nothing."""
-        session = self._sessions.get(id)
-        shown = session.shown if session is not None else None
+        shown = self.seen(id)
         if shown is None:
             raise HTTPException(404, "this tab shows no recording; reload the page")
         return shown

@@ -16,6 +16,7 @@ from ..params import Params
 MOST_CHARACTERS = 1 << 20
 ALIAS = re.compile(r"(?:^|[\s\[{,:])\*\w", re.MULTILINE)
 CALL = re.compile(r"^[^#\n]*Params\(", re.MULTILINE)
+COMMENT = re.compile(r"(?:^|(?<=\s))#.*")
 FLAG = re.compile(r"(?<!\S)(?:--([a-z][a-z0-9_-]*)|([a-z][a-z0-9_]*)(?==))")
 Found = tuple[str, Any, int]  # name as written, value, line (0: unknown)
 Known = Mapping[str, str]  # name or alias → name
@@ -59,7 +60,7 @@ def _finder(text: str, start: str) -> Callable[[str, Known], Iterator[Found]]:
         return _in_xml if start == "<" else _in_json
     if CALL.search(text):
         return _in_python
-    return _in_flags if re.search(r"(?<!\S)--[a-z]", text) else _in_yaml
+    return _in_flags if re.search(r"(?<!\S)--[a-z]", COMMENT.sub("", text)) else _in_yaml
 
 
 def _values(found: list[Found], kind: type[Thresholds], known: Known) -> dict[str, int | float]:

@@ -27,12 +27,20 @@ def ros1_launch(params: Thresholds) -> str:
     return "\n".join([*lines, "  </group>", "</launch>", ""])
 
 
-def ros2_yaml(params: Thresholds) -> str:
-    """A parameter file that any node can load."""
-    lines = ["/**:", "  ros__parameters:"]
-    lines += [
-        f"    {knob.ros or name}: {_yaml(value)}{_note('# {}', knob)}" for name, value, knob in _ros_values(params)
+def ros2_yaml(params: Thresholds, recording: str = "") -> str:
+    """A parameter file for `lineseg node`, which any node can load; its comment says what it is for."""
+    from .. import __version__
+
+    method = method_of(params)
+    chosen = "" if type(params) is Params else f"--method {method.name} "
+    made_for = f", set for {' '.join(recording.split())}" if recording.split() else ""
+    lines = [
+        f"# Thresholds of {method.name} by lineseg {__version__}{made_for}.",
+        f"# To run them on a robot: lineseg node ros2:/scan {chosen}--params THIS_FILE",
+        "/**:",
+        "  ros__parameters:",
     ]
+    lines += [f"    {knob.ros or name}: {_yaml(value)}{_note('# {}', knob)}" for name, value, knob in _values(params)]
     return "\n".join([*lines, ""])
 
 
@@ -60,11 +68,15 @@ PARAMS_WRITERS: dict[str, Callable[[Thresholds], str]] = {
 }
 
 
-def params_text(params: Thresholds, format: str) -> str:
-    """`params` in a format of PARAMS_WRITERS, with every threshold, including those at their defaults."""
+def params_text(params: Thresholds, format: str, recording: str = "") -> str:
+    """`params` in a format of PARAMS_WRITERS, with every threshold, including those at their defaults.
+
+    recording: name of the recording they were set for, told in the file if it is for a node of ROS 2. Raises ValueError
+    for an unknown format, and for a ROS 1 launch file of a method that no ROS program has.
+    """
     if format not in PARAMS_WRITERS:
         raise ValueError(f"thresholds cannot be written as {format!r}; choose from {', '.join(PARAMS_WRITERS)}.")
-    return PARAMS_WRITERS[format](params)
+    return ros2_yaml(params, recording) if format == "ros2" else PARAMS_WRITERS[format](params)
 
 
 def _values(params: Thresholds) -> Iterator[tuple[str, int | float, Knob]]:
@@ -76,7 +88,9 @@ def _ros_values(params: Thresholds) -> list[tuple[str, int | float, Knob]]:
     """The thresholds of the ROS program, and extensions; switches that model a program's behaviour are left out."""
     values = [(name, value, knob) for name, value, knob in _values(params) if knob.ros or knob.extension]
     if not any(knob.ros for _, _, knob in values):
-        raise ValueError(f"no ROS program has the thresholds of {method_of(params).name}; choose python or flags.")
+        raise ValueError(
+            f"no ROS program has the thresholds of {method_of(params).name}; choose ros2, python or flags."
+        )
     return values
 
 

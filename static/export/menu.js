@@ -56,6 +56,7 @@ export function createExportMenu(page, text, { status, work, onImport, onFollowL
 
   const { groups } = createTake(text.export, { session: page.sessionId, state: () => page.drawn, work: work.run });
   return createExchange(text.page, {
+    session: page.sessionId,
     params: () => page.view.params,
     method: () => page.methodOf(page.view.method),
     onImport,

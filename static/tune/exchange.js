@@ -7,11 +7,11 @@ import { showImport, showParams } from "./params_dialogs.js";
 
 /**
  * @param {typeof import("../text/page.js").pageText} words
- * @param {{params: () => Params, method: () => import("../wire.js").Method, onImport: (file: string) => Promise<string | null>,
+ * @param {{session: () => string, params: () => Params, method: () => import("../wire.js").Method, onImport: (file: string) => Promise<string | null>,
  *          first: () => import("../widgets/menu.js").Group[], more: () => import("../widgets/menu.js").Group[]}} handlers
  *   onImport: applies the text of a parameter file or says why it cannot; first, more: entries of the menu before and after
  */
-export function createExchange(words, { params, method, onImport, first, more }) {
+export function createExchange(words, { session, params, method, onImport, first, more }) {
   const text = words.exchange;
   const menu = createMenu({
     label: words.top.export,
@@ -22,8 +22,8 @@ export function createExchange(words, { params, method, onImport, first, more })
         title: text.parameters,
         items: [
           ...Object.keys(text.formats)
-            .filter((to) => method().ros || !to.startsWith("ros"))
-            .map((to) => ({ label: text.formats[to].label, run: () => showParams(text, to, method().name, params()) })),
+            .filter((to) => method().ros || to !== "ros1")
+            .map((to) => ({ label: text.formats[to].label, run: () => showParams(text, to, { session: session(), method: method().name }, params()) })),
           { label: text.import, run: () => showImport(text, onImport) },
         ],
       },

@@ -7,11 +7,11 @@ import { fetchText } from "../fetch.js";
 
 /** @typedef {typeof import("../text/page.js").pageText.exchange} Text */
 
-/** @param {Text} text @param {string} to the format @param {string} method @param {import("../wire.js").Params} params */
-export async function showParams(text, to, method, params) {
+/** @param {Text} text @param {string} to the format @param {{session: string, method: string}} of the tab @param {import("../wire.js").Params} params */
+export async function showParams(text, to, of, params) {
   const { label, file } = text.formats[to];
   const values = Object.entries(params).map(([name, value]) => [name, String(value)]);
-  const query = new URLSearchParams({ to, method, ...Object.fromEntries(values) });
+  const query = new URLSearchParams({ to, ...of, ...Object.fromEntries(values) });
   const { words, trouble } = await fetchText(`/api/params?${query}`);
   const copyButton = h("button", { type: "button", class: "button primary" }, text.copy);
   copyButton.addEventListener("click", async () => {

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from ruamel.yaml import YAML
 
-from lineseg import Params
+from lineseg import EXTRACTORS, Params, __version__
 from lineseg.writers import PARAMS_WRITERS, params_text, read_params
 
 
@@ -64,6 +64,16 @@ def test_parameters_of_ros_2_keep_their_types():
         "seed_line_points": int,
         "min_line_points": int,
     }
+
+
+@pytest.mark.parametrize("method", EXTRACTORS.values(), ids=list(EXTRACTORS))
+def test_a_file_for_a_node_says_what_it_is_for_and_is_read_back(method):
+    params = method.params_type(min_points=17)
+    text = params_text(params, "ros2", "the\nhall.bag --topic /scan")
+    first, second, *_ = text.splitlines()
+    assert first == f"# Thresholds of {method.name} by lineseg {__version__}, set for the hall.bag --topic /scan."
+    assert (f"--method {method.name} " in second) == (method.name != "region-growing")
+    assert read_params(text, method.params_type) == params
 
 
 def test_extensions_are_marked_where_the_format_has_comments():

@@ -154,6 +154,13 @@ def test_thresholds_survive_export_and_import(server: Address, to: str):
     )
 
 
+def test_an_exported_file_for_a_node_names_the_recording(server: Address, page: Page):
+    page.hello()
+    page.change(frame=0)
+    exported = server.get("/api/params", params={"session": page.welcome["session"], "to": "ros2"}).text
+    assert exported.splitlines()[0].endswith("set for walls.npz.")
+
+
 @pytest.mark.parametrize(
     ("query", "named"),
     [("to=xml", "xml"), ("epsilon=-1", "epsilon"), ("epsilon=wide", "epsilon"), ("gamma=1", "gamma")],
