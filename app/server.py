@@ -73,11 +73,11 @@ SWITCH_SECONDS = 0.001
 class Settings:
     """Settings of the server.
 
-    files: recordings to offer, the first is shown; reading: how it is read. robots: sources of live scans; the newest
-    `keep` scans of each are kept. may_send: addresses of other robots to which the page may send. host: any address but
-    the loopback needs a token; one is made if none is given. names: other host names of this machine. upload_limit,
-    upload_total: [bytes]. data_folder: for the list of recent files and for labels that cannot be next to their
-    recording (default: the user's data folder). watch: gets whatever is drawn in any tab.
+    files: recordings to offer, the first is shown; reading: how they are read. robots: sources of live scans; the
+    newest `keep` scans of each are kept. may_send: addresses of other robots to which the page may send. host: any
+    address but the loopback needs a token; one is made if none is given. names: other host names of this machine.
+    upload_limit, upload_total: [bytes]. data_folder: for the list of recent files and for labels that cannot be next
+    to their recording (default: the user's data folder). watch: gets whatever is drawn in any tab.
     """
 
     files: tuple[Path, ...] = ()
@@ -105,7 +105,7 @@ def create_app(settings: Settings) -> FastAPI:
     remove_leftovers(user_folder(settings.data_folder))
     uploads = Uploads(settings.upload_limit, settings.upload_number, settings.upload_total)
     live = Live(settings.robots, settings.keep)
-    library = Library(settings.files, Recent(settings.data_folder), uploads, live)
+    library = Library(settings.files, Recent(settings.data_folder), uploads, live, settings.reading)
     warm_up = WarmUp()
     files = LabelFiles(library, user_folder(settings.data_folder))
     sessions = Sessions(library, files, warm_up, settings.sessions, settings.watch)
@@ -138,7 +138,7 @@ def create_app(settings: Settings) -> FastAPI:
     add_inspection(app, sessions, files)
     add_labels(app, library, files)
     add_rereading(app, library)
-    add_sockets(app, library, sessions, settings.reading)
+    add_sockets(app, library, sessions, bool(settings.reading.given()))
     add_sweep_table(app)
     add_tuning(app, sessions, user_folder(settings.data_folder) / "studies")
     add_push(app, library)

@@ -4,20 +4,24 @@ from __future__ import annotations
 
 import contextlib
 import os
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated
 
 from tyro.conf import OmitArgPrefixes, Positional, arg
 
-from .flag_types import File, Several, Switch, Unset
-from .reading import ReadingFlags, reading_of
+from lineseg.readers import Reading
+
+from ..live.address import Address, check_address, is_address
+from .flag_types import Several, Switch, Unset
+from .reading import ReadingFlags, files_of, reading_of
 from .sources import address_of, list_topics
 
 MOST_KEPT = 20_000
 
 
 def view(
-    file: Positional[File[str]] = None,
+    sources: Positional[Annotated[Several[str], arg(metavar="[FILE ...]")]] = (),
     *,
     reading: OmitArgPrefixes[ReadingFlags],  # type: ignore[valid-type]
     keep: int = 3000,
@@ -32,11 +36,12 @@ def view(
     """Show the page in the browser.
 
     Args:
-        file: recording to open: a bag, MCAP, log, NPZ, JSON, CSV or other text, also compressed (default: a sample).
-            Or, to watch a robot live, its address: ws://robot:9090 (rosbridge), ws://robot:8765 (Foxglove), ros2:/scan
-            or ros2://DOMAIN/scan (DDS; ros2: lists the topics), zenoh:/scan or zenoh://router:7447/scan (Zenoh).
-        reading: how to read the file; of a robot, only the topic can be chosen.
-        keep: number of a robot's scans to keep; older ones are dropped.
+        sources: recordings to open: bags, MCAP, logs, NPZ, JSON, CSV or other text, also compressed (default: the
+            samples). Or, to watch lasers live, their addresses: ws://robot:9090 (rosbridge), ws://robot:8765
+            (Foxglove), each with #/TOPIC if it has several lasers, ros2:/scan or ros2://DOMAIN/scan (DDS; ros2: lists
+            the topics), zenoh:/scan or zenoh://router:7447/scan (Zenoh).
+        reading: how to read the files; of a robot, only the topic can be chosen.
+        keep: number of scans to keep of each laser; older ones are dropped.
         host: address to listen on; any but the loopback requires a token.
         port: TCP port; 0 picks a free one.
         token: password that browsers must send (default: the environment variable LINESEG_TOKEN, or a random one where
@@ -46,28 +51,15 @@ def view(
         robot: addresses of rosbridge to which the page may send parameters, besides the robot that is watched.
         rerun: also stream the view to rerun's viewer on port 9876; starts the viewer if none is running.
     """
-    from lineseg.readers import Reading
-
-    from ..live.address import check_address, is_address
     from ..server import Settings, serve
 
-    files, robots = (), ()
     how = reading_of(reading)
-    if file is not None and is_address(file):
-        if others := [name for name in how.given() if name != "topic"]:
-            raise ValueError(
-                f"{', '.join(others)} cannot be used with a robot, which says how its scans are to be read."
-            )
-        address = address_of(file, how.topic)
-        if list_topics(address):
-            return
-        robots = (address,)
-        how = Reading()
-    elif file is not None:
-        path = Path(file)
-        if not path.exists():
-            raise FileNotFoundError(f"{path}: there is no such file or folder.")
-        files = (path.resolve(),)
+    lasers = [source for source in sources if is_address(source)]
+    robots = _robots(lasers, how)
+    if any(list_topics(robot) for robot in robots):
+        return
+    named = [source for source in sources if source not in lasers]
+    files = [file.resolve() for file in files_of(named)] if named else []
     if not 1 <= keep <= MOST_KEPT:
         raise ValueError(f"--keep is {keep}; allowed: 1 to {MOST_KEPT} scans")
     for address in robot:
@@ -79,9 +71,9 @@ def view(
 
             watch = stack.enter_context(live_rerun()).show
         settings = Settings(
-            files=files,
-            reading=how,
-            robots=robots,
+            files=tuple(files),
+            reading=how if files else Reading(),
+            robots=tuple(robots),
             may_send=robot,
             keep=keep,
             host=host,
@@ -91,6 +83,13 @@ def view(
             watch=watch,
         )
         serve(settings, lambda address: print(f"lineseg is at {address} (Ctrl-C stops it)", flush=True))
+
+
+def _robots(addresses: Sequence[str], how: Reading) -> list[Address]:
+    """Raises ValueError for an address that is none, and for a Reading that only files can have."""
+    if addresses and (others := [name for name in how.given() if name != "topic"]):
+        raise ValueError(f"{', '.join(others)} cannot be used with a robot, which says how its scans are to be read.")
+    return [address_of(address, how.topic) for address in dict.fromkeys(addresses)]
 
 
 def _token(token: str | None, file: Path | None) -> str | None:

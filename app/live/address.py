@@ -21,7 +21,8 @@ EXPECTED = f"give one like ros2:/scan, ros2://DOMAIN/scan, zenoh:/scan, zenoh://
 class Address:
     """url: ws://host:port of a bridge, ros2://DOMAIN or zenoh://ROUTER:PORT; topic: of the scans, None for the first.
 
-    The topic may also be part of a URL that begins with ros2 or zenoh. Raises ValueError if it is not an address.
+    The topic may also be part of the URL: ros2:/scan, zenoh:/scan, ws://host:port#/scan. Raises ValueError if it is
+    not an address.
     """
 
     url: str
@@ -30,18 +31,23 @@ class Address:
     def __post_init__(self) -> None:
         named = NAMED.fullmatch(self.url)
         if named is None:
-            check_address(self.url)
+            url, _, topic = self.url.partition("#")
+            check_address(url)
+            self._set(url, topic or None)
             return
         scheme, place, topic = named[1].lower(), named[2], (named[3] or "").rstrip("/") or None
-        if topic and self.topic and topic != self.topic:
-            raise ValueError(f"{self.url[:80]} and --topic {self.topic[:80]} name two topics; name one")
-        topic = topic or self.topic
-        if topic and not TOPIC.fullmatch(topic):
-            raise ValueError(f"{topic[:80]!r} is not a topic of ROS; give one like /scan or /robot1/scan")
+        for name in filter(None, (topic, self.topic)):
+            if not TOPIC.fullmatch(name):
+                raise ValueError(f"{name[:80]!r} is not a topic of ROS; give one like /scan or /robot1/scan")
         if place is not None:
             place = checked_domain(place, f"the domain in {self.url[:80]!r}") if scheme == "ros2" else _router(place)
-        object.__setattr__(self, "url", f"{scheme}:" if place is None else f"{scheme}://{place}")
-        object.__setattr__(self, "topic", topic)
+        self._set(f"{scheme}:" if place is None else f"{scheme}://{place}", topic)
+
+    def _set(self, url: str, topic: str | None) -> None:
+        if topic and self.topic and topic != self.topic:
+            raise ValueError(f"{self.url[:80]} and --topic {self.topic[:80]} name two topics; name one")
+        object.__setattr__(self, "url", url)
+        object.__setattr__(self, "topic", topic or self.topic)
 
     @property
     def scheme(self) -> str:

@@ -53,7 +53,7 @@ def add_api(app: FastAPI, library: Library, sessions: Sessions) -> None:
         values = dict(request.query_params)
         to, method = values.pop("to", "ros2"), values.pop("method", "region-growing")
         shown = sessions.seen(values.pop("session", ""))
-        recording = "" if shown is None else f"{library.label(shown.view.recording)} {shown.recording.topic}"
+        recording = "" if shown is None else library.label(shown.view.recording)
         if to not in PARAMS_WRITERS:
             raise HTTPException(400, f"thresholds cannot be written as {to!r}; choose from {', '.join(PARAMS_WRITERS)}")
         try:

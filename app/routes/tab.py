@@ -17,7 +17,6 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from lineseg import EXTRACTORS, __version__
 from lineseg.failing import mistake
-from lineseg.readers import Reading
 
 from ..session.following import OWN
 from ..session.session import Session
@@ -38,7 +37,7 @@ SEND_SECONDS = 30.0
 log = logging.getLogger(__name__)
 
 
-def add_sockets(app: FastAPI, library: Library, sessions: Sessions, reading: Reading) -> None:
+def add_sockets(app: FastAPI, library: Library, sessions: Sessions, asked: bool) -> None:
     """Routes of /api/session and /s/{session}/viser/."""
     methods = [MethodEntry.of(method) for method in EXTRACTORS.values()]
     scores = [ScoreEntry(**asdict(score)) for score in STRIP_SCORES.values()]
@@ -52,7 +51,7 @@ def add_sockets(app: FastAPI, library: Library, sessions: Sessions, reading: Rea
             if hello is None:
                 return
             try:
-                session, resumed, complaint = await _session_of(hello, library, sessions, reading)
+                session, resumed, complaint = await _session_of(hello, library, sessions, asked)
             except TooManySessionsError as error:
                 await _tell(socket, Failure(where="server", message=str(error)))
                 await socket.close(TOO_MANY)
@@ -104,19 +103,21 @@ async def _hello(socket: WebSocket) -> Hello | None:
 
 
 async def _session_of(
-    hello: Hello, library: Library, sessions: Sessions, reading: Reading
+    hello: Hello, library: Library, sessions: Sessions, asked: bool
 ) -> tuple[Session, bool, str | None]:
-    """The earlier session, or a new one with the page's View; and an error if that View is not possible."""
+    """The earlier session, or a new one with the page's View; and an error if that View is not possible.
+
+    asked: whether the command line says how files are read.
+    """
     said = hello.view or {}
     former = sessions.resume(hello.session)
     if former is not None:
         return former, True, former.restore(said)
     first = library.first()
     view, complaint = View(recording=first).salvaged(said)
-    if not reading.given() and not said.get("recording"):
-        # Unless a link says how, the first file is read as the last time.
+    # Unless a link says how, the first file is read as the command line says, or as the last time.
+    if view.recording == first and not view.read_as.given() and (asked or not said.get("recording")):
         reading = library.reading(first)
-    if view.recording == first and not view.read_as.given():
         view = replace(view, topic=reading.topic, reading=reading.but(topic=None))
     return await sessions.open(view), False, complaint
 

@@ -75,9 +75,19 @@ class _Load:
 
 
 class Library:
-    """Only listed recordings can be opened: samples, lessons, files of the command line, recent files and uploads."""
+    """Only listed recordings can be opened: samples, lessons, files of the command line, recent files and uploads.
 
-    def __init__(self, files: Sequence[Path], recent: Recent, uploads: Uploads, live: Live | None = None) -> None:
+    reading: how the files of the command line are read (default: each as the last time).
+    """
+
+    def __init__(
+        self,
+        files: Sequence[Path],
+        recent: Recent,
+        uploads: Uploads,
+        live: Live | None = None,
+        reading: Reading | None = None,
+    ) -> None:
         self.uploads = uploads
         self.live = live or Live()
         self._samples = _samples()
@@ -85,6 +95,8 @@ class Library:
         self._recents = recent
         self._recent = {f"recent:{_digest(path)}": path for path in recent.paths()}
         self._readings = {id: recent.reading(path) for id, path in {**self._recent, **self._files}.items()}
+        if reading is not None and reading.given():
+            self._readings |= dict.fromkeys(self._files, reading)
         # Uploads that could not be read; they are kept, so that they may be read in another way.
         self._unread: set[str] = set()
         for path in reversed(self._files.values()):

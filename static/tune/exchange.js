@@ -23,7 +23,10 @@ export function createExchange(words, { session, params, method, onImport, first
         items: [
           ...Object.keys(text.formats)
             .filter((to) => method().ros || to !== "ros1")
-            .map((to) => ({ label: text.formats[to].label, run: () => showParams(text, to, { session: session(), method: method().name }, params()) })),
+            .map((to) => ({
+              label: text.formats[to].label,
+              run: () => showParams(text, to, { session: session(), method: method().name }, params()),
+            })),
           { label: text.import, run: () => showImport(text, onImport) },
         ],
       },

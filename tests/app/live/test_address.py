@@ -16,6 +16,7 @@ from lineseg_app.live.address import Address
         ("zenoh://robot/scan", "/scan", "live:zenoh:robot:7447/scan"),
         ("zenoh://[::1]:7448", None, "live:zenoh:[::1]:7448"),
         ("ws://robot:9090", None, "live:robot:9090"),
+        ("ws://robot:9090#/rear", "/rear", "live:robot:9090/rear"),
     ],
 )
 def test_an_address_says_where_and_which_topic(url: str, topic: str | None, id: str):
@@ -31,6 +32,7 @@ def test_an_address_says_where_and_which_topic(url: str, topic: str | None, id: 
         ("ros2://scan", None, "is 'scan'; a domain of DDS"),
         ("ros2:/a b", None, "'/a b' is not a topic of ROS"),
         ("ros2:/scan", "/rear", "name two topics"),
+        ("ws://robot:9090#/scan", "/rear", "name two topics"),
         ("zenoh://robot:99999/scan", None, "is not the address of a Zenoh router"),
         ("ros2:scan", None, "is not the address of a robot"),
     ],

@@ -8,7 +8,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from live import Address, Page, page_of
+from lineseg_app.live.address import Address as Laser
+from lineseg_app.server import Settings
+from live import Address, Page, page_of, serving
 from robots import nearest, wall, watching
 from rosbridge_peer import TEXT, RosBridgePeer, scan_message
 
@@ -37,6 +39,19 @@ def test_scans_arrive_as_frames_and_the_newest_is_followed(peer: RosBridgePeer, 
         assert (state["frameId"], state["topic"]) == ("laser", "/scan")
         status = page.heard("live", lambda m: m["total"] == 3 and m["connection"] == "open")
         assert (status["message"], status["dropped"], status["delay"]) == ("", 0, None)
+
+
+def test_two_lasers_are_two_live_recordings(peer: RosBridgePeer, tmp_path: Path):
+    rear = RosBridgePeer()
+    lasers = Laser(peer.url, "/scan"), Laser(f"{rear.url}#/scan")
+    with serving(Settings(robots=lasers, data_folder=tmp_path)) as server, page_of(server) as page:
+        page.say(type="hello")
+        assert nearest(send(peer, page, 4.0, 3.0)) == pytest.approx(3.0)
+        page.ask(recording=lasers[1].id)
+        assert nearest(send(rear, page, 1.5)) == pytest.approx(1.5)
+        back = page.change(recording=lasers[0].id)
+        assert (back["frames"], nearest(back)) == (2, pytest.approx(3.0))
+    rear.close()
 
 
 def test_a_selected_frame_stays_until_following_starts_again(peer: RosBridgePeer, tmp_path: Path):

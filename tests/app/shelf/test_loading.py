@@ -96,6 +96,19 @@ def test_a_topic_that_is_not_in_the_file_is_reported(recordings: Path, tmp_path:
         assert "/rear" in page.hear_a("error", "drawn").get("message", "")
 
 
+def test_every_file_of_the_command_line_is_read_as_it_says(recordings: Path, tmp_path: Path):
+    other = tmp_path / "other.npz"
+    other.write_bytes((recordings / "walls.npz").read_bytes())
+    settings = Settings(files=(recordings / "walls.npz", other), reading=Reading(every_scan=2), data_folder=tmp_path)
+    with serving(settings) as server, page_of(server) as page:
+        page.hello()
+        entries = [each for each in page.welcome["recordings"] if each["group"] == "Command line"]
+        assert [(each["label"], each["reading"]) for each in entries] == [
+            ("walls.npz", {"every_scan": 2}),
+            ("other.npz", {"every_scan": 2}),
+        ]
+
+
 def test_a_tab_without_input_for_long_is_closed(tmp_path: Path):
     with serving(Settings(data_folder=tmp_path, sessions=SessionLimits(idle=0.2))) as server, page_of(server) as page:
         page.say(type="hello")
