@@ -11,6 +11,7 @@ import { createPackCard } from "./export/pack.js";
 import { createInspect } from "./inspect/inspect.js";
 import { keyboard, showHelp } from "./keys.js";
 import { createLabels } from "./label/labels.js";
+import { createLayout } from "./layout/layout.js";
 import { mountLearn } from "./learn/learn.js";
 import { createLive } from "./live/pill.js";
 import { createOpening } from "./open/open.js";
@@ -69,7 +70,8 @@ const draw = createDraw(place("stage"), stage, words.draw, {
 });
 const packCard = createPackCard(page, words.export.card);
 const cards = h("div", { class: "stage-cards" }, packCard.element, inspect.ab.element, draw.card);
-place("stage").append(cards, following.element);
+notices.add(following.element);
+notices.add(cards);
 const labelling = { name: "labels", label: words.label.tab, content: labels.element };
 const docks = { panel: place("panel"), replay: place("replay") };
 const tune = createTune(page, docks, words, {
@@ -87,6 +89,8 @@ const modes = createModes(words.learn.modes, place("main"), pages, {
   onMode: page.setMode,
   onEntered: inspect.showScored,
 });
+const panels = [place("panel"), place("learn")];
+const layout = createLayout({ main: place("main"), panels, timeline: place("timeline") }, text.layout);
 const rerun = new RerunTab(place("stage"), words.rerun, {
   session: sessionId,
   dark: () => page.view.dark,
@@ -131,14 +135,28 @@ const topbar = mountTopbar(place("topbar"), words, {
   onHelp: () => showHelp(bindings, text),
 });
 
-const controls = { ...tune, ...scene, learn, timeline, inspect, labels, draw, opening };
+const controls = { ...tune, ...scene, layout, learn, timeline, inspect, labels, draw, opening };
 const bindings = bindingsOf(page, controls, words, () => showHelp(bindings, text));
 const press = keyboard(bindings);
 addEventListener("keydown", press);
 opening.acceptDrops(window);
 
 // Sizes must be set before the camera, and the labels of a frame before the lists that they filter.
-page.parts = [address, following, modes, topbar, timeline, live, packCard, ...tune.parts, learn, draw, status, reread];
+page.parts = [
+  address,
+  following,
+  modes,
+  layout,
+  topbar,
+  timeline,
+  live,
+  packCard,
+  ...tune.parts,
+  learn,
+  draw,
+  status,
+  reread,
+];
 page.parts.push(labels, rerun, ...inspect.parts, ...scene.parts);
 page.connect(
   createReceiver(page, { address, notices, work, following, packCard, opening, reread, panel: tune.panel }, text),

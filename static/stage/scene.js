@@ -41,7 +41,8 @@ export function mountScene(
     onChange: (params) => page.change({ params }),
   });
   const tools = h("div", { class: "stage-tools" }, ...camera.buttons, layers.button);
-  holder.append(key.element, tools, layers.list, explanation.element);
+  notices.add(key.element);
+  holder.append(tools, layers.list, explanation.element);
   holder.setAttribute("aria-label", text.stage.label);
   return {
     parts: [notices, layers, camera, key, pointing, explanation],

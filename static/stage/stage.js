@@ -45,6 +45,8 @@ export class Stage {
   #whole = null;
   /** How the plan is drawn. @type {Stretch | null} */
   #stretch = null;
+  /** The last fit. @type {[Box, Stretch | null, typeof WHOLE] | null} */
+  #fitted = null;
   /** A fit to repeat once the camera exists. @type {(() => void) | null} */
   #pendingFit = null;
   /** @type {any} */
@@ -69,7 +71,7 @@ export class Stage {
     this.frame.addEventListener("load", () => this.#loaded());
     this.#scaleMark = createScale(text.across);
     holder.append(this.frame, this.#scaleMark.element);
-    new ResizeObserver(() => this.#tellMoved()).observe(this.frame);
+    new ResizeObserver(() => this.#resized()).observe(this.frame);
   }
 
   #loaded() {
@@ -94,6 +96,13 @@ export class Stage {
     this.#locked = null;
     this.#touched = false;
     this.#settle();
+  }
+
+  /** Fits again what was fitted, unless a person has moved the camera since. */
+  #resized() {
+    if (this.#mode === "plan" && this.#fitted && this.look === null && this.frame.clientHeight)
+      this.#fit(...this.#fitted);
+    this.#tellMoved();
   }
 
   /** @param {KeyboardEvent} event */
@@ -219,6 +228,7 @@ export class Stage {
 
   /** @param {Box} box @param {Stretch | null} stretch @param {typeof WHOLE} room */
   #fit(box, stretch, room) {
+    this.#fitted = [box, stretch, room];
     const { x, y, span } = around(box, this.#size, room);
     this.#stretch = stretch;
     this.#away = room === WHOLE;
@@ -295,6 +305,7 @@ export class Stage {
     if (next === this.#mode) return;
     this.#mode = next;
     this.#apply();
+    this.#resized();
   }
 }
 

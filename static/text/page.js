@@ -111,6 +111,9 @@ export const pageText = {
       `${n === 1 ? "The other recording is" : `The other ${n} recordings are`} in the menu of recordings.`,
     nothingDropped: "What you dropped contains no recording and no parameter file.",
   },
+  layout: {
+    panel: { size: "Width of the panel", hide: "Hide the panel (P)", show: "Show the panel (P)" },
+  },
   follow: {
     following: "You are following the presenter.",
     away: "You are following the presenter, who is away at the moment.",
@@ -306,6 +309,7 @@ export const pageText = {
       fit: "fit the recording in view",
       view: "plan or free 3D view",
       layers: "layers",
+      hide: "hide or show the panel, the timeline",
       numbers: "beam numbers in the scene",
       open: "open a file",
       undo: "undo a change",

@@ -1,0 +1,86 @@
+// @ts-check
+// How the window is divided: the sizes that a person gave to the panel and the timeline, and which of them are hidden.
+import { createDivider } from "./divider.js";
+
+const KEY = "lineseg.layout";
+const LEAST_PX = 240;
+// Dragged to less than this, a part is hidden.
+const HIDDEN_PX = 120;
+// What remains of the stage.
+const STAGE_PX = 180;
+// In one column the panel lies below the stage. The same condition is in layout.css.
+const ONE_COLUMN = matchMedia("(width <= 720px), (orientation: portrait) and (width <= 1000px)");
+
+/** panel, learn: widths of the panel; below: its height in one column [px]. What is absent has its usual size. @typedef {{panel?: number, learn?: number, below?: number, hidden?: string[]}} Sizes */
+
+/**
+ * @param {{main: HTMLElement, panels: HTMLElement[], timeline: HTMLElement}} places
+ * @param {typeof import("../text/page.js").pageText.layout} text
+ */
+export function createLayout({ main, panels, timeline }, text) {
+  let sizes = kept();
+  const shown = () => panels.find((panel) => !panel.hidden) ?? panels[0];
+  const sized = () => (ONE_COLUMN.matches ? "below" : main.dataset.mode === "learn" ? "learn" : "panel");
+  const panelDivider = createDivider(text.panel, {
+    upright: () => !ONE_COLUMN.matches,
+    size: () => (ONE_COLUMN.matches ? shown().clientHeight : shown().clientWidth),
+    onSize: resize,
+    onUsual: () => set({ ...sizes, [sized()]: undefined }),
+    onToggle: () => toggle("panel"),
+  });
+  main.append(panelDivider.element);
+  ONE_COLUMN.addEventListener("change", show);
+
+  /** @param {number} size */
+  function resize(size) {
+    const most = (ONE_COLUMN.matches ? main.clientHeight : main.clientWidth) - STAGE_PX;
+    const least = Math.min(LEAST_PX, most);
+    const hides = size < HIDDEN_PX;
+    if (hides !== isHidden("panel")) toggle("panel");
+    if (!hides) set({ ...sizes, [sized()]: Math.round(Math.min(Math.max(size, least), most)) });
+  }
+
+  /** @param {string} part */
+  const isHidden = (part) => sizes.hidden?.includes(part) ?? false;
+
+  /** Hides or shows a part. @param {"panel" | "timeline"} part */
+  function toggle(part) {
+    const others = (sizes.hidden ?? []).filter((name) => name !== part);
+    set({ ...sizes, hidden: isHidden(part) ? others : [...others, part] });
+  }
+
+  /** @param {Sizes} next */
+  function set(next) {
+    sizes = next;
+    localStorage.setItem(KEY, JSON.stringify(sizes));
+    show();
+  }
+
+  function show() {
+    const { style } = document.body;
+    for (const name of /** @type {const} */ (["panel", "learn", "below"])) {
+      const size = sizes[name];
+      style.setProperty(`--${name}-size`, size ? `${size}px` : "");
+    }
+    main.classList.toggle("without-panel", isHidden("panel"));
+    timeline.hidden = isHidden("timeline");
+    panelDivider.show(isHidden("panel"));
+  }
+
+  show();
+  return {
+    toggle,
+    get: () => sizes,
+    set,
+    setView: () => panelDivider.show(isHidden("panel")),
+  };
+}
+
+/** The sizes that this browser keeps. @returns {Sizes} */
+function kept() {
+  try {
+    return JSON.parse(localStorage.getItem(KEY) ?? "{}") ?? {};
+  } catch {
+    return {};
+  }
+}
