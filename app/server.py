@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
-import errno
 import html
 import mimetypes
 import os
 import secrets
-import socket
 import sys
 import tempfile
 import threading
@@ -20,7 +18,6 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from urllib.parse import quote
 
-import uvicorn
 from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
 from fastapi.responses import JSONResponse, Response
@@ -34,6 +31,7 @@ from lineseg.readers import Reading
 
 from .body_limit import BodyLimit
 from .guard import Guard, is_loopback
+from .listening import listen, server_of
 from .live.address import Address
 from .live.hub import Live
 from .memory import keep_together, settle
@@ -49,7 +47,6 @@ from .routes.robot import add_back
 from .routes.sweep_table import add_sweep_table
 from .routes.tab import add_sockets
 from .routes.tuning import add_tuning
-from .routes.viser_relay import LARGEST_MESSAGE
 from .session.session import Watch
 from .session.sessions import SessionLimits, Sessions
 from .session.warm_up import WarmUp
@@ -61,9 +58,7 @@ from .shelf.uploads import Uploads
 from .view import View
 from .view_field import page_module
 
-SHUTDOWN_SECONDS = 3
 WAITING_THREADS = 32
-LARGEST_PORT = 65_535
 # A thread that computes lets others go on after this time. The one that answers all tabs lets go of the interpreter at
 # every message, and each time would wait for five times as long if this were left at Python's default.
 SWITCH_SECONDS = 0.001
@@ -175,54 +170,6 @@ def serve(settings: Settings, announce: Callable[[str], None] = lambda address: 
         server.run(sockets=[listener])
 
 
-class Server(uvicorn.Server):
-    """A uvicorn server that says when it listens."""
-
-    def __init__(self, config: uvicorn.Config, ready: Callable[[], None]) -> None:
-        super().__init__(config)
-        self._ready = ready
-
-    async def startup(self, sockets: list[socket.socket] | None = None) -> None:
-        await super().startup(sockets)
-        if self.started:
-            self._ready()
-
-
-def server_of(app: FastAPI, ready: Callable[[], None] = lambda: None) -> Server:
-    config = uvicorn.Config(
-        app,
-        log_level="warning",
-        access_log=False,
-        server_header=False,
-        ws_max_size=LARGEST_MESSAGE,
-        ws_per_message_deflate=False,
-        # Any client can claim in a header to come from elsewhere; guesses of the token are counted by address.
-        proxy_headers=False,
-        timeout_graceful_shutdown=SHUTDOWN_SECONDS,
-    )
-    return Server(config, ready)
-
-
-def listen(host: str, port: int) -> socket.socket:
-    """A listening socket; port 0 picks a free port."""
-    if not 0 <= port <= LARGEST_PORT:
-        raise ValueError(f"--port is {port}; give one from 1 to {LARGEST_PORT}, or 0 for a free one")
-    try:
-        family = socket.getaddrinfo(host or None, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE)[0][0]
-    except OSError:
-        raise OSError(f"host is {host!r}, which is not an address of this machine; try 127.0.0.1") from None
-    # With an explicit protocol, asyncio turns off Nagle's algorithm, which would delay a second message by 40 ms.
-    listener = socket.socket(family, socket.SOCK_STREAM, socket.IPPROTO_TCP)
-    try:
-        listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-        listener.bind((host, port))
-        listener.listen(128)
-    except OSError as error:
-        listener.close()
-        raise OSError(_why_not(error, host, port)) from None
-    return listener
-
-
 def address_of(settings: Settings, port: int) -> str:
     """The address to open in a browser on this machine."""
     host = "localhost" if settings.host in ("", "0.0.0.0", "::", "*") else settings.host
@@ -247,14 +194,6 @@ def _to_open(address: str, settings: Settings) -> Iterator[str]:
         yield Path(name).as_uri()
     finally:
         Path(name).unlink(missing_ok=True)
-
-
-def _why_not(error: OSError, host: str, port: int) -> str:
-    if error.errno == errno.EADDRINUSE:
-        return f"port {port} of {host} is in use, perhaps by another lineseg; give another --port, or 0 for a free one"
-    if error.errno == errno.EACCES:
-        return f"you may not use port {port}; give a --port above 1023, or 0 for a free one"
-    return f"{host}, port {port}: {error.strerror}"
 
 
 class Static(StaticFiles):

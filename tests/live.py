@@ -12,7 +12,8 @@ from typing import Any
 
 import httpx
 import numpy as np
-from lineseg_app.server import Settings, create_app, listen, server_of
+from lineseg_app.listening import listen, server_of
+from lineseg_app.server import Settings, create_app
 from websockets.sync.client import ClientConnection, connect
 
 from lineseg.doubt import SCORES

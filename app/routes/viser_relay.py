@@ -17,7 +17,6 @@ from starlette.websockets import WebSocket, WebSocketDisconnect, WebSocketState
 
 from ..scene.portless import Connection, Door
 
-LARGEST_MESSAGE = 4 * 1024 * 1024
 FULL_SECONDS = 0.01
 PARTING_SECONDS = 5.0
 

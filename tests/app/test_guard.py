@@ -12,7 +12,8 @@ from urllib.request import url2pathname
 
 import pytest
 from lineseg_app.keys import COOKIE_SECONDS, GUESSES, Keys, TooManyGuessesError
-from lineseg_app.server import Settings, create_app, listen, serve, server_of
+from lineseg_app.listening import listen, server_of
+from lineseg_app.server import Settings, create_app, serve
 from live import SECONDS, Address, Page, page_of, serving
 from websockets.exceptions import InvalidStatus
 from websockets.sync.client import connect

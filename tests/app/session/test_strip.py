@@ -12,7 +12,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from lineseg_app.server import Settings, listen
+from lineseg_app.listening import listen
+from lineseg_app.server import Settings
 from lineseg_app.session.strip import Strip, glance_of, stride_of
 from lineseg_app.told.messages import Surveyed
 from lineseg_app.view import View
