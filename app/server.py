@@ -137,7 +137,8 @@ def create_app(settings: Settings) -> FastAPI:
     add_sweep_table(app)
     add_tuning(app, sessions, user_folder(settings.data_folder) / "studies")
     add_push(app, library)
-    add_back(app, library, sessions, [*(robot.url for robot in settings.robots), *settings.may_send])
+    may_send = [*(robot.url for robot in settings.robots), *settings.may_send]
+    add_back(app, library, sessions, may_send, user_folder(settings.data_folder))
     rerun = add_rerun(app, library, sessions)
     static = data_folder("static")
     app.add_route("/static/declared.js", lambda request: _module(page_module(View)))

@@ -182,6 +182,13 @@ export interface PublishAsked {
   topic?: string;
 }
 
+/** Thresholds for a node of lineseg. */
+export interface ToNodeAsked {
+  address: string;
+  method?: string;
+  params?: Record<string, number>;
+}
+
 /** The node to send to; extensions: include thresholds that the authors' program does not have. */
 export interface SendAsked {
   address: string;
@@ -1015,9 +1022,18 @@ export interface Worked {
   message?: string;
 }
 
-/** The robots that the user named at the start; no others are reached. */
+/** source: the laser whose scans it reads; "" if the node is on another machine. */
+export interface RunningNode {
+  address: string;
+  source: string;
+}
+
+/**
+ * What can be reached: bridges and nodes that the user named at the start, and the user's nodes of this machine.
+ */
 export interface Robots {
   addresses: string[];
+  nodes: RunningNode[];
 }
 
 /** Finds a decision by its properties: the nth (from 0, or negative from the end) that matches all of them. */

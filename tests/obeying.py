@@ -12,6 +12,7 @@ from typing import Any
 
 from lineseg_app.live.address import Address
 from lineseg_app.live.node import OWNER, Node
+from lineseg_app.live.running import Running
 from lineseg_app.live.source import Publishing
 
 from lineseg import Params
@@ -45,7 +46,7 @@ def running(address: Address, topic: str, **fields: Any) -> Iterator[list[str]]:
     """A node, in a thread, that publishes below the topic; yields what it tells."""
     told: list[str] = []
     publishing = Publishing(OWNER, f"{topic}/markers", "region-growing", Params(), f"{topic}/cloud", **fields)
-    node = Node(address, publishing, Params, told.append)
+    node = Node(address, publishing, Running("region-growing", Params()), told.append)
     thread = threading.Thread(target=node.run)
     thread.start()
     try:

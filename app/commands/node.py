@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import signal
 import sys
-from collections.abc import Callable
+from contextlib import AbstractContextManager, nullcontext
+from pathlib import Path
 from types import FrameType
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 from tyro.conf import OmitArgPrefixes, Positional, arg
 
@@ -16,6 +17,10 @@ from .flag_types import Switch, Unset
 from .noise import noise_of
 from .sources import address_of, list_topics
 from .thresholds import Choice, Flags
+from .token import token_of
+
+if TYPE_CHECKING:
+    from ..live.running import Running
 
 
 def node(
@@ -28,11 +33,15 @@ def node(
     cloud: Annotated[str, arg(metavar="TOPIC")] = "/lineseg/cloud",
     range_noise: Unset[float] = None,
     bearing_noise: Unset[float] = None,
+    host: Annotated[str, arg(metavar="ADDRESS")] = "127.0.0.1",
+    port: int = 0,
+    token_file: Unset[Path] = None,
     once: Switch = False,
 ) -> None:
     """Publish the segments of a robot's scans to the robot, until Ctrl-C or SIGTERM.
 
-    The file of --params is read again when it changes.
+    The file of --params is read again when it changes. The page sends thresholds to a running node: Export, "Send
+    parameters to a robot"; they hold until the file changes.
 
     Args:
         source: ros2:/scan or ros2://DOMAIN/scan (DDS; ros2: lists the topics), zenoh:/scan or zenoh://router:7447/scan
@@ -45,28 +54,44 @@ def node(
             length, points, rms, first, last, var_rho, cov_rho_theta, var_theta.
         range_noise: standard deviation of a range [m], for the covariance (default: from each segment's rms).
         bearing_noise: standard deviation of a bearing [rad], for the covariance.
+        host: address at which the page may send thresholds; any but the loopback needs a token.
+        port: TCP port for that; 0 picks a free one.
+        token_file: file with the token for that (default: the environment variable LINESEG_TOKEN, or a random one). A
+            page on another machine gives it as LINESEG_NODE_TOKEN, and names the node with --robot.
         once: publish the segments of one scan, write them as a line of JSON to standard output, and end.
     """
     address = address_of(source, topic)
     if list_topics(address):
         return
-    newest = _thresholds(method, threshold)
+    present = _running(method, threshold)
     noise = noise_of(range_noise, bearing_noise)
 
-    from ..live.node import OWNER, Node
+    from ..live.node import OWNER, Node, warm_up
+    from ..live.node_door import open_door
     from ..live.source import Publishing
+    from ..places import user_folder
     from ..routes.robot import ros_name
 
     to = ros_name("--markers", markers), ros_name("--cloud", cloud)
-    publishing = Publishing(OWNER, to[0], method.name, newest(), to[1], noise)
-    running = Node(address, publishing, newest, _tell, once)
+    publishing = Publishing(OWNER, to[0], *present.now, to[1], noise)
+    running = Node(address, publishing, present, _tell, once)
+
+    def prepare(method: str, params: Thresholds) -> None:
+        warm_up(method, params, noise)
+
+    def door() -> AbstractContextManager[None]:
+        if once:
+            return nullcontext()
+        laser = f"{address.place} {address.topic or ''}".strip()
+        return open_door(laser, present, prepare, _tell, user_folder(), host, port, token_of(None, token_file))
 
     def stop(number: int, frame: FrameType | None) -> None:
         running.stop()
 
     before = {each: signal.signal(each, stop) for each in (signal.SIGTERM, signal.SIGINT)}
     try:
-        last = running.run()
+        with door():
+            last = running.run()
     finally:
         for each, handler in before.items():
             signal.signal(each, handler)
@@ -76,23 +101,21 @@ def node(
         write_segments(sys.stdout, "jsonl", [(0, last.scan, last.extraction)], noise)
 
 
-def _thresholds(method: Choice, flags: Any) -> Callable[[], Thresholds]:
-    """The newest thresholds, each time it is called."""
-    present = method.thresholds(flags)
+def _running(method: Choice, flags: Any) -> Running:
+    """What runs at first, and again when the file changes."""
+    from ..live.running import Running
+
     if method.params is None:
-        return lambda: present
+        return Running(method.name, method.thresholds(flags))
     from ..live.watched import WatchedParams
 
     kind = method.extractor.params_type
     file = WatchedParams(method.params, kind, _tell)
-
-    def newest() -> Thresholds:
-        nonlocal present
-        if file.changed():
-            present = method.overriding(kind(**file.given), flags)
-        return present
-
-    return newest
+    return Running(
+        method.name,
+        method.thresholds(flags),
+        lambda: method.overriding(kind(**file.given), flags) if file.changed() else None,
+    )
 
 
 def _tell(line: str) -> None:

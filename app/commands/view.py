@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import os
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated
@@ -13,9 +12,11 @@ from tyro.conf import OmitArgPrefixes, Positional, arg
 from lineseg.readers import Reading
 
 from ..live.address import Address, check_address, is_address
+from ..live.node_offers import is_node
 from .flag_types import Several, Switch, Unset
 from .reading import ReadingFlags, files_of, reading_of
 from .sources import address_of, list_topics
+from .token import token_of
 
 MOST_KEPT = 20_000
 
@@ -48,7 +49,8 @@ def view(
             the page needs one). Other users of this machine see it in the list of processes; prefer --token-file.
         token_file: file that holds the token.
         no_browser: do not open a browser.
-        robot: addresses of rosbridge to which the page may send parameters, besides the robot that is watched.
+        robot: addresses to which the page may send parameters, besides the robot that is watched and the nodes of this
+            machine: of rosbridge, or of a `lineseg node`, as it prints it, whose token is in LINESEG_NODE_TOKEN.
         rerun: also stream the view to rerun's viewer on port 9876; starts the viewer if none is running.
     """
     from ..server import Settings, serve
@@ -63,7 +65,8 @@ def view(
     if not 1 <= keep <= MOST_KEPT:
         raise ValueError(f"--keep is {keep}; allowed: 1 to {MOST_KEPT} scans")
     for address in robot:
-        check_address(address)
+        if not is_node(address):
+            check_address(address)
     with contextlib.ExitStack() as stack:
         watch = None
         if rerun:
@@ -78,7 +81,7 @@ def view(
             keep=keep,
             host=host,
             port=port,
-            token=_token(token, token_file),
+            token=token_of(token, token_file),
             open_browser=not no_browser,
             watch=watch,
         )
@@ -90,12 +93,3 @@ def _robots(addresses: Sequence[str], how: Reading) -> list[Address]:
     if addresses and (others := [name for name in how.given() if name != "topic"]):
         raise ValueError(f"{', '.join(others)} cannot be used with a robot, which says how its scans are to be read.")
     return [address_of(address, how.topic) for address in dict.fromkeys(addresses)]
-
-
-def _token(token: str | None, file: Path | None) -> str | None:
-    if token is not None and file is not None:
-        raise ValueError("give --token or --token-file, not both")
-    found = file.read_text(encoding="utf-8").strip() if file is not None else token or os.environ.get("LINESEG_TOKEN")
-    if found == "" or (found and not found.isprintable()):
-        raise ValueError(f"{file or '--token'}: the token is empty or not one line; write one line of text")
-    return found

@@ -9,6 +9,7 @@ from collections.abc import Callable
 import numpy as np
 
 from lineseg import EXTRACTORS, Thresholds
+from lineseg.covariance import Noise
 from lineseg.readers.laser_scan import LaserScan
 
 from .address import Address
@@ -16,6 +17,7 @@ from .cloud import Cloud
 from .markers import Markers
 from .ring import Ring
 from .robot import Robot
+from .running import Running
 from .source import Published, Publishing
 
 OWNER = "node"
@@ -26,7 +28,7 @@ ANNOUNCED_SECONDS = 0.5
 
 
 class Node:
-    """newest: gives the thresholds, and is asked before each scan; tell: is called with lines for the user.
+    """running: says method and thresholds before each scan; tell: is called with lines for the user.
 
     once: publish one scan only.
     """
@@ -35,11 +37,11 @@ class Node:
         self,
         address: Address,
         publishing: Publishing,
-        newest: Callable[[], Thresholds],
+        running: Running,
         tell: Callable[[str], None],
         once: bool = False,
     ) -> None:
-        self._publishing, self._newest, self._tell, self._once = publishing, newest, tell, once
+        self._publishing, self._running, self._tell, self._once = publishing, running, tell, once
         self._robot = Robot(address, Ring(1), self._before_each_scan)
         self._robot.publish(OWNER, publishing)
         self._stop = threading.Event()
@@ -54,7 +56,7 @@ class Node:
 
         Raises ValueError if the robot does not accept the segments.
         """
-        warm_up(self._publishing)
+        warm_up(*self._running.now, self._publishing.noise)
         self._began = self._reported = time.monotonic()
         self._robot.start()
         said = ""
@@ -75,7 +77,7 @@ class Node:
         if self._once:
             early = time.monotonic() - self._began < ANNOUNCED_SECONDS
             self._robot.publish(OWNER, None if early or self._robot.published else self._publishing)
-        self._robot.follow(OWNER, self._publishing.method, self._newest())
+        self._robot.follow(OWNER, *self._running.newest())
 
     def _say_new(self, said: str) -> str:
         """Tell what the connection says, if it is new."""
@@ -100,11 +102,11 @@ class Node:
             )
 
 
-def warm_up(publishing: Publishing) -> None:
+def warm_up(method: str, params: Thresholds, noise: Noise | None) -> None:
     """Load or compile what the first scan needs, which takes from a second to a minute."""
     bearings = np.linspace(-0.5, 0.5, 60)
     received = LaserScan(0, 0, "", -0.5, 1 / 59, 0.0, 30.0, (2 / np.cos(bearings)).astype(np.float32))
     scan = received.beams()
-    extraction = EXTRACTORS[publishing.method].extract(scan, publishing.params)
+    extraction = EXTRACTORS[method].extract(scan, params)
     Markers(extraction, received).cdr()
-    Cloud(extraction, received, scan, publishing.noise).cdr()
+    Cloud(extraction, received, scan, noise).cdr()

@@ -4,21 +4,24 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from typing import Annotated, Any, Literal
+from pathlib import Path
+from typing import Any, Literal
 
 from fastapi import FastAPI
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict
+from starlette.concurrency import run_in_threadpool
 from starlette.exceptions import HTTPException
 
 from lineseg import Params
 
-from ..bounds import Name, Number
+from ..bounds import Name, Values
 from ..live.address import place_of
+from ..live.node_offers import SEND_SECONDS, NodeState, Offer, is_node, named_nodes, running_nodes, send_to_node
 from ..live.node_params import Sent, send_params
 from ..live.source import Publishing
 from ..session.sessions import Sessions
 from ..shelf.library import Library
-from ..told.answers import Robots
+from ..told.answers import Robots, RunningNode
 from .slow import SlowWork
 
 AT_ONCE, SECONDS = 4, 20.0
@@ -37,6 +40,14 @@ class PublishAsked(Asked):
     topic: Name = "/lineseg/segments"
 
 
+class ToNodeAsked(Asked):
+    """Thresholds for a node of lineseg."""
+
+    address: Name
+    method: Name = "region-growing"
+    params: Values = {}
+
+
 class SendAsked(Asked):
     """The node to send to; extensions: include thresholds that the authors' program does not have."""
 
@@ -44,16 +55,38 @@ class SendAsked(Asked):
     node: Name
     ros: Literal[1, 2] = 2
     extensions: bool = False
-    params: Annotated[dict[Name, int | Number], Field(max_length=64)] = {}
+    params: Values = {}
 
 
-def add_back(app: FastAPI, library: Library, sessions: Sessions, named: Sequence[str]) -> None:
-    """Routes of /api/robot. named: the addresses that may be reached, and no others."""
+def add_back(app: FastAPI, library: Library, sessions: Sessions, named: Sequence[str], folder: Path) -> None:
+    """Routes of /api/robot. named: the addresses that may be reached, and no others; folder: of the user's data."""
     sending = SlowWork("robots", AT_ONCE, SECONDS)
+    to_nodes = SlowWork("nodes", AT_ONCE, SEND_SECONDS)
+    nodes = [each for each in named if is_node(each)]
+    bridges = [each for each in named if not is_node(each)]
+
+    def offers() -> list[Offer]:
+        return [*named_nodes(nodes), *running_nodes(folder)]
 
     @app.get("/api/robot")
     async def robots() -> Robots:
-        return {"addresses": list(named)}
+        found = await run_in_threadpool(offers)
+        return {
+            "addresses": bridges,
+            "nodes": [RunningNode(address=offer.address, source=offer.source) for offer in found],
+        }
+
+    @app.post("/api/robot/node")
+    async def to_node(asked: ToNodeAsked) -> NodeState:
+        offer = next((each for each in await run_in_threadpool(offers) if each.address == asked.address), None)
+        if offer is None:
+            raise HTTPException(404, f"no node runs at {asked.address}; start one, or choose another")
+        try:
+            return await to_nodes.run(send_to_node, offer, asked.method, dict(asked.params))
+        except ValueError as error:
+            raise HTTPException(400, str(error)) from None
+        except OSError as error:
+            raise HTTPException(502, str(error)) from None
 
     @app.post("/api/robot/segments")
     async def publish(asked: PublishAsked) -> dict[str, Any]:
@@ -76,7 +109,7 @@ def add_back(app: FastAPI, library: Library, sessions: Sessions, named: Sequence
         try:
             node = ros_name("node", asked.node)
             params = Params().but(**asked.params)
-            address = _named(asked.address, named)
+            address = _named(asked.address, bridges)
             sent = await sending.run(send_params, address, node, params, asked.ros, asked.extensions)
         except ValueError as error:
             raise HTTPException(400, str(error)) from None

@@ -264,7 +264,15 @@ class Worked(TypedDict):
     message: NotRequired[str]
 
 
+class RunningNode(TypedDict):
+    """source: the laser whose scans it reads; "" if the node is on another machine."""
+
+    address: str
+    source: str
+
+
 class Robots(TypedDict):
-    """The robots that the user named at the start; no others are reached."""
+    """What can be reached: bridges and nodes that the user named at the start, and the user's nodes of this machine."""
 
     addresses: list[str]
+    nodes: list[RunningNode]

@@ -23,7 +23,7 @@ export function createExportMenu(page, text, { status, work, onImport, onFollowL
       now?.publisher === "this"
         ? { label: text.live.publish.stop, run: () => stopPublishing(page.sessionId()) }
         : { label: text.live.publish.item, run: () => showPublish(text.live, page.sessionId()) };
-    const send = { label: text.live.send.item, run: () => showSend(text.live, page.view.params) };
+    const send = { label: text.live.send.item, run: () => showSend(text.live, page.view.method, page.view.params) };
     return { title: text.live.group, items: now?.publishable ? [send, publish] : [send] };
   }
 

@@ -5,6 +5,7 @@ import { h } from "../widgets/dom.js";
 import { messageOf } from "../fetch.js";
 
 const KEY = "lineseg.robot";
+const BRIDGE = "";
 
 /** @typedef {typeof import("../text/live.js").liveText} Words */
 /** @typedef {import("../wire.js").Sent} Sent */
@@ -12,14 +13,66 @@ const KEY = "lineseg.robot";
 /**
  * Sends the thresholds to a node and shows its values afterwards.
  * @param {Words} words
+ * @param {string} method
  * @param {import("../wire.js").Params} params
  */
-export function showSend(words, params) {
+export async function showSend(words, method, params) {
   const text = words.send;
+  const { addresses, nodes } = await reachable();
+  const to = h(
+    "select",
+    { class: "select" },
+    ...nodes.map(({ address, source }) => h("option", { value: address }, text.node(source, address))),
+    h("option", { value: BRIDGE }, text.bridge),
+  );
+  const hint = h("p", { class: "hint" });
+  const bridge = createBridge(text, addresses);
+  const answer = createAnswer();
+  const send = h("button", { type: "submit", class: "button primary" }, text.button);
+  const form = h(
+    "form",
+    { class: "robot-form" },
+    h("label", { class: "robot-field" }, h("span", {}, text.to), to),
+    bridge.element,
+    hint,
+    answer.element,
+    h("div", { class: "dialog-buttons" }, send),
+  );
+  const choose = () => {
+    bridge.element.disabled = bridge.element.hidden = to.value !== BRIDGE;
+    hint.textContent = to.value === BRIDGE ? text.bridgeHint : text.nodeHint;
+    answer.clear();
+  };
+  to.addEventListener("change", choose);
+  form.addEventListener("submit", async (event) => {
+    event.preventDefault();
+    send.disabled = true;
+    send.textContent = text.busy;
+    answer.clear();
+    const { content, trouble } =
+      to.value === BRIDGE ? await toBridge(text, bridge.asked(), params) : await toNode(text, to.value, method, params);
+    send.disabled = false;
+    send.textContent = text.button;
+    if (trouble === null) answer.show(...content);
+    else answer.refuse(trouble);
+  });
+  choose();
+  openDialog(text.title, words.close, h("p", { class: "hint" }, text.hint), form);
+  to.focus();
+}
+
+/**
+ * The fields for a node that is reached over rosbridge.
+ * @param {Words["send"]} text
+ * @param {string[]} addresses the bridges that were named at the start, since no others are reached
+ */
+function createBridge(text, addresses) {
   const last = remembered();
-  const address = field(text.address, last.address ?? "ws://localhost:9090", "url");
-  offerNamed(address.input);
-  const node = field(text.node, last.node ?? "/line_extraction", "text");
+  const named = addresses.length && !addresses.includes(last.address ?? "") ? addresses[0] : last.address;
+  const address = field(text.address, named ?? "ws://localhost:9090", "url");
+  const list = h("datalist", { id: "named-robots" }, ...addresses.map((value) => h("option", { value })));
+  address.input.setAttribute("list", list.id);
+  const node = field(text.nodeName, last.node ?? "/line_extraction", "text");
   const ros = h(
     "select",
     { class: "select" },
@@ -27,37 +80,50 @@ export function showSend(words, params) {
     h("option", { value: "1", selected: last.ros === 1 }, text.ros1),
   );
   const extensions = h("input", { type: "checkbox", checked: Boolean(last.extensions) });
-  const form = h(
-    "form",
-    { class: "robot-form" },
+  const element = h(
+    "fieldset",
+    { class: "robot-bridge" },
     address.row,
+    list,
     node.row,
     h("label", { class: "robot-field" }, h("span", {}, text.ros), ros),
     h("label", { class: "robot-check" }, extensions, text.extensions),
   );
-  const answer = createAnswer();
-  const send = h("button", { type: "submit", class: "button primary" }, text.button);
-  form.append(answer.element, h("div", { class: "dialog-buttons" }, send));
-  form.addEventListener("submit", async (event) => {
-    event.preventDefault();
-    const asked = {
-      address: address.input.value.trim(),
-      node: node.input.value.trim(),
-      ros: Number(ros.value),
-      extensions: extensions.checked,
-    };
-    localStorage.setItem(KEY, JSON.stringify(asked));
-    send.disabled = true;
-    send.textContent = text.busy;
-    answer.clear();
-    const { values, trouble } = await post("/api/robot/params", { ...asked, params });
-    send.disabled = false;
-    send.textContent = text.button;
-    if (trouble !== null) return answer.refuse(trouble);
-    return answer.show(...table(text, values.sent));
+  const asked = () => ({
+    address: address.input.value.trim(),
+    node: node.input.value.trim(),
+    ros: Number(ros.value),
+    extensions: extensions.checked,
   });
-  openDialog(text.title, words.close, h("p", { class: "hint" }, text.hint), form);
-  address.input.focus();
+  return { element, asked };
+}
+
+/** @typedef {Promise<{content: HTMLElement[], trouble: string | null}>} Outcome */
+
+/** @param {Words["send"]} text @param {object} asked @param {import("../wire.js").Params} params @returns {Outcome} */
+async function toBridge(text, asked, params) {
+  localStorage.setItem(KEY, JSON.stringify(asked));
+  const { values, trouble } = await post("/api/robot/params", { ...asked, params });
+  return { content: trouble === null ? table(text, values.sent) : [], trouble };
+}
+
+/**
+ * @param {Words["send"]} text @param {string} address @param {string} method @param {import("../wire.js").Params} params
+ * @returns {Outcome}
+ */
+async function toNode(text, address, method, params) {
+  const { values, trouble } = await post("/api/robot/node", { address, method, params });
+  if (trouble !== null) return { content: [], trouble };
+  const { name, now } = text.columns;
+  const rows = Object.entries(values.params).map(([threshold, value]) =>
+    h("tr", { class: "taken" }, h("td", {}, threshold), h("td", {}, String(value))),
+  );
+  const head = h("tr", {}, h("th", {}, name), h("th", {}, now));
+  const content = [
+    h("p", { class: "robot-done" }, text.runs(values.method, rows.length)),
+    h("table", { class: "robot-table" }, h("thead", {}, head), h("tbody", {}, ...rows)),
+  ];
+  return { content, trouble };
 }
 
 /**
@@ -114,19 +180,10 @@ function table(text, sent) {
   ];
 }
 
-/**
- * Offers the robots that were named at the start, since no others are reached.
- * @param {HTMLInputElement} input
- */
-async function offerNamed(input) {
+/** @returns {Promise<import("../wire.js").Robots>} */
+async function reachable() {
   const response = await fetch("/api/robot").catch(() => null);
-  if (!response?.ok) return;
-  /** @type {import("../wire.js").Robots} */
-  const { addresses } = await response.json();
-  const list = h("datalist", { id: "named-robots" }, ...addresses.map((value) => h("option", { value })));
-  input.after(list);
-  input.setAttribute("list", list.id);
-  if (addresses.length && !addresses.includes(input.value)) input.value = addresses[0];
+  return response?.ok ? response.json() : { addresses: [], nodes: [] };
 }
 
 /** Shows the outcome in the dialog. */

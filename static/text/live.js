@@ -22,9 +22,17 @@ export const liveText = {
   send: {
     item: "Send parameters to a robot…",
     title: "Send parameters to a robot",
-    hint: "Sets the current thresholds as parameters of a running node over rosbridge and reads them back. Nothing is sent before you press Send. Robots are named when lineseg is started: --robot ws://localhost:9090",
+    hint: "Sets the current thresholds in a running node. Nothing is sent before you press Send.",
+    to: "Send to",
+    node: (/** @type {string} */ source, /** @type {string} */ address) =>
+      source ? `lineseg node on ${source}` : `lineseg node at ${address}`,
+    bridge: "another node, over rosbridge",
+    nodeHint:
+      "The node uses them from the next scan on, until it ends or its file of parameters changes. To keep them, export them as ROS 2 YAML.",
+    bridgeHint:
+      "The values are read back. Robots are named when lineseg is started: --robot ws://localhost:9090. A lineseg node of this machine appears here by itself.",
     address: "Address of rosbridge",
-    node: "Node",
+    nodeName: "Node",
     ros: "ROS",
     ros2: "ROS 2: set_parameters of the node",
     ros1: "ROS 1: parameter server (a node reads it when it starts)",
@@ -33,6 +41,7 @@ export const liveText = {
     busy: "Sending…",
     columns: { name: "parameter", value: "sent", now: "on the robot" },
     unset: "not set",
+    runs: (/** @type {string} */ method, /** @type {number} */ n) => `The node runs ${method} with these ${n} values.`,
     done: (/** @type {number} */ n) => `The robot has all ${n} values.`,
     some: (/** @type {number} */ taken, /** @type {number} */ n) => `The robot has ${taken} of ${n} values.`,
   },
