@@ -118,6 +118,11 @@ REREAD = tuple(name for name in Reading.declared() if name != "topic")
 
 def reread(reading: Reading, values: Mapping[str, Any]) -> Reading:
     """A copy with some fields changed; links give numbers as text."""
+    poses = values.get("poses")
+    if isinstance(poses, str) and set(poses) & {"/", "\\", ":"}:
+        raise ValueError(
+            f"poses is {poses!r:.60}; a page reads a trajectory that lies beside its recording: give its name"
+        )
     return reading.but(**{name: _typed(name, value) for name, value in values.items()})
 
 

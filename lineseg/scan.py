@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from .poses import PoseSource, Track
+
 if TYPE_CHECKING:
     from .readers.account import Account
 
@@ -139,8 +141,9 @@ class Recording:
     angle_min, angle_increment [rad], range_min, range_max [m], stamps [s]: (frames,) each.
     frame_ids: the name of the laser's frame, scan by scan.
     bearings: (total,) [rad], only for scans whose beams are not evenly spaced.
-    wall: (total,) int, only if the truth is known. poses: (frames, 3) of x, y [m] and heading [rad] and
-    walls: (walls, 4) of x1, y1, x2, y2 [m] in the world's frame, for simulated recordings.
+    wall: (total,) int, only if the truth is known; walls: (walls, 4) of x1, y1, x2, y2 [m] in the world's frame, for
+    simulated recordings. track: the poses of the laser, see `poses` and `pose_source`; None if they are not known.
+    time_increment: (frames,) time between beams [s], None if not known.
     topic, topics: the stream these scans come from, and all that the file offers.
     pack: origin of a failure pack; None for other recordings.
     numbers: (frames,) the frame of the file that each scan is, rising, if some were left out; None if none was.
@@ -159,8 +162,9 @@ class Recording:
     frame_ids: tuple[str, ...]
     bearings: Floats | None = None
     wall: NDArray[np.integer] | None = None
-    poses: Floats | None = None
+    track: Track | None = None
     walls: Floats | None = None
+    time_increment: Floats | None = None
     topic: str = ""
     topics: tuple[Topic, ...] = field(default=())
     format: str = ""
@@ -171,8 +175,11 @@ class Recording:
     account: Account | None = None
 
     @classmethod
-    def from_scans(cls, scans: Iterable[Scan], name: str = "", **fields) -> Recording:
-        """A recording of the given scans; `fields` are those of Recording that no scan knows (poses, topics, …)."""
+    def from_scans(cls, scans: Iterable[Scan], name: str = "", *, poses: Floats | None = None, **fields) -> Recording:
+        """A recording of the given scans and perhaps the `poses` (frames, 3) of the laser.
+
+        `fields` are those of Recording that no scan knows (topics, walls, …).
+        """
         scans = list(scans)
         lengths = np.array([len(scan) for scan in scans], dtype=np.int64)
         have_wall = bool(scans) and all(scan.wall is not None for scan in scans)
@@ -193,6 +200,7 @@ class Recording:
             frame_ids=tuple(scan.frame_id for scan in scans),
             bearings=None if regular else _concatenate([scan.bearings for scan in scans]),
             wall=_concatenate([scan.wall for scan in scans if scan.wall is not None]) if have_wall else None,
+            track=None if poses is None else Track.of(np.asarray(poses, float), PoseSource("the program")),
             **fields,
         )
 
@@ -242,10 +250,25 @@ class Recording:
             wall=of_beams(self.wall),
             offsets=np.concatenate(([0], np.cumsum(np.diff(self.offsets)[frames]))),
             frame_ids=tuple(self.frame_ids[frame] for frame in frames.tolist()),
-            poses=None if self.poses is None else self.poses[frames],
+            track=None if self.track is None else self.track.only(frames),
+            time_increment=None if self.time_increment is None else self.time_increment[frames],
             numbers=None if self.numbers is None else self.numbers[frames],
             **{name: getattr(self, name)[frames] for name in of_frames},
         )
+
+    @property
+    def poses(self) -> Floats | None:
+        """(frames, 3) of x, y [m] and heading [rad] of the laser in the world, NaN where unknown; None if all are.
+
+        The first access may read the file once more.
+        """
+        poses = None if self.track is None else self.track.found.poses
+        return poses if poses is not None and np.isfinite(poses).all(axis=1).any() else None
+
+    @property
+    def pose_source(self) -> PoseSource:
+        """Where the poses come from, or why there are none."""
+        return PoseSource(missing="the file has none") if self.track is None else self.track.found.source
 
     def number(self, frame: int) -> int:
         """The frame of the file that scan `frame` is, counted from 0."""

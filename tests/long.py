@@ -30,6 +30,6 @@ def long_hallway(frames: int, seed: int = 0) -> Recording:
         stamps=0.1 * np.arange(frames),
         frame_ids=("laser",) * frames,
         wall=None,
-        poses=None,
+        track=None,
         walls=None,
     )

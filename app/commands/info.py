@@ -9,6 +9,7 @@ import numpy as np
 from tyro.conf import OmitArgPrefixes, Positional
 
 from lineseg.noise import RangeNoise
+from lineseg.poses import said_of
 from lineseg.scan import Recording
 from lineseg.tuning.proposal import propose
 
@@ -70,6 +71,7 @@ def _facts(recording: Recording) -> Iterator[tuple[str, object]]:
     yield "longest range", f"{max(longest, default=0.0):.3f} m"
     if account.believable:
         yield "duration", f"{np.ptp(recording.stamps):.3f} s"
+    yield "poses", said_of(recording.poses, recording.pose_source)
     found = propose(recording)
     yield "noise", _noise(found.noise, [float(ranges) for ranges in longest])
     yield "thresholds", found.text or "The defaults fit this recording."

@@ -62,6 +62,7 @@ def view(
         return
     named = [source for source in sources if source not in lasers]
     files = [file.resolve() for file in files_of(named)] if named else []
+    how = _beside(how, files)
     if not 1 <= keep <= MOST_KEPT:
         raise ValueError(f"--keep is {keep}; allowed: 1 to {MOST_KEPT} scans")
     for address in robot:
@@ -86,6 +87,16 @@ def view(
             watch=watch,
         )
         serve(settings, lambda address: print(f"lineseg is at {address} (Ctrl-C stops it)", flush=True))
+
+
+def _beside(how: Reading, files: Sequence[Path]) -> Reading:
+    """The Reading, whose trajectory the page knows by its name alone."""
+    if how.poses is None or not set(how.poses) & {"/", "\\", ":"}:
+        return how
+    poses = Path(how.poses).resolve()
+    if elsewhere := next((file.parent for file in files if file.parent != poses.parent), None):
+        raise ValueError(f"--poses is {how.poses}; the page reads it beside the recording: put it into {elsewhere}.")
+    return how.but(poses=poses.name)
 
 
 def _robots(addresses: Sequence[str], how: Reading) -> list[Address]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from copy import copy
 from dataclasses import replace
 from functools import partial
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -15,20 +16,28 @@ from .account import Account, Findings, Guess, Notes
 from .guessing import guess_limit, guess_unit, no_return_codes, sampled
 from .lasers import one_laser
 from .plausible import noticed, oddness, trouble_in, trouble_of
+from .posing import with_poses
 from .reading import METRES, Reading, Span, frames_of, span_of, values_of
 from .saying import line_of
+from .sweeping import without_motion
 
 SAME = 5e-4
 
 
-def applied(recording: Recording, reading: Reading, notes: Notes) -> Recording:
-    """The recording as `reading` wants it, with its account. Raises ValueError if nothing would be left."""
+def applied(recording: Recording, reading: Reading, notes: Notes, file: Path) -> Recording:
+    """The recording as `reading` wants it, with its account. Raises ValueError if nothing would be left.
+
+    file: as the user named it.
+    """
     recording = one_laser(recording, reading, notes)
     recording = _with_stamps(recording, reading, notes)
     recording, used = _in_metres_and_radians(recording, reading, notes)
     whole = _with_limits(recording, used, notes)
     guesses, used = _without_present(tuple(notes.guesses), whole, used)
-    shown = _chosen_beams(_chosen_frames(whole, used), used)
+    shown = with_poses(_chosen_frames(whole, used), reading, file)
+    if reading.motion == "removed":
+        shown = without_motion(shown, notes)
+    shown = _chosen_beams(shown, used)
     account = Account(
         given=reading,
         used=used,
@@ -133,6 +142,8 @@ def _with_limits(recording: Recording, reading: Reading, notes: Notes) -> Record
     codes = [Span(code, code) for code in no_return_codes(recording, reading, notes)]
     if reading.no_return is not None:
         codes += values_of(reading.no_return)
+    if reading.time_increment is not None:
+        changes["time_increment"] = np.full(frames, reading.time_increment)
     if codes:
         ranges = recording.ranges.copy()
         for low, high in codes:
@@ -190,7 +201,7 @@ def _chosen_beams(recording: Recording, reading: Reading) -> Recording:
         raise ValueError(f"{recording.name}: no beam is left in the sector {reading.sector}; choose another.")
     fresh = Recording.from_scans(scans, name=recording.name)
     names = ("ranges", "offsets", "angle_min", "angle_increment", "bearings", "wall")
-    return replace(recording, **{name: getattr(fresh, name) for name in names})
+    return replace(recording, time_increment=None, **{name: getattr(fresh, name) for name in names})
 
 
 def _beams(scan: Scan, span: Span | None, step: int) -> Scan:

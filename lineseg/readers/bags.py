@@ -110,7 +110,8 @@ def collect(
         recorded.append(1e-9 * nanoseconds)
         publishers.append(id(decode))
         sweeps.add(
-            scan.ranges, scan.angle_min, scan.angle_increment, scan.range_min, scan.range_max, scan.stamp, scan.frame_id
+            scan.ranges, scan.angle_min, scan.angle_increment, scan.range_min, scan.range_max, scan.stamp,
+            scan.frame_id, time_increment=scan.time_increment,
         )  # fmt: skip
     source.progress(total, total)
     if not sweeps:

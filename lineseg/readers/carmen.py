@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import math
 import re
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
+from ..poses import PoseSource, Track
 from ..scan import Floats, Recording, Topic
 from .numbers import leading_numbers
 from .range_limits import longest_return
@@ -30,13 +33,14 @@ HALF_TURN = (180, 181, 360, 361)
 
 
 class Line(NamedTuple):
-    """One decoded laser line; range_max: as stated in the line, None if not stated."""
+    """One decoded laser line; range_max: as stated in the line, None if not stated. pose: x, y, θ of the laser."""
 
     ranges: Floats
     angle_min: float
     angle_increment: float
     range_max: float | None
     stamp: float
+    pose: tuple[float, float, float]
 
 
 class CarmenLog(Reader):
@@ -93,7 +97,15 @@ def _recording(
     recording = sweeps.recording(source, topic=topic, topics=topics, format=CarmenLog.format)
     announced = max((line.range_max for line in lines if line.range_max), default=setting)
     recording.range_max[:] = longest_return(recording.ranges, announced)
-    return recording
+    return replace(recording, track=_track(np.array([line.pose for line in lines]), topic))
+
+
+def _track(poses: NDArray[np.float64], topic: str) -> Track:
+    known = np.isfinite(poses).all(axis=1)
+    if not known.any():
+        return Track.of(poses, PoseSource(missing=f"{topic} lines have none"))
+    missing = "" if known.all() else "other lines break off before it"
+    return Track.of(poses, PoseSource(f"{topic} lines", missing=missing))
 
 
 def _with_view(source: Source, lines: list[Line], settings: dict[bytes, bytes], topic: str) -> list[Line]:
@@ -126,7 +138,7 @@ def _decode_flaser(text: bytes, tail: int) -> Line:
     message, count, values = _words(text, 3)
     ranges, rest = _ranges(message, count, values)
     angle_min, angle_increment = flaser_angles(len(ranges))
-    return Line(ranges, angle_min, angle_increment, None, _stamp(rest, tail))
+    return Line(ranges, angle_min, angle_increment, None, _stamp(rest, tail), _pose(rest))
 
 
 def _decode_robotlaser(text: bytes, tail: int) -> Line:
@@ -140,7 +152,8 @@ def _decode_robotlaser(text: bytes, tail: int) -> Line:
     if step == 0 and len(ranges) > 1:
         step = _float(view, message) / (len(ranges) - 1)
     remissions = int(rest[0]) if rest and rest[0].isdigit() else 0
-    return Line(ranges, angle_min, step, range_max, _stamp(rest, 1 + remissions + tail))
+    pose = _pose(rest[1 + remissions :] if tail else [])
+    return Line(ranges, angle_min, step, range_max, _stamp(rest, 1 + remissions + tail), pose)
 
 
 DECODERS = {
@@ -190,6 +203,15 @@ def _missing(message: bytes, wanted: int, found: int) -> str:
 def _stamp(words: list[bytes], at: int) -> float:
     """Seconds; 0 if the line has none."""
     return _number(words[at] if at < len(words) else None) or 0.0
+
+
+def _pose(words: list[bytes]) -> tuple[float, float, float]:
+    """The pose of the laser, which comes first; NaN if the line has none."""
+    numbers = [_number(word) for word in words[:3]]
+    x, y, heading = (
+        math.nan if value is None or not math.isfinite(value) else value for value in (*numbers, *3 * [None])[:3]
+    )
+    return x, y, heading
 
 
 def _float(word: bytes, message: bytes) -> float:

@@ -141,7 +141,7 @@ def _whole(time: Any, *names: str) -> int:
 # Messages of other layouts
 
 
-class _Bytes:
+class MessageBytes:
     """Reads a message piece by piece; aligned: whether numbers lie at multiples of their size, as in CDR."""
 
     def __init__(self, data: bytes, encoding: str) -> None:
@@ -181,7 +181,7 @@ class _Bytes:
 
 def decode_multi_echo(data: bytes, encoding: str, echo: int) -> LaserScan:
     """A MultiEchoLaserScan, with one echo of each beam; NaN where a beam has fewer."""
-    reader = _Bytes(data, encoding)
+    reader = MessageBytes(data, encoding)
     if encoding == "ros1":
         reader.numbers("I")
     seconds, nanoseconds = (*reader.numbers("i" if encoding == "cdr" else "I"), *reader.numbers("I"))
@@ -199,7 +199,7 @@ def decode_multi_echo(data: bytes, encoding: str, echo: int) -> LaserScan:
 
 def decode_foxglove_binary(data: bytes, encoding: str) -> LaserScan:
     """foxglove_msgs/LaserScan: time, frame_id, pose (7 numbers), start_angle, end_angle, ranges, intensities."""
-    reader = _Bytes(data, encoding)
+    reader = MessageBytes(data, encoding)
     seconds, nanoseconds = (*reader.numbers("I"), *reader.numbers("I"))
     frame_id = reader.text()
     reader.numbers("7d")

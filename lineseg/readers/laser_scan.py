@@ -18,7 +18,10 @@ TYPES = ("sensor_msgs/LaserScan", "sensor_msgs/msg/LaserScan")
 
 
 class LaserScan(NamedTuple):
-    """seconds, nanoseconds: the stamp, exactly; angles [rad]; ranges (n,) float32 [m]."""
+    """seconds, nanoseconds: the stamp, exactly; angles [rad]; ranges (n,) float32 [m].
+
+    time_increment: between two beams [s], 0 if it is not known.
+    """
 
     seconds: int
     nanoseconds: int
@@ -28,6 +31,7 @@ class LaserScan(NamedTuple):
     range_min: float
     range_max: float
     ranges: Floats
+    time_increment: float = 0.0
 
     @property
     def stamp(self) -> float:
@@ -62,12 +66,13 @@ def decode_cdr(data: bytes) -> LaserScan:
 
 
 def _decode(data: bytes, seconds: int, nanoseconds: int, at: int, length: int, numbers: int, order: str) -> LaserScan:
-    angle_min, angle_max, increment, _, _, range_min, range_max, count = NUMBERS[order].unpack_from(data, numbers)
+    angle_min, angle_max, increment, pause, _, range_min, range_max, count = NUMBERS[order].unpack_from(data, numbers)
     if numbers + 32 + 4 * count > len(data):
         raise ValueError(f"a LaserScan announces {count} ranges, but its message has {len(data)} bytes")
     ranges = np.frombuffer(data, FLOATS[order], count, numbers + 32).astype(np.float32, copy=False)
     frame_id = data[at : at + length].decode("utf-8", "replace")
-    return _checked(seconds, nanoseconds, frame_id, angle_min, angle_max, increment, range_min, range_max, ranges)
+    angles, limits = (angle_min, angle_max, increment), (range_min, range_max)
+    return _checked(seconds, nanoseconds, frame_id, *angles, *limits, ranges, pause)
 
 
 def decode_json(message: Any) -> LaserScan:
@@ -98,22 +103,26 @@ def decode_json(message: Any) -> LaserScan:
     rest = (_number(message, "angle_increment", 0.0), _number(message, "range_min", 0.0))
     return _checked(
         _whole(stamp, "sec", "secs"), _whole(stamp, "nanosec", "nsecs", "nsec"), str(header.get("frame_id", ""))[:200],
-        *angles, *rest, _number(message, "range_max", 0.0), ranges,
+        *angles, *rest, _number(message, "range_max", 0.0), ranges, _number(message, "time_increment", 0.0),
     )  # fmt: skip
 
 
 def _checked(
     seconds: int, nanoseconds: int, frame_id: str, angle_min: float, angle_max: float, increment: float,
-    range_min: float, range_max: float, ranges: Floats,
+    range_min: float, range_max: float, ranges: Floats, pause: float,
 ) -> LaserScan:  # fmt: skip
-    """A limit of 0 means that the device states none; an increment of 0 is computed from angle_max."""
+    """A limit of 0 means that the device states none; an increment of 0 is computed from angle_max.
+
+    pause: the time between two beams [s].
+    """
     if increment == 0 and len(ranges) > 1:
         increment = (angle_max - angle_min) / (len(ranges) - 1)
     if not (math.isfinite(angle_min) and math.isfinite(increment)):
         raise ValueError(f"its angle_min is {angle_min} and its angle_increment {increment}; both must be finite")
     longest = range_max if range_max > 0 else np.inf
     shortest = range_min if range_min > 0 else 0.0
-    return LaserScan(seconds, nanoseconds, frame_id, angle_min, increment, shortest, longest, ranges)
+    pause = pause if 0 < pause < math.inf else 0.0
+    return LaserScan(seconds, nanoseconds, frame_id, angle_min, increment, shortest, longest, ranges, pause)
 
 
 def _number(message: Mapping[str, Any], name: str, usual: float | None = None) -> float:

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arguments import need_recording
+from ..poses import PoseSource, Track
 from ..scan import Recording, Topic
 from ..unfinished import temporary_folder
 from .arrays import header_of, is_exchange, loaded, recording_of_arrays
@@ -26,7 +27,9 @@ SHAPES = "ranges (frames, beams) or (beams,), angle_min and angle_increment scal
 
 class Npz(Reader):
     """ranges (F, N) or (N,) [m], angle_min, angle_increment [rad] scalars or (F,); optional range_min, range_max [m],
-    stamps (F,) [s], frame_id, wall (F, N) int, poses (F, 3), walls (W, 4).
+    stamps (F,) [s], frame_id, wall (F, N) int, walls (W, 4), time_increment [s] scalar or (F,).
+    poses (F, 3) of x, y [m] and heading [rad] of the laser in the world, NaN where unknown; upside_down, if it is
+    mounted so.
 
     For scans of different length: beams (F,) int, the number of beams in each row. For unevenly spaced beams: bearings
     (F, N) [rad] instead of angle_min and angle_increment.
@@ -82,7 +85,10 @@ def save_npz(recording: Recording, target: str | Path | BinaryIO) -> None:
         arrays["bearings"] = rows(recording.bearings, np.nan)
     if recording.wall is not None:
         arrays["wall"] = rows(recording.wall, -1)
-    arrays |= {name: array for name in ("poses", "walls") if (array := getattr(recording, name)) is not None}
+    tables = ("poses", "walls", "time_increment")
+    arrays |= {name: array for name in tables if (array := getattr(recording, name)) is not None}
+    if "poses" in arrays and recording.pose_source.upside_down:
+        arrays["upside_down"] = np.array(True)
     with Path(target).open("wb") if isinstance(target, str | Path) else nullcontext(target) as file:
         np.savez_compressed(file, allow_pickle=False, **arrays)
 
@@ -168,12 +174,23 @@ def _recording(source: Source, arrays: dict[str, NDArray]) -> Recording:
         frame_ids=_frame_ids(arrays, frames),
         bearings=_rows(arrays, "bearings", ranges.shape, inside, np.float64),
         wall=_rows(arrays, "wall", ranges.shape, inside, np.int64),
-        poses=_table(arrays, "poses", 3, frames),
+        track=_track(arrays, frames),
         walls=_table(arrays, "walls", 4, None),
+        time_increment=_per_frame(arrays, "time_increment", frames, 0.0) if "time_increment" in arrays else None,
         topic=topic.name,
         topics=(topic,),
         format=Npz.format,
     )
+
+
+def _track(arrays: dict[str, NDArray], frames: int) -> Track | None:
+    poses = _table(arrays, "poses", 3, frames)
+    if poses is None:
+        return None
+    poses = np.where(np.isfinite(poses).all(axis=1, keepdims=True), poses, np.nan)
+    missing = "the others are NaN in the file" if np.isnan(poses).any() else ""
+    upside_down = bool(np.any(arrays.get("upside_down", False)))
+    return Track.of(poses, PoseSource("the array poses", upside_down=upside_down, missing=missing))
 
 
 def _frame_ids(arrays: dict[str, NDArray], frames: int) -> tuple[str, ...]:

@@ -12,6 +12,7 @@ from typing import Annotated, Any, Literal, NamedTuple, Self, get_args, get_type
 Unit = Literal["m", "cm", "mm", "in", "ft"]
 AngleUnit = Literal["rad", "deg"]
 Direction = Literal["counter-clockwise", "clockwise"]
+Motion = Literal["kept", "removed"]
 Stamps = Literal["message", "recorded", "none"]
 METRES: dict[str, float] = {"m": 1.0, "cm": 0.01, "mm": 0.001, "in": 0.0254, "ft": 0.3048}
 # What a column may hold besides the ranges; "-" is a column to pass over.
@@ -120,6 +121,39 @@ class Reading:
             "scans",
         ),
     ] = None
+    poses: Annotated[
+        str | None,
+        ReadingField(
+            "trajectory",
+            "file of the laser's poses: TUM rows, or a table with stamp, x, y and heading; a name without a folder is "
+            "looked for beside the recording (default: the poses in the recording)",
+            "scans",
+            metavar="FILE",
+        ),
+    ] = None
+    pose_topic: Annotated[
+        str | None,
+        ReadingField(
+            "poses from",
+            "topic of the robot's poses: /tf, or one of Odometry or Pose messages (default: the first that has them)",
+            "scans",
+            only=BAG_FORMATS,
+            elsewhere="has no topics of poses",
+        ),
+    ] = None
+    motion: Annotated[
+        Motion | None,
+        ReadingField(
+            "motion in a sweep",
+            "motion of the laser during a sweep: kept in the scan, or removed by its poses (default: kept)",
+            "scans",
+        ),
+    ] = None
+    time_increment: Annotated[
+        float | None,
+        ReadingField("time_increment", "time between two beams, instead of the file's", "scans", "s", least=0.0,
+                     most=1.0, why="beams follow each other within 1 s"),
+    ] = None  # fmt: skip
     unit: Annotated[Unit | None, ReadingField("unit of ranges", "unit of the ranges in the file", "numbers")] = None
     angle_unit: Annotated[
         AngleUnit | None, ReadingField("unit of angles", "unit of the angles in the file", "numbers")

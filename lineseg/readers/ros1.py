@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import struct
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import ExitStack
 from typing import Any
 
@@ -38,6 +38,29 @@ class Ros1Bag(Reader):
             topic, topics, chosen = choose_streams(source, streams)
             total = sum(stream.messages for stream in chosen)
             return collect(source, _messages(source, bag, chosen), total, topic, topics, Ros1Bag.format)
+
+
+def messages_of(source: Source, wanted: Callable[[Stream], bool]) -> Iterator[tuple[Stream, int, bytes]]:
+    """(stream, time of recording in nanoseconds, bytes) of the messages of all streams that are `wanted`."""
+    hint = "`rosbag reindex` or `rosbag fix` may repair it."
+    with ExitStack() as stack, cut_off(source, "ROS bag", hint):
+        try:
+            bag = stack.enter_context(_open_bag(source))
+        except Exception:  # rosbags has errors of its own, and needs an index
+            for connection, nanoseconds, data in scan_records(source.path):
+                stream = Stream(connection.topic, _modern(connection.type), 0, connection, "ros1")
+                if wanted(stream):
+                    yield stream, nanoseconds, data
+            return
+        streams = {each.id: Stream(each.topic, each.msgtype, each.msgcount, each, "ros1") for each in bag.connections}
+        chosen = [stream.handle for stream in streams.values() if wanted(stream)]
+        for connection, nanoseconds, data in bag.messages(chosen) if chosen else ():
+            yield streams[connection.id], nanoseconds, data
+
+
+def _modern(type: str) -> str:
+    """The name of a type as `rosbags` gives it."""
+    return type if "/msg/" in type else type.replace("/", "/msg/")
 
 
 def _check_version(source: Source) -> None:

@@ -6,7 +6,7 @@ import itertools
 import shutil
 import sqlite3
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import Protocol
@@ -78,6 +78,17 @@ class Mcap(Reader):
     @staticmethod
     def read(source: Source) -> Recording:
         return _read(source, [source.path], Mcap.format)
+
+
+def messages_of(source: Source, wanted: Callable[[Stream], bool]) -> Iterator[tuple[Stream, int, bytes]]:
+    """(stream, time of recording in nanoseconds, bytes) of the messages of all streams that are `wanted`."""
+    hint = "`ros2 bag reindex` or `mcap recover` may repair it."
+    for file in storage_files(source.path) if source.path.is_dir() else [source.path]:
+        with ExitStack() as stack, cut_off(source, "bag", hint):
+            storage = stack.enter_context(_storage(file, stack, source.notes))
+            chosen = [stream for stream in storage.streams if wanted(stream)]
+            if chosen:
+                yield from storage.messages(chosen)
 
 
 def _read(source: Source, files: list[Path], format: str) -> Recording:

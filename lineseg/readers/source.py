@@ -102,6 +102,7 @@ class Sweeps:
         self.ranges: list[Floats] = []
         self.geometry: list[tuple[float, float, float, float, float]] = []
         self.frame_ids: list[str] = []
+        self.time_increments: list[float] = []
         self.bearings: list[Floats] = []
 
     def __len__(self) -> int:
@@ -117,10 +118,12 @@ class Sweeps:
         stamp: float = 0.0,
         frame_id: str = "",
         bearings: Floats | None = None,
+        time_increment: float = 0.0,
     ) -> None:
         self.ranges.append(ranges)
         self.geometry.append((angle_min, angle_increment, range_min, range_max, stamp))
         self.frame_ids.append(frame_id)
+        self.time_increments.append(time_increment)
         if bearings is not None:
             self.bearings.append(bearings)
 
@@ -138,5 +141,6 @@ class Sweeps:
             "stamps": geometry[:, 4],
             "frame_ids": tuple(self.frame_ids),
             "bearings": np.concatenate(self.bearings) if self.bearings else None,
+            "time_increment": np.array(self.time_increments) if any(self.time_increments) else None,
         }
         return Recording(**(columns | fields))

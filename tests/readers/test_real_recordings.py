@@ -5,6 +5,7 @@ import json
 import numpy as np
 import pytest
 
+from lineseg.poses import said_of
 from lineseg.readers import Reading, open_recording
 
 REFUSED = ("ros1_unsupported_v12", "ros1_no_laserscan")
@@ -132,3 +133,17 @@ def test_the_stamps_of_a_log_are_kept_as_they_are(data_dir):
     assert np.count_nonzero(np.diff(stamps) < 0) == 4
     equal = open_recording(data_dir / "carmen_belgioioso" / "carmen_belgioioso.log.gz").stamps
     assert len(set(equal)) == 1
+
+
+def test_recordings_with_poses_say_where_they_come_from(data_dir):
+    said = {
+        name: said_of(recording.poses, recording.pose_source)
+        for name in ("carmen_intel/carmen_intel.log", "ros1_urg04lx_corridor/target_before.bag",
+                     "ros1_two_urg04lx/scans_demo.bag")
+        for recording in [open_recording(data_dir / name)]
+    }  # fmt: skip
+    assert list(said.values()) == [
+        "910 of 910 scans, from FLASER lines, 0 ms apart",
+        "857 of 857 scans, from /tf (odom → base_link), 26 ms apart; also there: /odom",
+        "none: the bag has neither /tf nor a topic of poses",
+    ]
