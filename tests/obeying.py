@@ -42,11 +42,12 @@ class Obedient:
 
 
 @contextmanager
-def running(address: Address, topic: str, **fields: Any) -> Iterator[list[str]]:
-    """A node, in a thread, that publishes below the topic; yields what it tells."""
+def running(address: Address, topic: str, present: Running | None = None, **fields: Any) -> Iterator[list[str]]:
+    """A node, in a thread, that publishes below the topic; yields what it tells. present: what it runs."""
     told: list[str] = []
-    publishing = Publishing(OWNER, f"{topic}/markers", "region-growing", Params(), f"{topic}/cloud", **fields)
-    node = Node(address, publishing, Running("region-growing", Params()), told.append)
+    present = present or Running("region-growing", Params())
+    publishing = Publishing(OWNER, f"{topic}/markers", *present.now, f"{topic}/cloud", **fields)
+    node = Node(address, publishing, present, told.append)
     thread = threading.Thread(target=node.run)
     thread.start()
     try:

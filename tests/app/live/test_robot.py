@@ -7,12 +7,18 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from lineseg_app.live.address import Address as Laser
+from lineseg_app.live.running import Running
 from lineseg_app.server import Settings
 from live import Address, Page, page_of, serving
+from obeying import running
 from robots import nearest, wall, watching
 from rosbridge_peer import TEXT, RosBridgePeer, scan_message
+
+from lineseg import EXTRACTORS
+from lineseg.readers.laser_scan import LaserScan
 
 
 @pytest.fixture
@@ -227,3 +233,22 @@ def test_a_publication_that_fails_says_why(server: Address, page: Page):
         answer = server.post("/api/robot/segments", json=asked)
         assert answer.status_code in (400, 404)
         assert sentence in answer.json()["message"]
+
+
+def test_a_node_over_rosbridge_runs_any_method_and_another_from_the_next_scan_on(peer: RosBridgePeer):
+    room = [*wall(2.0)[:45], *[3.0] * 5, *wall(4.0)[50:]]
+    scan = LaserScan(0, 0, "", -math.radians(45), math.radians(1), 0.1, 30.0, np.float32(room)).beams()
+    present = Running("hough", EXTRACTORS["hough"].params_type())
+    with running(Laser(peer.url, "/scan"), "/scan", present):
+        assert peer.subscribed.wait(60)
+        for method in ("hough", "split-and-merge-textbook", "region-growing"):
+            params = EXTRACTORS[method].params_type(min_points=12)
+            present.send(method, params)
+            peer.publish("/scan", scan_message(room))
+            sent = dict(peer.received.get(timeout=60) for _ in range(2))
+            expected = EXTRACTORS[method].extract(scan, params).segments
+            assert len(expected) == 2
+            (marker,) = sent["/scan/markers"]["markers"]
+            ends = [end for segment in expected for end in (segment.start, segment.end)]
+            assert [(point["x"], point["y"]) for point in marker["points"]] == [pytest.approx(end) for end in ends]
+            assert sent["/scan/cloud"]["width"] == 2
