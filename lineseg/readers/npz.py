@@ -160,11 +160,12 @@ def _recording(source: Source, arrays: dict[str, NDArray]) -> Recording:
     lengths = _per_frame(arrays, "beams", frames, beams).astype(np.int64)
     if ((lengths < 0) | (lengths > beams)).any():
         raise ValueError(f"beams has the value {lengths.max()}; a row of ranges has only {beams}.")
-    inside = np.arange(beams) < lengths[:, None]
+    # None if every row is full, as nearly always: a mask would copy all.
+    inside = None if (lengths == beams).all() else np.arange(beams) < lengths[:, None]
     topic = Topic("ranges", frames)
     return Recording(
         name=source.name,
-        ranges=ranges[inside],
+        ranges=_flat(ranges, inside),
         offsets=np.concatenate(([0], np.cumsum(lengths))),
         angle_min=_per_frame(arrays, "angle_min", frames, 0.0),
         angle_increment=_per_frame(arrays, "angle_increment", frames, 0.0),
@@ -220,13 +221,17 @@ def _per_frame(arrays: dict[str, NDArray], name: str, frames: int, default: floa
     return np.broadcast_to(array, frames).copy()
 
 
-def _rows(arrays: dict[str, NDArray], name: str, shape: tuple, inside: NDArray, kind: type) -> NDArray | None:
+def _rows(arrays: dict[str, NDArray], name: str, shape: tuple, inside: NDArray | None, kind: type) -> NDArray | None:
     if name not in arrays:
         return None
     array = _numbers(arrays, name, np.float64)
     if np.atleast_2d(arrays[name]).shape != shape:
         raise ValueError(f"{name} has the shape {arrays[name].shape}; it needs the shape of ranges, {shape}.")
-    return np.atleast_2d(array)[inside].astype(kind)
+    return _flat(np.atleast_2d(array), inside).astype(kind)
+
+
+def _flat(rows: NDArray, inside: NDArray | None) -> NDArray:
+    return rows.reshape(-1) if inside is None else rows[inside]
 
 
 def _table(arrays: dict[str, NDArray], name: str, columns: int, rows: int | None) -> NDArray | None:

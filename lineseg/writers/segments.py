@@ -7,10 +7,12 @@ from __future__ import annotations
 
 import csv
 import io
-import json
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any, TextIO
+
+import msgspec
+import numpy as np
 
 from ..covariance import Noise, covariances
 from ..scan import Scan
@@ -39,7 +41,7 @@ def json_lines(rows: Rows, noise: Noise | None = None, about: About = None) -> I
         if about:
             row["about"] = about
             about = None
-        yield json.dumps(row, ensure_ascii=False, allow_nan=False) + "\n"
+        yield _text(row) + "\n"
 
 
 def geojson(rows: Rows, noise: Noise | None = None, about: About = None) -> Iterator[str]:
@@ -47,15 +49,15 @@ def geojson(rows: Rows, noise: Noise | None = None, about: About = None) -> Iter
 
     Coordinates are metres in the frame of the laser, not degrees; GeoJSON has no field to declare this.
     """
-    head = f'"about": {json.dumps(about, ensure_ascii=False)}, ' if about else ""
-    yield f'{{"type": "FeatureCollection", {head}"features": ['
+    head = f'"about":{_text(about)},' if about else ""
+    yield f'{{"type":"FeatureCollection",{head}"features":['
     separator = "\n"
     for frame, scan, extraction in rows:
         for number, fields in enumerate(_segments(scan, extraction, noise)):
             line = {"type": "LineString", "coordinates": [fields.pop("start"), fields.pop("end")]}
             about = {"frame": frame, "stamp": finite_or_none(scan.stamp), "frame_id": scan.frame_id, "segment": number}
             feature = {"type": "Feature", "geometry": line, "properties": about | fields}
-            yield separator + json.dumps(feature, ensure_ascii=False, allow_nan=False)
+            yield separator + _text(feature)
             separator = ",\n"
     yield "\n]}\n"
 
@@ -116,16 +118,22 @@ def _segments(scan: Scan, extraction: Extraction, noise: Noise | None) -> list[d
 
 
 def _fields(segment: Segment) -> dict[str, object]:
+    line, start, end, first, last, points, length, rms = segment
     return {
-        "start": [float(value) for value in segment.start],
-        "end": [float(value) for value in segment.end],
-        "first": int(segment.first),
-        "last": int(segment.last),
-        "line": [float(value) for value in segment.line],
-        "points": int(segment.points),
-        "length": float(segment.length),
-        "rms": float(segment.rms),
+        "start": start,
+        "end": end,
+        "first": first,
+        "last": last,
+        "line": line,
+        "points": points,
+        "length": length,
+        "rms": rms,
     }
+
+
+def _text(value: object) -> str:
+    """JSON; numpy's numbers, which an extractor of one's own may leave in a segment, are numbers in it."""
+    return msgspec.json.encode(value, enc_hook=np.generic.item).decode()
 
 
 def _polar(scan: Scan, extraction: Extraction, noise: Noise) -> list[tuple[float, ...]]:
