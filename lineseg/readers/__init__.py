@@ -121,7 +121,9 @@ def _reader(source: Source, head: bytes) -> type[Reader]:
     if not head.strip():
         raise ValueError(f"{source.name} is empty{expected}.")
     if (reader := _recognised(head)) is not None:
-        return CarmenLog if reader is Text and by_suffix is CarmenLog and not _has_numbers(head) else reader
+        # Its sentence says what such a file has.
+        told = reader is Text and by_suffix in (CarmenLog, EchoYaml, JsonMessages) and not _has_numbers(head)
+        return by_suffix if told and by_suffix is not None else reader
     formats = ", ".join(reader.format for reader in READERS)
     raise ValueError(
         f"{source.name} begins with {head[:8]!r}, which is not a known format{expected}. Known formats: {formats}."
@@ -147,4 +149,5 @@ def _has_numbers(head: bytes) -> bool:
 
 def _head(path: Path) -> bytes:
     with path.open("rb") as file:
-        return file.read(HEAD_BYTES)
+        head = file.read(HEAD_BYTES)
+    return head.rstrip(b"\0") or head

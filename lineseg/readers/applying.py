@@ -13,11 +13,11 @@ from numpy.typing import NDArray
 
 from ..scan import Recording, Scan
 from .account import Account, Findings, Guess, Notes
-from .guessing import guess_limit, guess_unit, no_return_codes, sampled
+from .guessing import guess_least, guess_limit, guess_unit, no_return_codes, sampled
 from .lasers import one_laser
 from .plausible import noticed, oddness, trouble_in, trouble_of
 from .posing import with_poses
-from .reading import METRES, Reading, Span, frames_of, span_of, values_of
+from .reading import METRES, RADIANS, Reading, Span, frames_of, span_of, values_of
 from .saying import line_of
 from .sweeping import without_motion
 
@@ -100,8 +100,8 @@ def _in_metres_and_radians(recording: Recording, reading: Reading, notes: Notes)
         changes["ranges"] = recording.ranges * scale
         if not _limits_in_metres(recording):
             changes |= {name: getattr(recording, name) * scale for name in ("range_min", "range_max")}
-    if angle_unit == "deg" and not notes.radians:
-        changes |= _angles(recording, np.deg2rad)
+    if angle_unit != "rad" and not notes.radians:
+        changes |= _angles(recording, lambda angles: angles * RADIANS[angle_unit])
     recording = replace(recording, **changes)
     recording = _with_geometry(recording, reading)
     if direction == "clockwise":
@@ -149,8 +149,11 @@ def _with_limits(recording: Recording, reading: Reading, notes: Notes) -> Record
         for low, high in codes:
             ranges[(ranges >= low - SAME) & (ranges <= high + SAME)] = np.nan
         changes["ranges"] = ranges
-    if "range_max" in notes.unstated and not codes:
-        changes["range_max"] = np.full(frames, guess_limit(recording, reading, notes))
+    if "range_max" in notes.unstated:
+        if least := guess_least(recording, reading, notes):
+            changes["range_min"] = np.full(frames, least)
+        if not codes:
+            changes["range_max"] = np.full(frames, guess_limit(recording, reading, notes))
     for name in ("range_min", "range_max"):
         if getattr(reading, name) is not None:
             changes[name] = np.full(frames, float(getattr(reading, name)))

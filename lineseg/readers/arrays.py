@@ -8,15 +8,14 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from ..scan import Recording, Topic
+from ..scan import Recording
 from .account import Notes
 from .beam_rows import beams_of
-from .guessing import angle_unit_of
-from .headers import Name, is_angle, is_distance, name_of
+from .headers import STAMPS, Name, is_angle, is_distance, name_of
 from .reading import columns_of
-from .scan_rows import scans_of, usual_angles
-from .source import Reader, Source, Sweeps
-from .stamping import stamp_unit
+from .scan_columns import alike, with_angles
+from .scan_rows import scans_of
+from .source import Reader, Source
 
 ANGLE_NAMES = ("ang", "bearing", "theta", "azimuth", "phi")
 STAMP_NAMES = ("stamp", "time")
@@ -83,8 +82,9 @@ def recording_of_arrays(source: Source, arrays: Mapping[str, NDArray], format: s
     """The scans of arrays of which one can be the ranges. Raises ValueError with the line of Python that helps."""
     tables = {name: array for name, array in arrays.items() if _plain(array) and array.ndim == 2}
     rows = {name: array for name, array in arrays.items() if _plain(array) and array.ndim == 1}
-    angles = next((name for name in rows if name.lower().startswith(ANGLE_NAMES)), None)
-    stamps = next((name for name in rows if name_of(name).plain == "t" or name.lower().startswith(STAMP_NAMES)), None)
+    plain = {name: name_of(name) for name in rows}
+    angles = next((name for name in rows if name.lower().startswith(ANGLE_NAMES) or is_angle(plain[name])), None)
+    stamps = next((name for name in rows if name.lower().startswith(STAMP_NAMES) or plain[name].plain in STAMPS), None)
     named = {name: array for name, array in rows.items() if name not in (angles, stamps)}
     if len(tables) > 1 and "ranges" in tables:
         tables = {"ranges": tables["ranges"]}
@@ -100,7 +100,7 @@ def recording_of_arrays(source: Source, arrays: Mapping[str, NDArray], format: s
     source.notes.unstated.add("unit")
     if angles is not None and rows[angles].shape == (array.shape[-1],):
         times = None if stamps is None else rows[stamps]
-        return _with_angles(source, np.atleast_2d(array), rows[angles].astype(np.float64), times, format)
+        return with_angles(source, np.atleast_2d(array), rows[angles].astype(np.float64), times, format)
     return _guessed(source, name, array, arrays, format)
 
 
@@ -121,13 +121,9 @@ def _guessed(
     given = None if reading.columns is None else columns_of(reading.columns)
     beams = given is not None and "ranges" not in given
     narrow = array.ndim == 2 and 2 <= array.shape[1] <= MOST_COLUMNS < array.shape[0]
-    if (narrow and not _repeats(array)) or beams:
+    if (narrow and not alike(array)) or beams:
         names = [Name(word) for word in given] if beams and given else None
         return beams_of(source, reading, np.atleast_2d(array), names, format=format)
-    if array.ndim == 2 and usual_angles(array.shape[0]) and not usual_angles(array.shape[1]) and given is None:
-        text = f"{name} was read as {array.shape[0]} beams × {array.shape[1]} scans, because no laser has so few beams."
-        source.notes.notice("transposed", text)
-        array = array.T
     values = list(np.atleast_2d(array))
     try:
         leading = given[:-1] if given else None
@@ -138,40 +134,6 @@ def _guessed(
         raise ValueError(
             _which(source, arrays, f"{name} has rows of {array.shape[-1]} ranges without angles")
         ) from None
-
-
-def _repeats(array: NDArray[np.float64]) -> bool:
-    """Whether columns hold about the same, as scans of one place do, and not angles beside distances."""
-    first, *others = array.T
-    gaps = [np.nanmedian(np.abs(first - other)) for other in others]
-    return bool(max(gaps) < 0.05 * np.nanmedian(np.abs(first))) if np.isfinite(first).any() else False
-
-
-def _with_angles(
-    source: Source, ranges: NDArray[np.float64], angles: NDArray[np.float64], stamps: NDArray | None, format: str
-) -> Recording:
-    """Rows of ranges that share the bearings of their beams."""
-    reading, notes = source.reading, source.notes
-    unit = reading.angle_unit or angle_unit_of(angles)
-    if reading.angle_unit is None:
-        why = f"the angles go from {angles.min():.4g} to {angles.max():.4g}"
-        notes.guess("angle_unit", "degrees" if unit == "deg" else "radians", why,
-                    angle_unit="rad" if unit == "deg" else "deg")  # fmt: skip
-    notes.guess("direction", "counter-clockwise", "the file does not say in which sense its angles count",
-                direction="clockwise")  # fmt: skip
-    notes.found["angle_unit"], notes.radians = unit, True
-    notes.unstated.add("range_max")
-    bearings = np.deg2rad(angles) if unit == "deg" else angles
-    step = (bearings[-1] - bearings[0]) / max(len(bearings) - 1, 1)
-    even = np.allclose(np.diff(bearings), step, rtol=0, atol=1e-5)
-    times = np.zeros(len(ranges))
-    if stamps is not None and len(stamps) == len(ranges):
-        times, notes.stamps = stamps * stamp_unit(stamps), "their array"
-    sweeps = Sweeps()
-    for row, time in zip(ranges, times.tolist(), strict=True):
-        sweeps.add(row, bearings[0], step, stamp=time, bearings=None if even else bearings)
-    topics = (Topic("ranges", len(sweeps)),)
-    return sweeps.recording(source, topic=source.choose(list(topics), "array"), topics=topics, format=format)
 
 
 def _which(source: Source, arrays: Mapping[str, NDArray], why: str) -> str:

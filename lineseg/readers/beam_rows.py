@@ -13,12 +13,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..scan import Floats, Recording, Topic
-from .dialect import Dialect, Row
-from .guessing import angle_unit_of
+from .dialect import LEFT_OUT, Dialect, Row
+from .guessing import angle_unit_of, guess_angle_unit
 from .headers import LENGTHS, SCANS, STAMPS, TIMES, TURNS, Name, column_of, is_angle, is_distance
-from .reading import Reading
+from .reading import RADIANS, Direction, Reading
+from .scan_columns import alike, tell_columns, with_angles
+from .scan_rows import scans_of
 from .source import Source, Sweeps
-from .stamping import stamp_unit
+from .stamping import in_seconds
 from .turns import regularity, turns
 
 # The steps of real angles are about equal; those of other columns are not.
@@ -26,6 +28,11 @@ LEAST_REGULAR = 0.5
 # Fewer beams show nothing about their columns.
 FEW_ROWS = 8
 LONGEST_NAME = 24
+CLOCKWISE = re.compile(r"(?<!counter_)(?<!anti_)(?:clockwise|(?<![^_])cw(?![^_]))")
+# Points lie on their beams but for rounding [rad].
+AGREE = 0.02
+# What pandas and numpy print where they leave rows out.
+LEFT_OUT_CELLS = {b"..", b"..."}
 
 
 class Roles(NamedTuple):
@@ -53,18 +60,41 @@ def beams_of(
     guess_direction: bool = True, format: str = "text",
 ) -> Recording:  # fmt: skip
     """The scans of a table (beams, columns)."""
-    roles = None if names is None else _named(names)
-    if roles is None:
-        roles = _guessed(source, table)
+    if names is not None:
+        return _with_roles(source, reading, table, names, _named(names), guess_direction, format)
+    if table.shape[1] > 2 and alike(table):
+        return scans_of(source, reading, list(range(1, len(table) + 1)), list(table), 0, None, format)
+    roles = _guessed(source, table)
+    others = [column for column in range(table.shape[1]) if column != roles.first]
+    if roles.polar and len(others) > 1 and alike(table[:, others]):
+        return columns_beside(source, reading, table, roles.first, others, format)
+    return _with_roles(source, reading, table, None, roles, guess_direction, format)
+
+
+def _with_roles(
+    source: Source, reading: Reading, table: NDArray[np.float64], names: list[Name] | None, roles: Roles,
+    guess_direction: bool, format: str,
+) -> Recording:  # fmt: skip
     notes = source.notes
+    if not roles.polar:
+        # A point at the laser is a beam without a return; it has no bearing.
+        table = table[(table[:, roles.first] != 0) | (table[:, roles.second] != 0)]
     if names is not None:
         _take_units(source, reading, names, roles)
     if "unit" not in notes.found:
         notes.unstated.add("unit")
-    first, second = table[:, roles.first], table[:, roles.second]
+    first, second = (_scaled(table, names, column) for column in (roles.first, roles.second))
     bearings, ranges = _polar(source, reading, first, second) if roles.polar else _from_points(first, second)
-    if names is not None and re.search(r"(?<!counter_)(?<!anti_)(clockwise|\bcw\b)", names[roles.first].plain):
+    if roles.polar and names is not None and CLOCKWISE.search(names[roles.first].plain):
         notes.found["direction"] = "clockwise"
+    elif roles.polar and names is not None and (points := _points(names)) is not None:
+        sense = _sense_of(table[:, points], bearings)
+        if sense is None:
+            # Such as angles from north: what x and y say needs no guess.
+            notes.guesses = [guess for guess in notes.guesses if guess.field != "angle_unit"]
+            roles = Roles(False, *points, roles.scan, roles.stamp)
+            return _with_roles(source, reading, table, names, roles, guess_direction, format)
+        notes.found["direction"] = sense
     elif roles.polar and guess_direction and reading.direction is None:
         notes.guess(
             "direction", "counter-clockwise", "the file does not say in which sense its angles count",
@@ -75,15 +105,48 @@ def beams_of(
     return replace(_recording(source, table, roles, bearings, ranges, names), format=format)
 
 
+def _sense_of(xy: NDArray[np.float64], bearings: Floats) -> Direction | None:
+    """The sense in which bearings [rad] count, if the points (n, 2) beside them agree; None otherwise."""
+    there = xy.any(axis=1) & np.isfinite(xy).all(axis=1)
+    points = np.arctan2(xy[there, 1], xy[there, 0])
+    senses: tuple[tuple[Direction, float], ...] = (("counter-clockwise", 1.0), ("clockwise", -1.0))
+    for sense, sign in senses:
+        if len(points) and np.median(np.abs(np.angle(np.exp(1j * (points - sign * bearings[there]))))) < AGREE:
+            return sense
+    return None
+
+
+def columns_beside(
+    source: Source, reading: Reading, table: NDArray[np.float64], angle: int, columns: list[int], format: str = "text"
+) -> Recording:
+    """The scans of a table whose columns have a scan each, beside one of angles."""
+    tell_columns(source.notes, len(columns))
+    source.notes.guesses = [guess for guess in source.notes.guesses if guess.field != "columns"]
+    source.notes.found.pop("columns", None)
+    if "unit" not in source.notes.found:
+        source.notes.unstated.add("unit")
+    return with_angles(source, table[:, columns].T, table[:, angle], None, format)
+
+
+def _scaled(table: NDArray[np.float64], names: list[Name] | None, column: int) -> Floats:
+    return table[:, column] if names is None else table[:, column] * names[column].scale
+
+
 def _named(names: list[Name]) -> Roles:
     scan = column_of(names, lambda name: name.plain in SCANS)
     stamp = column_of(names, lambda name: name.plain in STAMPS)
     angle, distance = column_of(names, is_angle), column_of(names, is_distance)
     if angle is not None and distance is not None:
         return Roles(True, angle, distance, scan, stamp)
-    x, y = (column_of(names, lambda name, axis=axis: name.plain.split("_")[-1] == axis) for axis in "xy")
-    assert x is not None and y is not None
-    return Roles(False, x, y, scan, stamp)
+    points = _points(names)
+    assert points is not None
+    return Roles(False, *points, scan, stamp)
+
+
+def _points(names: list[Name]) -> list[int] | None:
+    """The columns of x and y, if there are both."""
+    found = [column_of(names, lambda name, axis=axis: name.plain.split("_")[-1] == axis) for axis in "xy"]
+    return None if None in found else found
 
 
 def table_of(
@@ -93,10 +156,16 @@ def table_of(
     width = 0 if names is None else len(names)
     rows = list(rows)
     if (whole := _plain_table(rows, dialect, width)) is not None:
-        return whole
+        return whole[~np.isnan(whole).all(axis=1)]
     table: list[list[float]] = []
     for row in rows:
         cells = dialect.cells(row.text)
+        if cells and set(cells) <= LEFT_OUT_CELLS:
+            raise ValueError(f"{source.name}:{row.number}: {LEFT_OUT}.")
+        if not any(cells):
+            continue
+        if len(cells) == width - 1 and row.text.rstrip(b" \r").endswith(dialect.separator):
+            cells.append(b"")
         width = width or len(cells)
         if len(cells) < width:
             shown = ", ".join(name.plain[:LONGEST_NAME] for name in names) if names else "angle, distance"
@@ -173,7 +242,7 @@ def _distance_beside(table: NDArray[np.float64], columns: list[int], angle: int)
 
 
 def _radians(angles: Floats) -> Floats:
-    return np.deg2rad(angles) if angle_unit_of(angles) == "deg" else angles
+    return angles * RADIANS[angle_unit_of(angles)]
 
 
 def _take_units(source: Source, reading: Reading, names: list[Name], roles: Roles) -> None:
@@ -187,14 +256,7 @@ def _take_units(source: Source, reading: Reading, names: list[Name], roles: Role
 def _polar(source: Source, reading: Reading, angles: Floats, distances: Floats) -> tuple[Floats, Floats]:
     if not np.isfinite(angles).all():
         raise ValueError(f"{source.name}: an angle is not a finite number; each beam needs its own.")
-    unit = reading.angle_unit or source.notes.found.get("angle_unit")
-    if unit is None:
-        unit = angle_unit_of(angles)
-        other = "rad" if unit == "deg" else "deg"
-        why = f"no unit is stated, and the angles go from {angles.min():.4g} to {angles.max():.4g}"
-        source.notes.guess("angle_unit", "degrees" if unit == "deg" else "radians", why, angle_unit=other)
-        source.notes.found["angle_unit"] = unit
-    return np.deg2rad(angles) if unit == "deg" else angles, distances
+    return angles * RADIANS[guess_angle_unit(angles, reading, source.notes)], distances
 
 
 def _from_points(x: Floats, y: Floats) -> tuple[Floats, Floats]:
@@ -213,14 +275,15 @@ def _recording(
     if roles.stamp is not None and np.isfinite(table[:, roles.stamp]).all():
         unit = TIMES.get(names[roles.stamp].unit) if names else None
         beams = table[:, roles.stamp]
-        scale = unit or stamp_unit(beams[edges[:-1]] if len(edges) > 2 else beams)
-        stamps, source.notes.stamps = beams * scale, f"column {roles.stamp + 1}"
+        first = beams[edges[:-1]] if len(edges) > 2 else beams
+        stamps = first * unit if unit else in_seconds(first)[0]
+        source.notes.stamps = f"column {roles.stamp + 1}"
     sweeps = Sweeps()
-    for start, stop in pairwise(edges):
+    for (start, stop), stamp in zip(pairwise(edges), stamps.tolist(), strict=False):
         angles = np.unwrap(bearings[start:stop])
         if angles.max() > 2 * np.pi + 0.01:
             angles -= 2 * np.pi
         increment = (angles[-1] - angles[0]) / max(len(angles) - 1, 1)
-        sweeps.add(ranges[start:stop], angles[0], increment, stamp=float(stamps[start]), bearings=angles)
+        sweeps.add(ranges[start:stop], angles[0], increment, stamp=stamp, bearings=angles)
     topics = (Topic("scan", len(sweeps)),)
     return sweeps.recording(source, topic=source.choose(list(topics)), topics=topics, format="text")

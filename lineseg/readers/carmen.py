@@ -76,7 +76,9 @@ class CarmenLog(Reader):
                 settings[key] = value
         if not lasers:
             source.notes.nothing_left()
-            raise ValueError(f"{source.name} has no laser line; a CARMEN log has {CarmenLog.expects}.")
+            first = next((line.strip() for _, line in source.lines() if line.strip()), b"")
+            begins = f"it begins with {first[:40].decode('utf-8', 'replace')!r}; " if first else ""
+            raise ValueError(f"{source.name} has no laser line; {begins}a CARMEN log has {CarmenLog.expects}.")
         # What CARMEN's drivers publish raw, it publishes again with the robot's pose.
         names = sorted(lasers, key=lambda name: name.startswith("RAW"))
         topics = [Topic(name, len(lasers[name])) for name in names]

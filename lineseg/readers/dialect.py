@@ -26,6 +26,11 @@ LIST = re.compile(
     rb"[\w\s.:=,+-]*(?:\('\w',\s*)?[\[({][\[({\s]*(?:[-+]?\.?(?:\d|nan|inf|None|True|False|float)[^:\"]*)?",
     re.IGNORECASE,
 )
+# An index, or a unit with its factor, in brackets behind the name of a column.
+IN_NAME = re.compile(
+    "[^\\[({]*[\\[({](?:\\d+[\\])}]\\s*(?:[,;\t]|$)|\\s*[\\d./]+\\s?(?!nan|inf)(?:[a-zµ]{1,12}|°)\\s*[\\])}])".encode(),
+    re.IGNORECASE,
+)
 WORDS = {
     rb"float\(['\"]([-+\w]+)['\"]\)": rb"\1",
     rb"\b(?:np|numpy|math)\.": b"",
@@ -36,6 +41,11 @@ MISSING = (b"", b"-", b"--", b"null", b"none", b"na", b"n/a", b"#n/a", b".nan", 
 TIME = re.compile(
     rb"(?:(\d{4})[-/.](\d\d?)[-/.](\d\d?)[T /_-])?(\d\d?):(\d\d):(\d\d(?:[.,]\d+)?)\s*(?:Z|UTC|([-+]\d\d):?(\d\d))?"
 )
+# Marks between thousands: of English, of German, and of Swiss or French numbers.
+ENGLISH = re.compile(rb"[-+]?[1-9]\d{0,2}(?:,\d{3})+(?:\.\d*)?")
+GERMAN = re.compile(rb"[-+]?[1-9]\d{0,2}(?:\.\d{3})+(?:,\d*)?")
+SPACED = re.compile("[-+]?[1-9]\\d{0,2}(?:['’\u00a0\u202f ]\\d{3})+(?:[.,]\\d*)?".encode())
+THOUSANDS = re.compile(rb"[^\d.,+-]+")
 LONGEST_ROW = 1 << 24
 FREE_NUMBER = re.compile(rb"(?<![\w.])[-+]?\d+\.?\d*(?:[eE][-+]?\d+)?")
 LEFT_OUT = (
@@ -81,7 +91,9 @@ class Dialect:
 
     def numbers(self, text: bytes) -> Floats | None:
         """All numbers of a line, NaN for empty cells; None if one of its words is not a number."""
-        if b'"' not in text and (self.separator == b" " or not self._has_gaps(text)):
+        plain = b'"' not in text and (self.separator == b" " or not self._has_gaps(text))
+        # Here a comma or a point may stand between thousands.
+        if plain and not (b"." in text if self.comma else self.separator != b"," and b"," in text):
             values = all_numbers(self._plain(text))
             if values is not None:
                 return values
@@ -91,10 +103,16 @@ class Dialect:
 
     def number(self, cell: bytes) -> float | None:
         """The number in a cell, NaN if it is empty, None if it holds something else."""
+        if self.comma and b"." in cell and GERMAN.fullmatch(cell.strip()):
+            cell = cell.replace(b".", b"")
         try:
             return float(cell.replace(b",", b".") if self.comma else cell)
         except ValueError:
-            return float("nan") if cell.strip().lower() in MISSING else seconds_of(cell.strip())
+            cell = cell.strip()
+            if cell.lower() in MISSING:
+                return float("nan")
+            number = _with_thousands(cell)
+            return seconds_of(cell) if number is None else number
 
     def _plain(self, text: bytes) -> bytes:
         """The line with decimal points, and blanks between the numbers."""
@@ -107,6 +125,13 @@ class Dialect:
         bare = text.strip(b" \r\n")
         mark = self.separator
         return mark * 2 in bare or bare.startswith(mark) or mark + b" " + mark in bare
+
+
+def _with_thousands(cell: bytes) -> float | None:
+    """A number with marks between its thousands; None for other text."""
+    if ENGLISH.fullmatch(cell):
+        return float(cell.replace(b",", b""))
+    return float(THOUSANDS.sub(b"", cell).replace(b",", b".")) if SPACED.fullmatch(cell) else None
 
 
 def _quoted(text: bytes, mark: bytes) -> list[bytes] | None:
@@ -156,21 +181,32 @@ def dialect_of(lines: list[bytes]) -> Dialect:
     words = b" ".join(data).split()
     if len(words) >= 2 * len(data) and all(EITHER.fullmatch(word) for word in words):
         return Dialect(b" ", comma=True)
+    if len(words) >= 2 * len(data) and all(ENGLISH.fullmatch(word) or is_number(word) for word in words):
+        return Dialect(b" ")
     # In quotes, a comma may be a decimal sign also where commas part the cells.
     quoted = [cell for line in data if line.count(b'"') > 2 for cell in Dialect(b",").cells(line)]
     return Dialect(b",", _decimal_commas(quoted))
 
 
 def _decimal_commas(cells: Iterable[bytes]) -> bool:
-    """Whether numbers have a decimal comma: some cells do, and none has a decimal point."""
+    """Whether numbers have a decimal comma: some cells do, and none has a decimal point.
+
+    A comma or a point before three digits may also stand between thousands, as others beside it show.
+    """
     cells = [cell.strip().strip(b'"') for cell in cells]
-    pointed = any(re.fullmatch(rb"[-+]?\d*\.\d+", cell) for cell in cells)
-    return not pointed and any(DECIMAL_COMMA.fullmatch(cell) for cell in cells)
+    commas = [cell for cell in cells if DECIMAL_COMMA.fullmatch(cell) or (b"," in cell and GERMAN.fullmatch(cell))]
+    decimal = [cell for cell in commas if not ENGLISH.fullmatch(cell)]
+    points = [cell for cell in cells if re.fullmatch(rb"[-+]?\d*\.\d+", cell)]
+    if not commas or any(not GERMAN.fullmatch(cell) for cell in points):
+        return False
+    if decimal:
+        return True
+    return not points and not any(re.fullmatch(rb"[-+]?[1-9]\d\d", cell) for cell in cells)
 
 
 def is_list(line: bytes) -> bool:
     """Whether a line begins a list in brackets, perhaps after numbers or a name, and not a header with brackets."""
-    return LIST.fullmatch(line.strip()) is not None and not re.match(rb"[^\[({]*[\[({]\d+[\])}]\s*(?:[,;\t]|$)", line)
+    return LIST.fullmatch(line.strip()) is not None and not IN_NAME.match(line)
 
 
 def bracketed(rows: Iterable[Row], name: str) -> Iterator[Row]:

@@ -12,12 +12,23 @@ from .account import Notes
 from .range_limits import longest_return
 from .reading import AngleUnit, Reading, Unit
 
-UNIT_NAMES = {"m": "metres", "cm": "centimetres", "mm": "millimetres", "in": "inches", "ft": "feet"}
+UNIT_NAMES = {
+    "m": "metres", "cm": "centimetres", "mm": "millimetres", "0.1mm": "tenths of a millimetre",
+    "1/4mm": "quarters of a millimetre", "um": "micrometres", "in": "inches", "ft": "feet",
+}  # fmt: skip
+ANGLE_UNIT_NAMES = {
+    "rad": "radians", "deg": "degrees", "gon": "gon", "mrad": "milliradians", "0.01deg": "hundredths of a degree",
+    "1/64deg": "64ths of a degree",
+}  # fmt: skip
 # Rooms and yards: a laser's median range is hardly ever outside of these [m].
 NEAR, FAR = 0.35, 60.0
 # What drivers write for "no return": the greatest numbers of 16, 15, 14, 13 and 12 bits in millimetres or centimetres.
 CODES = (655.35, 655.34, 655.33, 65.535, 65.534, 65.533, 32.767, 16.383, 8.191, 4.095)
 OFTEN, FEW = 0.002, 3
+# No laser of robots measures so near [m].
+CODES_BELOW = 0.02
+# Two turns, and a little; a turn, and a little.
+MOST_DEGREES, MOST_RADIANS = 725.0, 2 * np.pi + 0.2
 # A greatest value so many times as large as the next is no reading.
 ALONE, ENOUGH = 3.0, 100
 MOST_SAMPLED = 2_000
@@ -79,8 +90,26 @@ def guess_unit(recording: Recording, reading: Reading, notes: Notes) -> Unit:
 
 
 def angle_unit_of(angles: Floats) -> AngleUnit:
-    """Degrees if angles are too large for radians."""
-    return "deg" if angles.size and float(np.nanmax(np.abs(angles))) > 2 * np.pi + 0.2 else "rad"
+    """Degrees if angles are too large for radians, and what drivers count in if they are too large for degrees."""
+    greatest = float(np.nanmax(np.abs(angles), initial=0.0)) if angles.size else 0.0
+    if greatest <= MOST_RADIANS:
+        return "rad"
+    if greatest <= MOST_DEGREES:
+        return "deg"
+    # A turn of these units, or else hundredths.
+    turn = {"mrad": 2000 * np.pi, "1/64deg": 360 * 64}
+    return next((unit for unit, most in turn.items() if 0.98 * most < greatest <= most), "0.01deg")  # type: ignore[return-value]
+
+
+def guess_angle_unit(angles: Floats, reading: Reading, notes: Notes) -> AngleUnit:
+    """The unit of the angles: as wanted, as the file says, or guessed."""
+    unit = reading.angle_unit or notes.found.get("angle_unit")
+    if unit is None:
+        unit = notes.found["angle_unit"] = angle_unit_of(angles)
+        why = f"no unit is stated, and the angles go from {np.nanmin(angles):.4g} to {np.nanmax(angles):.4g}"
+        other = {"deg": "rad", "0.01deg": "1/64deg", "1/64deg": "0.01deg"}.get(unit, "deg")
+        notes.guess("angle_unit", ANGLE_UNIT_NAMES[unit], why, angle_unit=other)
+    return unit
 
 
 def no_return_codes(recording: Recording, reading: Reading, notes: Notes) -> tuple[float, ...]:
@@ -100,6 +129,20 @@ def no_return_codes(recording: Recording, reading: Reading, notes: Notes) -> tup
     why = "it is the greatest number that fits, and recurs" if code in CODES else "it recurs, far beyond all others"
     notes.guess("no_return", f"{code:g} m means no return", why, no_return="none")
     return (code,)
+
+
+def guess_least(recording: Recording, reading: Reading, notes: Notes) -> float:
+    """The range below which numbers are codes of errors, as Hokuyo's 0 to 19 mm [m]; 0 if there are none."""
+    if reading.range_min is not None or recording.range_min.any():
+        return 0.0
+    ranges = recording.ranges[(recording.ranges > 0) & (recording.ranges < 2 * CODES_BELOW)]
+    codes = np.unique(np.round(1000 * ranges, 6))
+    whole = len(codes) and codes[-1] < 1000 * CODES_BELOW and bool((codes == np.round(codes)).all())
+    if not whole or len(ranges) > 0.5 * len(recording.ranges):
+        return 0.0
+    why = f"{len(ranges)} readings are {codes[0]:g} to {codes[-1]:g} mm, as codes of errors are"
+    notes.guess("range_min", f"no return below {100 * CODES_BELOW:g} cm", why, range_min=0.0)
+    return CODES_BELOW
 
 
 def guess_limit(recording: Recording, reading: Reading, notes: Notes) -> float:

@@ -16,35 +16,57 @@ DISTANCES = (
     "distanz", "abstand", "entfernung", "länge", "laenge", "length",
 )  # fmt: skip
 STAMPS = ("stamp", "timestamp", "time", "t", "secs", "sec", "seconds", "zeit", "rosbagtimestamp", "datetime")
-BEAMS = ("beam", "beam_id", "beam_index", "beam_number", "beam_no", "ray", "point_id", "index", "idx", "i", "step")
+BEAMS = ("beam", "beam_id", "beam_index", "beam_number", "beam_no", "ray", "point_id", "index", "idx", "i", "step",
+    "step_n", "step_no",
+)  # fmt: skip
 SCANS = ("scan", "scan_id", "scan_number", "frame", "sweep", "scan_index", "scan_no", "turn", "revolution", "rev")
 LASERS = (
     "frame_id", "header_frame_id", "laser", "laser_id", "laser_name", "lidar", "lidar_id", "lidar_name", "sensor",
     "sensor_id", "sensor_name", "device", "device_id", "scanner", "scanner_id", "source", "topic",
 )  # fmt: skip
+# What SI puts before a unit, and what drivers count in, as a unit of the Reading and a factor.
+SCALED = {
+    "dm": ("m", 0.1), "decimetre": ("m", 0.1), "decimeter": ("m", 0.1), "km": ("m", 1000.0),
+    "mdeg": ("deg", 1e-3), "millideg": ("deg", 1e-3), "cdeg": ("deg", 0.01), "centideg": ("deg", 0.01),
+    "centidegree": ("deg", 0.01), "centidegrees": ("deg", 0.01), "urad": ("rad", 1e-6), "µrad": ("rad", 1e-6),
+    "arcmin": ("deg", 1 / 60), "arcsec": ("deg", 1 / 3600), "turn": ("deg", 360.0), "turns": ("deg", 360.0),
+}  # fmt: skip
 LENGTHS: dict[str, Unit] = {
     "m": "m", "metre": "m", "metres": "m", "meter": "m", "meters": "m",
     "cm": "cm", "centimetre": "cm", "centimetres": "cm", "centimeter": "cm", "centimeters": "cm",
     "in": "in", "inch": "in", "inches": "in", "ft": "ft", "foot": "ft", "feet": "ft",
     "mm": "mm", "millimetre": "mm", "millimetres": "mm", "millimeter": "mm", "millimeters": "mm",
+    "um": "um", "µm": "um", "micron": "um", "microns": "um", "micrometre": "um", "micrometres": "um",
+    "micrometer": "um", "micrometers": "um",
 }  # fmt: skip
 TURNS: dict[str, AngleUnit] = {
     "rad": "rad", "rads": "rad", "radian": "rad", "radians": "rad",
     "deg": "deg", "degs": "deg", "degree": "deg", "degrees": "deg", "°": "deg", "grad": "deg",
+    "gon": "gon", "gons": "gon", "gradian": "gon", "gradians": "gon", "mrad": "mrad", "mrads": "mrad",
+    "milliradian": "mrad", "milliradians": "mrad",
 }  # fmt: skip
 TIMES = {
     "s": 1.0, "sec": 1.0, "secs": 1.0, "seconds": 1.0, "ms": 1e-3, "msec": 1e-3, "milliseconds": 1e-3,
     "us": 1e-6, "µs": 1e-6, "microseconds": 1e-6, "ns": 1e-9, "nsec": 1e-9, "nsecs": 1e-9, "nanoseconds": 1e-9,
 }  # fmt: skip
-UNITS = {**LENGTHS, **TURNS, **TIMES}
+UNITS = {**LENGTHS, **TURNS, **TIMES, **SCALED}
+# A unit in brackets or after a slash; one with its factor at the end of a name; a fixed-point format such as Q6.
+IN_BRACKETS = re.compile(r"[(\[{]\s*([^()\[\]{}]+?)\s*[)\]}]?\s*$|\s/\s*([^()\[\]{}/\d]+)\s*$|(?<=\w)/([^\W\d]+|°)\s*$")
+WITH_FACTOR = re.compile(r"(?<=[A-Za-z])[_ ]+(\d*[./]\d+[_ ]?[A-Za-zµ°]+)\s*$")
+FIXED_POINT = re.compile(r"[_ ]q(\d\d?)(?:_?checkbit)?(?=\s*$)", re.IGNORECASE)
+FACTOR = re.compile(r"(?:(\d+)\s*/\s*(\d+)|(\d*[.,]?\d+(?:e-?\d+)?))[\s_]*[x×*·]?\s*([^\W\d_]+|°)", re.IGNORECASE)
 
 
 class Name(NamedTuple):
-    """A column's name in plain words joined by "_", its unit ("" if not said), and its element in an array, or −1."""
+    """A column's name in plain words joined by "_", its unit ("" if not said), and its element in an array, or −1.
+
+    scale: how many of this unit 1 in the column is, such as 0.1 for "1/10 mm".
+    """
 
     plain: str
     unit: str = ""
     element: int = -1
+    scale: float = 1.0
 
     def ends(self, *known: str) -> bool:
         """Whether it is one of these names, perhaps after a prefix such as that of a topic."""
@@ -54,11 +76,10 @@ class Name(NamedTuple):
 @lru_cache(maxsize=4096)
 def name_of(cell: str) -> Name:
     """`/scan/ranges[3]` → ranges of index 3; `Angle (deg)` → angle in deg; `field.header.stamp` → header_stamp."""
-    text = cell.strip().strip("\"'%\ufeff ").replace("\N{DEGREE SIGN}", "°")
-    unit = ""
-    for found in re.finditer(r"[(\[{/]\s*([^()\[\]{}/\d]+?)\s*[)\]}]?\s*$", text):
-        if found[1].lower() in UNITS:
-            unit, text = found[1].lower(), text[: found.start()]
+    text = cell.strip().strip("\"'%\ufeff ").replace("\N{GREEK SMALL LETTER MU}", "µ")
+    text, unit, scale = _without_unit(
+        re.sub(r"(?<=(?i:xyz))\W?([012])\W?$", lambda found: "_" + "xyz"[int(found[1])], text)
+    )
     index = re.search(r"(?:\[(\d+)\]|[._/ ](\d+)|(?<=[A-Za-z])(\d+))\s*$", text)
     if index:
         text = text[: index.start()]
@@ -68,8 +89,42 @@ def name_of(cell: str) -> Name:
     last = plain.rsplit("_", 1)
     if not unit and len(last) == 2 and last[1] in UNITS and last[0].split("_")[-1] not in ("stamp", "header"):
         plain, unit = last[0].removesuffix("_in"), last[1]
+    if unit in SCALED:
+        unit, factor = SCALED[unit]
+        scale *= factor
     number = next((int(group) for group in index.groups() if group), -1) if index else -1
-    return Name(plain, unit, number)
+    return Name(plain, unit, number, scale)
+
+
+def _without_unit(text: str) -> tuple[str, str, float]:
+    """A name without the unit that it ends with, this unit ("" without one), and its scale."""
+    unit, scale = "", 1.0
+    for form in (IN_BRACKETS, WITH_FACTOR):
+        found = form.search(text)
+        said = unit_of(next(filter(None, found.groups()))) if found else None
+        if found and said is not None:
+            (unit, scale), text = said, text[: found.start()]
+            break
+    if found := FIXED_POINT.search(text):
+        text = text[: found.start()]
+        if not unit:
+            # Q14 is a part of a quarter of a turn, as in RPLIDAR's nodes.
+            turn = 90.0 if found[1] == "14" else 1.0
+            unit, whole = ("deg", turn) if "ang" in text.lower() else ("mm", 1.0)
+            text, scale = re.sub(r"[_ ]mm$", "", text), whole / 2 ** int(found[1])
+    return text, unit, scale
+
+
+def unit_of(text: str) -> tuple[str, float] | None:
+    """The unit that a text names, and its factor: "1/16°" is ("°", 0.0625); None for other words."""
+    text = text.strip().lower()
+    if text in UNITS:
+        return text, 1.0
+    found = FACTOR.fullmatch(text)
+    if found is None or found[4] not in UNITS:
+        return None
+    factor = int(found[1]) / int(found[2]) if found[1] and int(found[2]) else float((found[3] or "1").replace(",", "."))
+    return found[4], factor
 
 
 def is_angle(name: Name) -> bool:
@@ -105,5 +160,7 @@ def array_columns(names: list[Name]) -> list[int]:
         return []
     of_ranges = [stem for stem in stems if stem.split("_")[-1] in ("ranges", "range")]
     stem = of_ranges[0] if of_ranges else max(stems, key=lambda stem: len(stems[stem]))
-    found = sorted(stems[stem])
-    return [at for _, at in found] if of_ranges or len(found) >= 8 else []
+    # Of several echoes with one number, the first.
+    first = dict(reversed(stems[stem]))
+    found = [first[element] for element in sorted(first)]
+    return found if of_ranges or len(found) >= 8 else []

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from .dialect import seconds_of
-from .guessing import angle_unit_of
+from .guessing import guess_angle_unit
 from .headers import LENGTHS, TIMES, TURNS, Name, is_angle, is_distance, name_of
 from .laser_scan import LaserScan, decode_json
 from .scan_rows import other_angles, usual_angles
@@ -38,6 +38,13 @@ def parsed(text: bytes | str) -> Any:
         return json.loads(text.strip().rstrip(b"," if isinstance(text, bytes) else ","))  # type: ignore[arg-type]
     except (ValueError, RecursionError):
         return None
+
+
+def as_list(value: Any) -> Any:
+    """The values of an object whose keys count from 0, as JavaScript and pandas write arrays; all else unchanged."""
+    if not isinstance(value, Mapping) or "0" not in value or str(len(value) - 1) not in value:
+        return value
+    return list(value.values()) if all(key == str(at) for at, key in enumerate(value)) else value
 
 
 def json_values(source: Source) -> Iterator[tuple[str, Any]]:
@@ -142,8 +149,8 @@ def _take_units(source: Source, found: Mapping[str, tuple[Name, Any]]) -> None:
         elif found["ranges"][0].plain != "ranges" or "angle_min" not in found:
             notes.unstated.add("unit")
     turns = [TURNS.get(name.unit) for field, (name, _) in found.items() if field.startswith("angle")]
-    if "deg" in turns:
-        notes.found["angle_unit"] = "deg"
+    if turn := next((turn for turn in turns if turn not in (None, "rad")), None):
+        notes.found["angle_unit"] = turn
 
 
 def _angles(source: Source, found: Mapping[str, tuple[Name, Any]], beams: int) -> dict[str, float]:
@@ -152,11 +159,7 @@ def _angles(source: Source, found: Mapping[str, tuple[Name, Any]], beams: int) -
     listed = found["angles"][1] if "angles" in found else None
     if isinstance(listed, list) and len(listed) == beams > 1:
         angles = np.asarray(listed, dtype=np.float64)
-        if reading.angle_unit is None and "angle_unit" not in notes.found:
-            unit = notes.found["angle_unit"] = angle_unit_of(angles)
-            why = f"the angles go from {angles.min():.4g} to {angles.max():.4g}"
-            notes.guess("angle_unit", "degrees" if unit == "deg" else "radians", why,
-                        angle_unit="rad" if unit == "deg" else "deg")  # fmt: skip
+        guess_angle_unit(angles, reading, notes)
         return {"angle_min": float(angles[0]), "angle_increment": float(angles[-1] - angles[0]) / (beams - 1)}
     if "angle_min" in found or beams < 2:
         return {}

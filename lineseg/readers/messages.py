@@ -14,15 +14,16 @@ from ..scan import Recording, Topic
 from .beam_rows import beams_of, read_beams
 from .dialect import LEFT_OUT, Dialect, Row
 from .headers import is_angle, is_distance, name_of
-from .json_scans import json_values, parsed, scan_of
+from .json_scans import NAMES, as_list, json_values, parsed, scan_of
 from .laser_scan import LaserScan, decode_json
 from .lasers import rows_of_one_laser
 from .source import Reader, Source, Sweeps
-from .stamping import stamp_unit
+from .stamping import in_seconds
 
 MOST_DEPTH = 6
 LIST_KEYS = ("ranges", "distances", "range", "distance")
 LEAST_BEAMS = 8
+STAMP_NAMES = NAMES["stamp"]
 ECHO_LINES = (
     re.compile(rb"^[ \t]*angle_(?:min|increment|step)[ \t]*[:=][ \t]*[-+.\d]", re.MULTILINE),
     re.compile(rb"^[ \t]*ranges[ \t]*[:=][ \t]*(?:[-+.\d\[]|inf|nan|$)", re.MULTILINE),
@@ -102,11 +103,9 @@ def recording_of(source: Source, found: dict[str, list[LaserScan]], format: str)
     topics = tuple(Topic(name, len(scans)) for name, scans in found.items())
     topic = source.choose(list(topics))
     if "stamps" in source.notes.unstated:
-        times = np.array([scan.stamp for scan in found[topic]])
-        unit = stamp_unit(times)
+        times, _ = in_seconds(np.array([scan.stamp for scan in found[topic]]))
         found[topic] = [
-            scan._replace(seconds=0, nanoseconds=time * unit * 1e9)
-            for scan, time in zip(found[topic], times, strict=True)
+            scan._replace(seconds=0, nanoseconds=time * 1e9) for scan, time in zip(found[topic], times, strict=True)
         ]
     sweeps = Sweeps()
     for scan in found[topic]:
@@ -127,19 +126,36 @@ def _messages(value: Any, topic: str, depth: int = 0) -> Iterator[tuple[str, Map
     if isinstance(value, str) and value[:1] in ("{", "["):
         value = parsed(value)
     if isinstance(value, Mapping):
+        value = {key: as_list(held) for key, held in value.items()}
+        if (records := _records(value)) is not None:
+            value = records
+    if isinstance(value, Mapping):
         if _ranges_key(value) is not None or _is_beam(value):
             yield topic, value
         elif (table := _keyed(value)) is not None:
             yield topic, table
         else:
             named = value.get("topic")
+            stamp = {key: held for key, held in value.items() if key in STAMP_NAMES and not isinstance(held, Mapping)}
             for inner in value.values():
-                yield from _messages(inner, named if isinstance(named, str) and named else topic, depth + 1)
+                for name, message in _messages(inner, named if isinstance(named, str) and named else topic, depth + 1):
+                    lacks = stamp and isinstance(message, Mapping) and not {*STAMP_NAMES, "header"} & message.keys()
+                    yield name, {**message, **stamp} if lacks and isinstance(message, Mapping) else message
     elif _is_table(value):
         yield topic, value
     elif isinstance(value, list):
         for inner in value:
             yield from _messages(inner, topic, depth + 1)
+
+
+def _records(value: Mapping[str, Any]) -> list[dict[str, Any]] | None:
+    """The rows of a table of pandas whose names stand beside them, with their names; None if it is none."""
+    names, rows = value.get("columns"), value.get("data")
+    if not isinstance(names, list) or not isinstance(rows, list) or not all(isinstance(name, str) for name in names):
+        return None
+    if not rows or not all(isinstance(row, list) and len(row) == len(names) for row in rows):
+        return None
+    return [dict(zip(names, row, strict=True)) for row in rows]
 
 
 def _ranges_key(value: Mapping[str, Any]) -> str | None:

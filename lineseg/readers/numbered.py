@@ -39,7 +39,7 @@ def read_numbered(
     ranges: list[Floats] = [np.full(most, np.nan) for _ in parts]
     for row, part in zip(ranges, parts, strict=True):
         # A table may leave out the beams without a return.
-        row[part[:, beam].astype(int) - first] = part[:, distance]
+        row[part[:, beam].astype(int) - first] = part[:, distance] * names[distance].scale
     if (unit := LENGTHS.get(names[distance].unit)) and reading.unit is None:
         source.notes.found["unit"] = unit
     leading: tuple[str, ...] = ()

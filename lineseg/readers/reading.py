@@ -9,12 +9,18 @@ from dataclasses import dataclass, fields, replace
 from functools import cache
 from typing import Annotated, Any, Literal, NamedTuple, Self, get_args, get_type_hints
 
-Unit = Literal["m", "cm", "mm", "in", "ft"]
-AngleUnit = Literal["rad", "deg"]
+Unit = Literal["m", "cm", "mm", "0.1mm", "1/4mm", "um", "in", "ft"]
+AngleUnit = Literal["rad", "deg", "gon", "mrad", "0.01deg", "1/64deg"]
 Direction = Literal["counter-clockwise", "clockwise"]
 Motion = Literal["kept", "removed"]
 Stamps = Literal["message", "recorded", "none"]
-METRES: dict[str, float] = {"m": 1.0, "cm": 0.01, "mm": 0.001, "in": 0.0254, "ft": 0.3048}
+METRES: dict[str, float] = {
+    "m": 1.0, "cm": 0.01, "mm": 0.001, "0.1mm": 1e-4, "1/4mm": 0.25e-3, "um": 1e-6, "in": 0.0254, "ft": 0.3048,
+}  # fmt: skip
+RADIANS: dict[str, float] = {
+    "rad": 1.0, "deg": math.pi / 180, "gon": math.pi / 200, "mrad": 1e-3, "0.01deg": math.pi / 18_000,
+    "1/64deg": math.pi / 180 / 64,
+}  # fmt: skip
 # What a column may hold besides the ranges; "-" is a column to pass over.
 COLUMN_WORDS = ("stamp", "angle", "distance", "x", "y", "ranges", "-")
 MOST_TEXT = 400

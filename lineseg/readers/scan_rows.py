@@ -13,9 +13,10 @@ import numpy as np
 from ..scan import Floats, Recording, Topic
 from .dialect import Dialect, Row
 from .guessing import angle_unit_of
-from .reading import Reading
+from .reading import RADIANS, Reading
+from .scan_columns import alike, tell_columns
 from .source import Source, Sweeps
-from .stamping import stamp_unit
+from .stamping import in_seconds
 
 # angle_min and angle_increment, in degrees, of common lasers by number of beams.
 LASERS = {
@@ -62,6 +63,9 @@ def scans_of(
     """The scans of rows; numbers: of their lines. double: the numbers before a double space, 0 without one."""
     if len(values) > 1 and all(len(row) == 1 for row in values):
         numbers, values = numbers[:1], [np.concatenate(values)]
+    if leading is None and (columns := _in_columns(reading, values)) is not None:
+        tell_columns(source.notes, len(columns))
+        numbers, values, double = numbers[:1] * len(columns), list(columns), 0
     geometry = None
     if len(values) > 1:
         geometry = _angle_row(source, reading, values) or _settings_row(values)
@@ -85,6 +89,17 @@ def scans_of(
     source.notes.unstated |= {"unit", "range_max"} - source.notes.found.keys()
     topics = (Topic("scan", len(sweeps)),)
     return sweeps.recording(source, topic=source.choose(list(topics)), topics=topics, format=format)
+
+
+def _in_columns(reading: Reading, values: list[Floats]) -> Floats | None:
+    """(scans, beams) of rows that have a beam each: as many as a laser has, while a row has fewer than any laser."""
+    rows, width = len(values), len(values[0])
+    if reading.angle_increment is not None or reading.skip_columns is not None or not 2 <= width < rows:
+        return None
+    if usual_angles(rows) is None or any(usual_angles(width - lead) for lead in range(min(MOST_LEADING, width))):
+        return None
+    columns = np.array(values).T if all(len(row) == width for row in values) else np.empty((0, rows))
+    return columns if len(columns) and alike(columns.T) else None
 
 
 def _parsed(source: Source, rows: Iterable[Row], dialect: Dialect) -> tuple[list[int], list[Floats], int]:
@@ -129,7 +144,7 @@ def _angle_row(source: Source, reading: Reading, values: list[Floats]) -> Geomet
         if not np.isfinite(angles).all() or not _even(angles) or (len(others) == len(angles) and _even(others)):
             continue
         unit = reading.angle_unit or angle_unit_of(angles)
-        turn = math.radians(1) if unit == "deg" else 1.0
+        turn = RADIANS[unit]
         if abs(angles[-1] - angles[0]) * turn > 2 * math.pi + 0.1:
             continue
         source.notes.found["angle_unit"] = unit
@@ -242,12 +257,11 @@ def _stamps(source: Source, values: list[Floats], skip: int, leading: tuple[str,
     if at is None:
         return np.zeros(len(values))
     column = np.array([row[at] for row in values])
-    unit = stamp_unit(column)
+    times, words = in_seconds(column)
     source.notes.stamps = f"column {at + 1}"
     if leading is None:
-        name = {1.0: "seconds", 1e-3: "milliseconds", 1e-6: "microseconds", 1e-9: "nanoseconds"}[unit]
-        source.notes.guess("stamps", f"column {at + 1} as {name}", "it rises from row to row", stamps="none")
-    return column * unit
+        source.notes.guess("stamps", f"column {at + 1} as {words}", "it rises from row to row", stamps="none")
+    return times
 
 
 # Angles

@@ -41,7 +41,7 @@ class Source:
         return path.name or str(path)
 
     def lines(self) -> Iterator[tuple[int, bytes]]:
-        """(number, line) of a text file; numbers count from 1, line ends are removed."""
+        """(number, line) of a text file; numbers count from 1; line ends, and NULs of a power failure, are removed."""
         total = max(self.path.stat().st_size, 1)
         number = 0
         with self.path.open("rb") as file:
@@ -49,7 +49,7 @@ class Source:
                 number += 1
                 if number % 256 == 1:
                     self.progress(file.tell(), total)
-                yield number, line.rstrip(b"\r\n")
+                yield number, line.rstrip(b"\r\n").strip(b"\0")
         self.progress(total, total)
 
     def choose(self, topics: list[Topic], what: str = "topic") -> str:

@@ -16,7 +16,7 @@ from .numbers import all_numbers
 from .reading import Reading
 from .scan_rows import other_angles, usual_angles
 from .source import Source, Sweeps
-from .stamping import stamp_unit
+from .stamping import in_seconds
 
 # What precedes the ranges in `ros2 topic echo --csv`.
 BEFORE_RANGES = (
@@ -40,6 +40,11 @@ class Layout(NamedTuple):
     nanoseconds: int | None
     stamp: int | None
     names: list[Name]
+
+    @property
+    def scale(self) -> float:
+        """Of the ranges, in their unit."""
+        return self.names[self.beams[0] if self.listed is None else self.listed].scale
 
 
 def echo_columns(dialect: Dialect, head: list[Row]) -> list[Name]:
@@ -79,7 +84,8 @@ def read_table(source: Source, reading: Reading, rows: Iterable[Row], dialect: D
     if layout.stamp is not None and layout.seconds is None and layout.header is None:
         # ROS 1 exports header.stamp as whole nanoseconds, other tools as seconds.
         whole = names[layout.stamp].ends("header_stamp") and bool((times == np.floor(times)).all())
-        times *= TIMES.get(names[layout.stamp].unit) or (1e-9 if whole else stamp_unit(times))
+        unit = TIMES.get(names[layout.stamp].unit) or (1e-9 if whole else None)
+        times = times * unit if unit else in_seconds(times)[0]
     if times.any():
         at = next(place for place in (layout.seconds, layout.header, layout.stamp) if place is not None)
         source.notes.stamps = f"column {at + 1}"
@@ -123,7 +129,7 @@ def _add(source: Source, reading: Reading, sweeps: Sweeps, row: Row, dialect: Di
     needed: int = max([*layout.at.values(), *([] if layout.listed is None else [layout.listed]), *layout.beams[:1]])
     if len(cells) <= needed or (layout.listed is not None and len(cells) not in (len(names), len(names) - 1)):
         raise ValueError(f"{len(cells)} of {len(names)} columns; is the line complete?")
-    ranges = _ranges(dialect, cells, layout)
+    ranges = _ranges(dialect, cells, layout) * layout.scale
     field = {name: _number(dialect, cells[at], name) for name, at in layout.at.items()}
     low, step = _angles(source, reading, field, len(ranges))
     frame_id = _frame_id(cells, layout)

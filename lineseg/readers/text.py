@@ -6,17 +6,18 @@ import re
 from collections import Counter
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
-from itertools import chain, islice
+from itertools import chain, islice, pairwise
 from typing import Any
 
 from ..scan import Recording
-from .beam_rows import read_beams
+from .beam_rows import columns_beside, read_beams, table_of
 from .dialect import COMMENTS, Dialect, Row, bracketed, dialect_of, is_list, labels_of, text_of, unlabelled
-from .headers import TURNS, Name, array_columns, column_of, is_angle, is_beam, is_distance, name_of
+from .headers import LENGTHS, TURNS, Name, array_columns, column_of, is_angle, is_beam, is_distance, name_of, unit_of
 from .lasers import rows_of_one_laser
 from .numbered import read_numbered
 from .reading import Reading, columns_of
-from .scan_rows import read_scans
+from .scan_columns import alike, named_columns, tell_columns
+from .scan_rows import read_scans, scans_of
 from .source import Reader, Source
 from .table import echo_columns, read_table
 
@@ -26,6 +27,7 @@ SETTING = re.compile(rb"(\w+)\s*[=:]\s*([^\s,;]+)")
 TEXT_FORMS = "use one scan per row, or columns of angle and distance, or a table with a column named ranges."
 # An angle as the name of a column, such as -134.5°.
 ANGLE = re.compile("([-+]?\\d+(?:[.,]\\d+)?)(\\s*(?:deg|rad|°)?)".encode(), re.IGNORECASE)
+MARK = re.compile(rb"[,;\t]")
 MOST_NAMES = 4
 # With fewer rows, nothing is a title.
 FEW_ROWS = 6
@@ -72,25 +74,45 @@ def _rows(source: Source) -> Iterator[Row]:
 def _below_titles(source: Source, head: list[Row]) -> list[Row]:
     """The first rows without the lines of words above the table, such as a program's greeting or the command sent."""
     lines = [row.text for row in head]
-    if len(head) < FEW_ROWS or is_list(lines[0]) or labels_of(lines):
+    if is_list(lines[0]) or labels_of(lines):
         return head
-    dialect = dialect_of(lines[len(lines) // 2 :])
-    width = Counter(map(dialect.width, lines[len(lines) // 2 :])).most_common(1)[0][0]
-    if width < 2:
-        return head
-
-    def is_title(line: bytes) -> bool:
-        cells = dialect.cells(line)
-        return len(cells) < width and dialect.number(cells[0] if cells else b"x") is None
-
-    titles = next((at for at, line in enumerate(lines) if not is_title(line)), 0)
-    # A header of blanks may seem to have fewer cells than it names.
-    if titles in (0, len(lines)) or (titles == 1 and dialect.separator == b" " and _names_beams(lines[0])):
+    titles = _titles(lines)
+    if titles in (0, len(lines)):
         return head
     source.notes.notice(
         "titles", f"Words above the table, in {titles} line{'' if titles == 1 else 's'}, were passed over."
     )
     return head[titles:]
+
+
+def _titles(lines: list[bytes]) -> int:
+    """The number of lines of words above lists in brackets, or above the header of a table or its first row."""
+    below = lines[len(lines) // 2 :]
+    if 2 * sum(map(is_list, below)) >= len(below):
+        first = next(at for at, line in enumerate(lines) if is_list(line))
+        return 0 if any(MARK.search(line) for line in lines[:first]) else first
+    if len(lines) < FEW_ROWS:
+        return 0
+    dialect = dialect_of(below)
+    width = Counter(map(dialect.width, below)).most_common(1)[0][0]
+    if width < 2:
+        return 0
+
+    def begins_with_a_word(line: bytes) -> bool:
+        return dialect.number((dialect.cells(line) or [b"x"])[0] or b"x") is None
+
+    def is_header(line: bytes) -> bool:
+        cells = len(dialect.cells(line))
+        # A header of blanks may seem to have fewer cells than it names, or more.
+        return cells == width if dialect.separator == b" " and not _names_beams(line) else cells >= width - (width > 2)
+
+    words = next((at for at, line in enumerate(lines) if not begins_with_a_word(line)), 0)
+    if words < 2 or dialect.numbers(lines[words]) is None:
+        return words if words == 1 and not is_header(lines[0]) else 0
+    # A header may have a row of units below it.
+    units = 1 if len(dialect.cells(lines[words - 1])) == width and is_header(lines[words - 2]) else 0
+    named = [at for at in range(words - 1 - units, words) if is_header(lines[at])]
+    return named[0] if named else words
 
 
 def _names_beams(line: bytes) -> bool:
@@ -102,8 +124,8 @@ def _names_beams(line: bytes) -> bool:
 def _with_comments(source: Source, said: dict[str, str]) -> Reading:
     """The given Reading, completed from the comment lines of the file."""
     found: dict[str, Any] = {}
-    for name in said.keys() & Reading.declared().keys():
-        if getattr(source.reading, name) is None:
+    for name, entry in Reading.declared().items():
+        if name in said and entry.group != "scans" and name != "columns" and getattr(source.reading, name) is None:
             try:
                 kind, value = Reading.type_of(name), said[name]
                 found[name] = kind(value) if kind in (int, float) else value
@@ -143,7 +165,10 @@ def _read(source: Source, reading: Reading, head: list[Row], rows: Iterable[Row]
         return _read_numbers(source, reading, head, rows, dialect, None)
     if _is_header(dialect, cells):
         names = _names(dialect, head, cells)
-        return _read_named(source, reading, (row for row in rows if row is not head[0]), dialect, names)
+        above = 1
+        if len(head) > 1 and (units := _units(dialect, head[1].text, names)) is not None:
+            names, above = units, 2
+        return _read_named(source, reading, islice(rows, above, None), dialect, names)
     names = [name_of(text_of(word)) for word in re.split(rb"[\s,;]+", comment.strip(b"#%/ ,;"))]
     named = len(names) == len(cells) and any(map(is_distance, names)) and any(map(is_angle, names))
     return _read_numbers(source, reading, head, rows, dialect, names if named else None)
@@ -182,7 +207,29 @@ def _names(dialect: Dialect, head: list[Row], cells: list[bytes]) -> list[Name]:
         wide = re.split(rb"\t+| {2,}|\s*,\s*", head[0].text.strip())
         if len(cells) != width == len(wide):
             cells = wide
-    return [name_of(text_of(cell)) for cell in cells]
+    names = [name_of(text_of(cell)) for cell in cells]
+    return [Name("index"), *names] if _are_numbered(dialect, head[1:], len(names)) else names
+
+
+def _are_numbered(dialect: Dialect, rows: list[Row], names: int) -> bool:
+    """Whether rows begin with a number, or a name, that the header leaves out, as pandas and R print them."""
+    cells = [dialect.cells(row.text) for row in rows[:SAMPLE]]
+    cells = [row for row in cells if len(row) == names + 1]
+    first = [dialect.number(row[0]) for row in cells]
+    return len(cells) > 0.8 * len(rows) and all(
+        after is None or (before is not None and after == before + 1) for before, after in pairwise(first)
+    )
+
+
+def _units(dialect: Dialect, line: bytes, names: list[Name]) -> list[Name] | None:
+    """The names with the units of a second row of words, where it has any; None if the row is none of words."""
+    cells = dialect.cells(line)
+    if not 1 < len(cells) <= len(names) or any(cell and dialect.number(cell) is not None for cell in cells):
+        return None
+    units = [unit_of(text_of(cell).strip("()[]{} ")) for cell in cells]
+    said = [name._replace(unit=unit[0], scale=unit[1]) if unit and not name.unit else name
+            for name, unit in zip(names, units, strict=False)]  # fmt: skip
+    return said + names[len(said) :]
 
 
 def _read_named(
@@ -191,6 +238,10 @@ def _read_named(
     if reading.columns is not None:
         given = columns_of(reading.columns)
         return _read_columns(source, reading, rows, dialect, given)
+    if (columns := named_columns(names)) is not None:
+        rows = list(rows)
+        if len(rows) > len(names):
+            return _read_columns_of_scans(source, reading, rows, dialect, names, *columns)
     ranges = column_of(names, lambda name: name.element < 0 and name.ends("ranges"))
     beams = array_columns(names)
     if ranges is not None or beams:
@@ -200,6 +251,25 @@ def _read_named(
     return replace(recording, frame_ids=(frame_id,) * len(recording))
 
 
+def _read_columns_of_scans(
+    source: Source, reading: Reading, rows: list[Row], dialect: Dialect, names: list[Name], beam: int,
+    columns: list[int],
+) -> Recording:  # fmt: skip
+    """A table with a scan in each column, beside the angles of the beams, or their numbers."""
+    table = table_of(source, rows, dialect, names, (beam, *columns))
+    first = names[columns[0]]
+    if (unit := LENGTHS.get(first.unit)) and reading.unit is None:
+        source.notes.found["unit"] = unit
+    table[:, columns] *= first.scale
+    if is_angle(names[beam]):
+        if (turn := TURNS.get(names[beam].unit)) and reading.angle_unit is None:
+            source.notes.found["angle_unit"] = turn
+        table[:, beam] *= names[beam].scale
+        return columns_beside(source, reading, table, beam, columns)
+    tell_columns(source.notes, len(columns))
+    return scans_of(source, reading, list(range(len(columns))), list(table[:, columns].T), 0, ())
+
+
 def _read_beams(
     source: Source, reading: Reading, rows: Iterable[Row], dialect: Dialect, names: list[Name]
 ) -> Recording:
@@ -207,6 +277,13 @@ def _read_beams(
         return read_beams(source, reading, rows, dialect, names)
     if {"x", "y"} <= {name.plain.split("_")[-1] for name in names}:
         return read_beams(source, reading, rows, dialect, names)
+    if any(map(is_angle, names)) and len(names) > 2:
+        angle = next(at for at, name in enumerate(names) if is_angle(name))
+        columns = [at for at in range(len(names)) if at != angle]
+        rows = list(rows)
+        table = table_of(source, rows, dialect, names, (angle,))
+        if alike(table[:, columns]):
+            return _read_columns_of_scans(source, reading, rows, dialect, names, angle, columns)
     if any(map(is_distance, names)) and any(map(is_beam, names)):
         return read_numbered(source, reading, rows, dialect, names)
     shown = " ".join(name.plain for name in names)

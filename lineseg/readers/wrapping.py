@@ -25,6 +25,7 @@ MARKS = {
     codecs.BOM_UTF16_BE: "utf-16",
 }  # fmt: skip
 PLAIN = frozenset(b"\t\r\n" + bytes(range(32, 127)))
+LATIN = PLAIN | frozenset(range(0xA0, 0x100))  # with ° and µ
 HEAD_BYTES = 1 << 13
 MOST_LAYERS = 4
 MOST_NAMED = 5
@@ -102,7 +103,7 @@ def _encoding(head: bytes) -> str:
     if marked or len(first) < 8:
         return marked
     for encoding, side in (("utf-16-le", 0), ("utf-16-be", 1)):
-        if not any(first[1 - side :: 2]) and all(byte in PLAIN for byte in first[side::2]):
+        if not any(first[1 - side :: 2]) and all(byte in LATIN for byte in first[side::2]):
             return encoding
     # Lines end with a carriage return alone on an old Mac, and in some tools.
     return "latin-1" if b"\r" in head and b"\n" not in head and all(byte in PLAIN for byte in first) else ""

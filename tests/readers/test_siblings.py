@@ -101,6 +101,39 @@ FORMS = {
     "units in the names": (json.dumps([{"start_angle_deg": -135, "angle_step_deg": 0.5, "distances_mm":
         [0 if np.isnan(each) else each * 1000 for each in ROOM]}] * 3), 3, None, set()),
     "no angles": (json.dumps(scan(angle_min=..., angle_max=..., angle_increment=...)), 1, None, {"angle_min"}),
+    "hundredths of a degree": ("angle,dist\n" + beams(lambda angle, each: f"{angle * 100:.0f},{each:.3f}\n"),
+        1, None, {"angle_unit", "unit"}),
+    "gon and micrometres": ("Winkel [gon];Abstand [µm]\n"
+        + beams(lambda angle, each: f"{angle / 0.9:.4f};{each * 1e6:.0f}\n".replace(".", ",")), 1, None, {"direction"}),
+    "parts of units": ("angle (1/64 deg)\tdist_mm_q2\n"
+        + beams(lambda angle, each: f"{angle * 64:.0f}\t{each * 4000:.0f}\n"), 1, None, {"direction"}),
+    "units in a second row": ("angle,range,signal\ndeg,cm,-\n"
+        + beams(lambda angle, each: f"{angle:.2f},{each * 100:.1f},9\n"), 1, None, {"direction"}),
+    "points between thousands": ("Winkel (°);Abstand (mm)\n"
+        + beams(lambda angle, each: f"{angle:.1f};{each * 1000:,.1f}\n".translate(str.maketrans(",.", ".,"))),
+        1, None, {"direction"}),
+    "commas between thousands": ("angle_deg,dist_mm\n"
+        + beams(lambda angle, each: f'{angle:.1f},"{each * 1000:,.0f}"\n'), 1, None, {"direction"}),
+    "a scan in each column": ("angle_deg,scan_1,scan_2,scan_3\n"
+        + beams(lambda angle, each: f"{angle:.1f}" + 3 * f",{each:.3f}" + "\n"), 3, None, {"unit"}),
+    "columns of scans without names": (beams(lambda angle, each: 3 * f"{each:.3f} " + "\n"), 3, None, {"angle_min"}),
+    "columns without names beside angles": (beams(lambda angle, each: f"{angle:.1f}" + 3 * f"\t{each:.3f}" + "\n"),
+        3, None, {"angle_unit"}),
+    "rows that the header does not count": ("  angle  range\n"
+        + "".join(f"{at}  {angle:.5f}  {'NaN' if np.isnan(each) else round(each, 4)}\n"
+                  for at, (angle, each) in enumerate(zip(BEARINGS, ROOM, strict=True))), 1, None, {"unit"}),
+    "angles from north beside points": ("azimuth,distance_m,x,y\n"
+        + beams(lambda angle, each: f"{100 * (90 - angle):.0f},{each:.3f},{each * np.cos(np.deg2rad(angle)):.4f},"
+                                    f"{each * np.sin(np.deg2rad(angle)):.4f}\n"), 1, None, set()),
+    "days since 1900": ("time," + ",".join(f"range_{beam}" for beam in range(541)) + "\n"
+        + "".join(f"{stamp / 86_400 + 25_569:.10f},{row()}\n" for stamp in STAMPS), 3, STAMPS, {"angle_min"}),
+    "an array as an object": (json.dumps(scan(ranges={str(at): each for at, each in enumerate(scan()["ranges"])})),
+        1, None, set()),
+    "names beside rows": (json.dumps({"columns": ["angle", "range"], "data": list(zip(BEARINGS, scan()["ranges"],
+        strict=True))}), 1, None, {"unit"}),
+    "the stamp beside the scan": ("".join(json.dumps({"t": stamp, "data": scan()}) + "\n" for stamp in STAMPS),
+        3, STAMPS, set()),
+    "a line of words above lists": ("INFO: started\n" + f"[{row('inf')}]\n" * 3, 3, None, {"angle_min"}),
     "points": (json.dumps({"points": [[float(r * np.cos(a)), float(r * np.sin(a))]
         for a, r in zip(BEARINGS, ROOM, strict=True) if r > 0]}), 1, None, {"columns"}),
 }  # fmt: skip
@@ -124,6 +157,10 @@ def test_other_forms_of_a_table_are_read_right_and_guesses_are_marked(tmp_path, 
         ("a;ranges\n" + f"1;[{row()[:50]} ... {row()[-50:]}]\n" * 2, "left out"),
         (f"{row()},1.0\n" * 3, "rows of 542 numbers without angles; give angle_increment"),
         ("[" + json.dumps(scan())[:-40], "not JSON; is it complete"),
+        ("  angle  range\n0  -2.3  2.4\n1  -2.2  2.4\n..  ...  ...\n", "left out"),
+        ("$GPGGA,101320.00,4807.038,N,01131.000,E,1,08,0.9,545.4,M,46.9,M,,*47\n", "a log of a GNSS receiver"),
+        ("path:        a.bag\nversion:     2.0\nmessages:    830\n", "a bag's summary.*open the bag itself"),
+        ("CREATE TABLE scan (angle real, dist real);\n", "SQL statements; save the table as CSV"),
     ],
 )
 def test_what_cannot_be_read_is_refused_with_the_way_on(tmp_path, text, sentence):
@@ -132,6 +169,21 @@ def test_what_cannot_be_read_is_refused_with_the_way_on(tmp_path, text, sentence
     with pytest.raises(ValueError, match=sentence) as raised:
         open_recording(path)
     assert "made.txt" in str(raised.value)
+
+
+def test_what_a_power_failure_leaves_at_the_end_is_passed_over(tmp_path):
+    path = tmp_path / "cut.csv"
+    path.write_bytes(f"{row()}\n".encode() * 3 + b"\0" * 4096)
+    assert right(open_recording(path))
+
+
+def test_numbers_below_two_centimetres_are_codes_and_told(tmp_path):
+    path = tmp_path / "urg.csv"
+    path.write_text(f"{row('7', 0, 1000)}\n" * 3)
+    recording = open_recording(path)
+    assert right(recording)
+    assert "range_min" in {guess.field for guess in recording.account.guesses}
+    assert np.isclose(open_recording(path, range_min=0.0)[0].ranges[10:13], 0.007).all()
 
 
 def test_a_list_of_scans_that_breaks_off_is_read_up_to_there(tmp_path):
