@@ -149,5 +149,4 @@ def _has_numbers(head: bytes) -> bool:
 
 def _head(path: Path) -> bytes:
     with path.open("rb") as file:
-        head = file.read(HEAD_BYTES)
-    return head.rstrip(b"\0") or head
+        return file.read(HEAD_BYTES)

@@ -143,10 +143,10 @@ def _named(names: list[Name]) -> Roles:
     return Roles(False, *points, scan, stamp)
 
 
-def _points(names: list[Name]) -> list[int] | None:
+def _points(names: list[Name]) -> tuple[int, int] | None:
     """The columns of x and y, if there are both."""
-    found = [column_of(names, lambda name, axis=axis: name.plain.split("_")[-1] == axis) for axis in "xy"]
-    return None if None in found else found
+    x, y = (column_of(names, lambda name, axis=axis: name.plain.split("_")[-1] == axis) for axis in "xy")
+    return None if x is None or y is None else (x, y)
 
 
 def table_of(

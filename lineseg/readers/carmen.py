@@ -54,7 +54,7 @@ class CarmenLog(Reader):
     def recognises(head: bytes) -> bool:
         # A table of numbers is long, and passed over at once.
         words = not re.match(rb"\s*[-+.\d]", head)
-        return words and b"\0" not in head and ANY_LINE.search(head) is not None
+        return words and b"\0" not in head.rstrip(b"\0") and ANY_LINE.search(head) is not None
 
     @staticmethod
     def read(source: Source) -> Recording:

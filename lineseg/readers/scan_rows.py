@@ -98,8 +98,10 @@ def _in_columns(reading: Reading, values: list[Floats]) -> Floats | None:
         return None
     if usual_angles(rows) is None or any(usual_angles(width - lead) for lead in range(min(MOST_LEADING, width))):
         return None
-    columns = np.array(values).T if all(len(row) == width for row in values) else np.empty((0, rows))
-    return columns if len(columns) and alike(columns.T) else None
+    if any(len(row) != width for row in values):
+        return None
+    table = np.array(values, np.float64)
+    return table.T if alike(table) else None
 
 
 def _parsed(source: Source, rows: Iterable[Row], dialect: Dialect) -> tuple[list[int], list[Floats], int]:

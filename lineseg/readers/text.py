@@ -45,7 +45,8 @@ class Text(Reader):
 
     @staticmethod
     def recognises(head: bytes) -> bool:
-        return bool(head.strip()) and b"\0" not in head
+        # A power failure leaves NULs at the end.
+        return bool(head.strip(b"\0 \t\r\n")) and b"\0" not in head.rstrip(b"\0")
 
     @staticmethod
     def read(source: Source) -> Recording:

@@ -31,7 +31,11 @@ def test_content_decides_before_the_suffix(tmp_path):
             b"\0\1\2\3" * 50,
             "junk begins with .* Known formats: ROS 1 bag, ROS 2 bag, MCAP, failure pack, NPZ, .*, text",
         ),
-        ("words.log", b"Hello world\n", "words.log has no laser line; a CARMEN log has lines that begin with FLASER"),
+        (
+            "words.log",
+            b"Hello world\n",
+            "words.log has no laser line; it begins with 'Hello world'; a CARMEN log has lines that",
+        ),
         (
             "walk.bag.gz",
             gzip.compress(b"#ROSBAG V2.0\n", mtime=0),
