@@ -9,7 +9,7 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 LARGEST = 4 * 1024 * 1024
 # Files, which have limits of their own.
-FILES = ("/api/upload", "/api/sweep-table")
+FILES = ("/api/upload", "/api/sweep-table", "/api/lessons/file")
 
 
 class BodyLimit:

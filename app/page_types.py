@@ -13,8 +13,8 @@ from lineseg.what_if import WhatIf
 
 from . import view, view_field, wire
 from .live.node_params import Sent
-from .routes import labels, robot, tuning
-from .shelf import lessons
+from .routes import labels, lessons, robot, tuning
+from .shelf import lesson
 from .told import answers, drawn, handout, messages, words
 from .told.typescript import alias, interface
 
@@ -67,10 +67,14 @@ export type Answer = Worked & Partial<SampledCurves & SampledMap> & Tuned & Fitt
 def page_types() -> str:
     """The text of static/wire.d.ts."""
     shared = [alias(name, annotation) for name, annotation in SHARED.items()]
-    sent = [interface(each, sent=True) for module in (view, wire, labels, tuning, robot) for each in _declared(module)]
+    sent = [
+        interface(each, sent=True)
+        for module in (view, wire, labels, lessons, tuning, robot)
+        for each in _declared(module)
+    ]
     told = [
         interface(each)
-        for module in (words, messages, drawn, answers, lessons, handout, view_field)
+        for module in (words, messages, drawn, answers, lesson, handout, view_field)
         for each in _declared(module)
     ]
     told += [interface(each) for each in (Measure, WhatIf, Sent)]

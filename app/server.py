@@ -40,6 +40,7 @@ from .routes.api import add_api
 from .routes.export import add_export
 from .routes.inspection import add_inspection
 from .routes.labels import add_labels
+from .routes.lessons import add_lessons
 from .routes.push import add_push
 from .routes.rereading import add_rereading
 from .routes.rerun import add_rerun
@@ -51,6 +52,7 @@ from .session.session import Watch
 from .session.sessions import SessionLimits, Sessions
 from .session.warm_up import WarmUp
 from .shelf.label_files import LabelFiles
+from .shelf.lesson_shelf import LessonShelf
 from .shelf.library import Library
 from .shelf.recent import Recent
 from .shelf.scratch import remove_leftovers
@@ -69,14 +71,16 @@ class Settings:
     """Settings of the server.
 
     files: recordings to offer, the first is shown; reading: how they are read. robots: sources of live scans; the
-    newest `keep` scans of each are kept. may_send: addresses of other robots to which the page may send. host: any
-    address but the loopback needs a token; one is made if none is given. names: other host names of this machine.
-    upload_limit, upload_total: [bytes]. data_folder: for the list of recent files and for labels that cannot be next
-    to their recording (default: the user's data folder). watch: gets whatever is drawn in any tab.
+    newest `keep` scans of each are kept. may_send: addresses of other robots to which the page may send. lessons: a
+    folder of lessons that are offered besides the program's. host: any address but the loopback needs a token; one is
+    made if none is given. names: other host names of this machine. upload_limit, upload_total: [bytes]. data_folder:
+    for the list of recent files and for labels that cannot be next to their recording (default: the user's data
+    folder). watch: gets whatever is drawn in any tab.
     """
 
     files: tuple[Path, ...] = ()
     reading: Reading = field(default_factory=Reading)
+    lessons: Path | None = None
     robots: tuple[Address, ...] = ()
     may_send: tuple[str, ...] = ()
     keep: int = 3000
@@ -100,7 +104,8 @@ def create_app(settings: Settings) -> FastAPI:
     remove_leftovers(user_folder(settings.data_folder))
     uploads = Uploads(settings.upload_limit, settings.upload_number, settings.upload_total)
     live = Live(settings.robots, settings.keep)
-    library = Library(settings.files, Recent(settings.data_folder), uploads, live, settings.reading)
+    lessons = LessonShelf(settings.lessons)
+    library = Library(settings.files, Recent(settings.data_folder), uploads, live, settings.reading, lessons)
     warm_up = WarmUp()
     files = LabelFiles(library, user_folder(settings.data_folder))
     sessions = Sessions(library, files, warm_up, settings.sessions, settings.watch)
@@ -111,6 +116,9 @@ def create_app(settings: Settings) -> FastAPI:
         asyncio.get_running_loop().set_default_executor(ThreadPoolExecutor(WAITING_THREADS, "lineseg"))
         warm_up.start()
         live.start()
+        if settings.lessons is not None:
+            # What is wrong with them is said at the start, not when someone asks for them.
+            threading.Thread(target=lessons.told, name="lessons", daemon=True).start()
         reaper = asyncio.create_task(sessions.reap())
         try:
             yield
@@ -119,6 +127,7 @@ def create_app(settings: Settings) -> FastAPI:
             await sessions.close_all()
             await asyncio.to_thread(live.close)
             uploads.close()
+            lessons.close()
             rerun.close()
 
     app = FastAPI(lifespan=lifespan, openapi_url=None, docs_url=None, redoc_url=None)
@@ -132,6 +141,7 @@ def create_app(settings: Settings) -> FastAPI:
     add_export(app, library, sessions)
     add_inspection(app, sessions, files)
     add_labels(app, library, files)
+    add_lessons(app, library, sessions)
     add_rereading(app, library)
     add_sockets(app, library, sessions, bool(settings.reading.given()))
     add_sweep_table(app)

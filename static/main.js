@@ -111,7 +111,7 @@ const timeline = new Timeline(place("timeline"), text.timeline, {
 });
 const status = mountStatus(page, place("status"), text.status, live.element);
 const work = createWork(notices, text.stage, () => page.drawn !== null);
-const opening = createOpening(page, { work, notices }, text, { onSweep: tune.openSweep, rest: address.linked.rest });
+const opening = createOpening(page, { work, notices, tune, learn }, text, address.linked);
 const reread = createReread(page, words.reading, notices);
 const exports = createExportMenu(page, words, {
   status: () => live.status,

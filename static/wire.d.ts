@@ -139,6 +139,17 @@ export interface Said {
   note: string;
 }
 
+/** The texts of a lesson that is made of what a tab shows. box: of the plan on the stage [m]. */
+export interface NewLesson {
+  title: string;
+  about: string;
+  text: string;
+  question: string;
+  right: string;
+  wrong: string[];
+  box?: [number, number, number, number] | null;
+}
+
 export interface CurvesWish {
   type: "curves";
   job: number;
@@ -1072,8 +1083,8 @@ export interface Looked {
 /**
  * One text and what the page shows with it: the decision found, or the whole result.
  *
- * params: override those of the lesson. method: shows the whole result of this method, with its default thresholds,
- * instead of region growing; it cannot be combined with find or params.
+ * params: override those of the lesson. method: shows this method with its default thresholds instead of region
+ * growing, so it cannot be combined with params.
  */
 export interface Step {
   near: number[];
@@ -1106,26 +1117,51 @@ export interface Goal {
   count: [Find, number, number] | null;
 }
 
-/** text: what to do; hint: shown on request; done: shown when it is done. */
+/** An answer to choose. why: shown when it was chosen although it is not right. */
+export interface Option {
+  text: string;
+  right: boolean;
+  why: string;
+}
+
+/**
+ * A number to find out. answer: with its unit, such as "45 mm"; it may be a placeholder. within: how far off an
+ * answer may be.
+ */
+export interface Quantity {
+  answer: string;
+  within: number;
+}
+
+/**
+ * text: what to do; hint: shown on request; done: shown when it is done.
+ *
+ * goal, choice, number: exactly one of them: something to do on the page, an answer to choose, a number to find
+ * out.
+ */
 export interface Task {
   near: number[];
   names: Record<string, number>;
   text: string;
   hint: string;
   done: string;
-  goal: Goal;
+  goal: Goal | null;
+  choice: Option[];
+  number: Quantity | null;
   params: Record<string, number>;
 }
 
 /**
  * params: thresholds that differ from USUAL and the defaults; knobs: thresholds that the reader may change.
  *
- * Texts write numbers as placeholders (lesson_numbers.py); decisions: those that they name.
+ * recording: `lesson:NAME` or `sample:NAME` of the program, a drawn world, or `folder:FILE`, beside the file of the
+ * lesson; scan: one scan instead, as in sensor_msgs/LaserScan. decisions: those that texts name.
  */
 export interface Lesson {
   title: string;
   about: string;
   recording: string;
+  scan: Record<string, unknown>;
   frame: number;
   params: Record<string, number>;
   knobs: string[];
@@ -1134,11 +1170,17 @@ export interface Lesson {
   task: Task;
 }
 
-/** accepted: of each threshold of the task, the least and the largest value that solves it. */
+/**
+ * A lesson with everything put in. recording: the id by which the page opens it.
+ *
+ * accepted: of each threshold of the task, the least and the largest value that solves it. own: whether it is not
+ * one of the program's.
+ */
 export interface NamedLesson {
   title: string;
   about: string;
   recording: string;
+  scan: Record<string, unknown>;
   frame: number;
   params: Record<string, number>;
   knobs: string[];
@@ -1147,12 +1189,12 @@ export interface NamedLesson {
   task: Task;
   id: string;
   accepted: Record<string, [number, number]>;
+  own: boolean;
 }
 
-/** broken: one sentence for each file that is not a valid lesson. terms: all that texts use, explained. */
+/** terms: all that texts use, explained. */
 export interface Lessons {
   lessons: NamedLesson[];
-  broken: string[];
   terms: ExplainedTerm[];
 }
 

@@ -25,6 +25,7 @@ def view(
     sources: Positional[Annotated[Several[str], arg(metavar="[FILE ...]")]] = (),
     *,
     reading: OmitArgPrefixes[ReadingFlags],  # type: ignore[valid-type]
+    lessons: Unset[Path] = None,
     keep: int = 3000,
     host: Annotated[str, arg(metavar="ADDRESS")] = "127.0.0.1",
     port: int = 8765,
@@ -42,6 +43,8 @@ def view(
             (Foxglove), each with #/TOPIC if it has several lasers, ros2:/scan or ros2://DOMAIN/scan (DDS; ros2: lists
             the topics), zenoh:/scan or zenoh://router:7447/scan (Zenoh).
         reading: how to read the files; of a robot, only the topic can be chosen.
+        lessons: folder of lessons to offer besides those of the program; sample_scans/lessons/README.md tells how to
+            write one. What is wrong with a file there is said in this terminal.
         keep: number of scans to keep of each laser; older ones are dropped.
         host: address to listen on; any but the loopback requires a token.
         port: TCP port; 0 picks a free one.
@@ -63,6 +66,8 @@ def view(
     named = [source for source in sources if source not in lasers]
     files = [file.resolve() for file in files_of(named)] if named else []
     how = _beside(how, files)
+    if lessons is not None and not lessons.is_dir():
+        raise NotADirectoryError(f"--lessons is {lessons}, which is not a folder; name the folder with the lessons")
     if not 1 <= keep <= MOST_KEPT:
         raise ValueError(f"--keep is {keep}; allowed: 1 to {MOST_KEPT} scans")
     for address in robot:
@@ -78,6 +83,7 @@ def view(
             files=tuple(files),
             reading=how if files else Reading(),
             robots=tuple(robots),
+            lessons=lessons.resolve() if lessons is not None else None,
             may_send=robot,
             keep=keep,
             host=host,

@@ -15,7 +15,7 @@ from lineseg.writers.finite import finite_or_none
 
 from ..live.ring import LiveRecording, numbering
 from ..shelf.label_files import Known
-from ..shelf.lessons import looked_at
+from ..shelf.lesson import Looked
 from ..told import drawn as told
 from ..told.words import words_of
 from ..view import View
@@ -36,10 +36,11 @@ def state_of(
     pinned: Findings | None = None,
     judged: Judged | None = None,
     nodes: Iterable[str] = (),
+    looked: Looked | None = None,
 ) -> told.Scene:
     """Everything except the drawing time and the marks, which are long and change only with the trace.
 
-    nodes: names of what the scene shows.
+    nodes: names of what the scene shows. looked: at what the page of a lesson looks, if it is about this recording.
     """
     scan, trace = found.scan, found.trace
     first, every = numbering(recording)
@@ -90,8 +91,8 @@ def state_of(
         "segments": segments_told(found.extraction.segments),
         "dropped": _dropped_once(found),
         "decision": _decision(chosen, type(view.params)) if chosen is not None else None,
-        "framing": _framed(found, view, view.step),
-        "ahead": _framed(found, view, view.step + 1) if view.step is not None else None,
+        "framing": _framed(found, view, view.step, looked),
+        "ahead": _framed(found, view, view.step + 1, looked) if view.step is not None else None,
         "nodes": list(nodes),
         "explanation": _explanation(found, view.selected) if view.selected is not None else None,
         "histograms": {name: _histogram(each) for name, each in found.histograms.items()},
@@ -228,17 +229,16 @@ def _decision(decision: Decision, params: type[Thresholds]) -> told.Decision:
     }
 
 
-def _framed(found: Findings, view: View, step: int | None) -> told.Framing | None:
+def _framed(found: Findings, view: View, step: int | None, looked: Looked | None) -> told.Framing | None:
     """The framing of a step, or of the page of a lesson that shows the whole result."""
     if view.mode != "learn" or view.closeup == "off":
         return None
     if step is not None:
         framing = framing_of(found, step) if step < len(found.trace) else None
     else:
-        looked = looked_at(view.lesson, view.page) if view.lesson else None
-        if looked is None or looked[0] != view.recording:
+        if looked is None:
             return None
-        framing = framing_near(found, looked[1].near, looked[1].names)
+        framing = framing_near(found, looked.near, looked.names)
     return framing and framing_told(framing, outcome=step is None or step == view.step)
 
 

@@ -13,7 +13,6 @@ from lineseg.unfinished import temporary_folder
 from lineseg.writers import PARAMS_WRITERS, params_text, read_params
 
 from ..session.sessions import Sessions
-from ..shelf.lessons import Lessons, lesson_files, read_lessons
 from ..shelf.library import Library
 from ..shelf.uploads import TooLargeError, TooManyError, TooSlowError
 from ..told.answers import ThresholdSweep
@@ -70,10 +69,6 @@ def add_api(app: FastAPI, library: Library, sessions: Sessions) -> None:
         except ValueError as error:
             raise HTTPException(400, str(error)) from None
         return {"params": params.numbers()}
-
-    @app.get("/api/lessons")
-    def lessons() -> Lessons:
-        return read_lessons(lesson_files())
 
     @app.get("/api/sweep")
     def sweep_threshold(session: str = "", name: str = "epsilon") -> ThresholdSweep:

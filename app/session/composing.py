@@ -16,6 +16,7 @@ from ..frame.state import state_of
 from ..live.ring import LiveRecording
 from ..scene.picture import Picture, picture
 from ..shelf.label_files import LabelFiles
+from ..shelf.lesson import Looked
 from ..shelf.library import Library
 from ..told.drawn import Scene
 from ..told.messages import Times
@@ -73,8 +74,16 @@ class Composer:
         label = self._library.label(view.recording)
         clock = self._clock(recording)
         since, nodes = clock.at(frame), drawing.nodes
-        state = state_of(view, recording, label, found, bounds, reference, since, pinned, judgement, nodes)
+        looked = self._looked_at(view)
+        state = state_of(view, recording, label, found, bounds, reference, since, pinned, judgement, nodes, looked)
         return Content(view, found, drawing, state, clock)
+
+    def _looked_at(self, view: View) -> Looked | None:
+        """At what the page of a lesson looks; None where nothing of that is shown."""
+        if view.mode != "learn" or view.lesson is None or view.step is not None:
+            return None
+        recording, looked = self._library.lessons.looked_at(view.lesson, view.page) or ("", None)
+        return looked if recording == view.recording else None
 
     def _bounds_of(self, view: View, recording: Recording) -> Bounds:
         """The bounds; those of a live recording only grow, and rarely, so that the grid stays still."""

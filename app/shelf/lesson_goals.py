@@ -12,7 +12,7 @@ from lineseg.scan import Scan
 from lineseg.segment import Extraction
 
 if TYPE_CHECKING:
-    from .lessons import Goal
+    from .lesson import Goal
 
 TRIED = 80
 

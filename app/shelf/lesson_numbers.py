@@ -21,7 +21,7 @@ from lineseg.scan import Scan
 from lineseg.tracing.decisions import Decision, Trace
 
 if TYPE_CHECKING:
-    from .lessons import Find, Named
+    from .lesson import Find, Named
 
 METHOD = "region-growing"
 PLACEHOLDER = re.compile(r"\{([^{}]*)\}")
@@ -81,10 +81,7 @@ class Numbers:
 
     def _of(self, traced: Trace, find: Find, field: str) -> tuple[float, Callable[[float], str]]:
         """A number of the decision that is found, and how it is usually written."""
-        matching = found(traced, find)
-        if not -len(matching) <= find.nth < len(matching):
-            raise ValueError(f"{{{field}}}: there are {len(matching)} decisions “{find.kind}”, and nth is {find.nth}")
-        decision = matching[find.nth]
+        decision = the_one(traced, find)
         if field in ("beam", "first", "last", "points"):
             return getattr(decision, field), _count
         if field == "aside":
@@ -94,6 +91,10 @@ class Numbers:
         value = abs(decision.value - decision.limit) if field == "over" else getattr(decision, field)
         counted = decision.check in ("min_points", "max_dropout")
         return value, _count if counted else UNITS["deg"] if decision.check == "merge_angle" else _metres
+
+    def shown_decision(self) -> Decision | None:
+        """The decision that the text shows. Raises ValueError if there is none such."""
+        return the_one(self._traced, self.shown) if self.shown is not None else None
 
     @cached_property
     def _traced(self) -> Trace:
@@ -122,6 +123,16 @@ def found(traced: Trace, find: Find) -> list[Decision]:
         and find.direction in (None, decision.direction)
         and find.beam in (None, decision.beam)
     ]
+
+
+def the_one(traced: Trace, find: Find) -> Decision:
+    """The decision that is found. Raises ValueError if there is none."""
+    matching = found(traced, find)
+    if not -len(matching) <= find.nth < len(matching):
+        kinds = sorted({decision.kind for decision in traced})
+        more = f"there are {len(matching)} of these" if matching else f"there is {', '.join(kinds)}"
+        raise ValueError(f"there is no “{find.kind}” with these properties and nth {find.nth}; {more}")
+    return matching[find.nth]
 
 
 def _count(value: float) -> str:

@@ -1,243 +1,227 @@
-"""Lessons: one JSON file each in sample_scans/lessons/, read again for every page, so that a teacher can add one."""
+"""Reads the files of lessons: checks them, and puts the numbers into their texts."""
 
 from __future__ import annotations
 
-from functools import lru_cache
+import hashlib
+import json
+import re
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Any, TypeVar
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError, model_validator
-
-from lineseg.extractors import EXTRACTORS
 from lineseg.params import Params
 from lineseg.readers import open_recording
-from lineseg.scan import Scan
-from lineseg.tracing.glossary import TERMS
+from lineseg.scan import Recording, Scan
+from lineseg.simulate.drawing import Drawing
 
-from ..bounds import Name, Number, sentence
 from ..places import data_folder
-from ..told.answers import ExplainedTerm
+from .lesson import Lesson, Looked, NamedLesson, Task
 from .lesson_goals import accepted
+from .lesson_markup import beside, check_text
+from .lesson_mistakes import MistakeError, Place, told
 from .lesson_numbers import METHOD, Numbers
-
-Beam = Annotated[int, Field(ge=0)]
-Words = Annotated[str, Field(min_length=1, max_length=2000)]
-Pair = tuple[Beam, Beam]
-KINDS = tuple(dict.fromkeys(name for each in EXTRACTORS.values() for name in each.vocabulary.names))
-CHECKS = tuple(dict.fromkeys(name for each in EXTRACTORS.values() for name in each.vocabulary.check_names))
-
-
-def _one_of(names: tuple[str, ...]) -> AfterValidator:
-    def known(name: str) -> str:
-        if name not in names:
-            raise ValueError(f"choose from {', '.join(names)}")
-        return name
-
-    return AfterValidator(known)
-
-
-class Part(BaseModel):
-    """Refuses unknown fields, so that a misspelt one does not silently do nothing."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True)
-
-
-class Find(Part):
-    """Finds a decision by its properties: the nth (from 0, or negative from the end) that matches all of them."""
-
-    kind: Annotated[str, _one_of(KINDS)]
-    check: Annotated[str, _one_of(CHECKS)] | None = None
-    direction: Literal[1, -1] | None = None
-    beam: Beam | None = None
-    nth: int = 0
-
-
-class Named(Find):
-    """A decision whose numbers texts can name. params: override those of the lesson, instead of those of the text.
-
-    method: of this method, with its default thresholds.
-    """
-
-    method: Annotated[str, _one_of(tuple(EXTRACTORS))] | None = None
-    params: dict[Name, Number] | None = None
-
-
-class Looked(Part):
-    """What a text looks at: near: beams whose points fill the stage where no decision is shown; none: all of them.
-    names: words for beams, written beside their points."""
-
-    near: tuple[Beam, ...] = ()
-    names: dict[Annotated[str, Field(max_length=40)], Beam] = {}
-
-
-class Step(Looked):
-    """One text and what the page shows with it: the decision found, or the whole result.
-
-    params: override those of the lesson. method: shows the
-    whole result of this method, with its default thresholds, instead of region growing; it cannot be combined with find
-    or params.
-    """
-
-    text: Words
-    method: Annotated[str, _one_of(tuple(EXTRACTORS))] | None = None
-    find: Find | None = None
-    params: dict[Name, Number] = {}
-    selected: Beam | None = None
-
-    @model_validator(mode="after")
-    def _of_one_method(self) -> Step:
-        if self.method and (self.find or self.params):
-            raise ValueError("a step with a method shows its whole result; remove find and params")
-        return self
-
-
-class Goal(Part):
-    """Conditions that must all hold for the task to be done.
-
-    lines: number of lines, [least, most]. together: pairs of beams in one line; either: pairs, one of which must be in
-    one line; apart: pairs in different lines; inside, outside: beams in some line, in no line. changed: the only
-    thresholds that may differ from the lesson's; at least one must. at: kind of the shown decision. selected: beams,
-    one of which must be selected. count: number of such decisions, [least, most].
-    """
-
-    lines: tuple[int, int] | None = None
-    together: tuple[Pair, ...] = ()
-    either: tuple[Pair, ...] = ()
-    apart: tuple[Pair, ...] = ()
-    inside: tuple[Beam, ...] = ()
-    outside: tuple[Beam, ...] = ()
-    changed: tuple[Name, ...] = ()
-    at: Find | None = None
-    selected: tuple[Beam, ...] = ()
-    count: tuple[Find, int, int] | None = None
-
-
-class Task(Looked):
-    """text: what to do; hint: shown on request; done: shown when it is done."""
-
-    text: Words
-    hint: Words
-    done: Words
-    goal: Goal
-    params: dict[Name, Number] = {}
-
+from .scratch import Scratch
 
 # Lessons teach the method of the paper.
 USUAL = {"max_occluder": 0.0, "merge_rms": 0.0, "max_void": 0.0, "epsilon_growth": 0.0}
+LARGEST = 1_000_000
+T = TypeVar("T")
+QUANTITY = re.compile(r"[-−]?\d+(\.\d+)?(\s*\D.*)?")
 
 
-class Lesson(Part):
-    """params: thresholds that differ from USUAL and the defaults; knobs: thresholds that the reader may change.
+@dataclass(frozen=True)
+class Home:
+    """Where lessons come from: the program, or a folder.
 
-    Texts write numbers as placeholders (lesson_numbers.py); decisions: those that they name.
+    prefix: of their ids. scans: where scans that they contain are kept. paths: their recordings, by id.
     """
 
-    title: Annotated[str, Field(min_length=1, max_length=60)]
-    about: Annotated[str, Field(min_length=1, max_length=200)]
-    recording: Name
-    frame: Annotated[int, Field(ge=0)] = 0
-    params: dict[Name, Number] = {}
-    knobs: tuple[Name, ...] = ()
-    decisions: dict[Name, Named] = {}
-    steps: Annotated[tuple[Step, ...], Field(min_length=1, max_length=30)]
-    task: Task
+    folder: Path | None = None
+    prefix: str = ""
+    scans: Scratch | None = None
+    paths: dict[str, Path] = field(default_factory=dict)
+
+    def place_of(self, lesson: Lesson) -> tuple[str, Path | None]:
+        """Id and file of a lesson's recording; a drawn world has no file. Raises ValueError if there is none."""
+        if lesson.scan:
+            return self._kept(self._written(lesson.scan))
+        kind, _, name = lesson.recording.partition(":")
+        if kind == "drawn":
+            return lesson.recording, None
+        if kind == "folder":
+            return self._kept(beside(self.folder, name))
+        if lesson.recording in self.paths:
+            return lesson.recording, self.paths[lesson.recording]
+        file = data_folder("sample_scans") / ("lessons" if kind == "lesson" else "") / f"{name}.npz"
+        if kind not in ("lesson", "sample") or name != Path(name).name or not file.is_file():
+            raise ValueError(
+                f"recording is {lesson.recording[:60]!r}; it must be lesson:NAME or sample:NAME of the program, "
+                "drawn:WORLD, or folder:FILE for a file beside the lesson"
+            )
+        return lesson.recording, file
+
+    def _kept(self, path: Path) -> tuple[str, Path]:
+        id = f"own:{hashlib.sha256(str(path).encode()).hexdigest()[:12]}"
+        self.paths[id] = path
+        return id, path
+
+    def _written(self, scan: dict) -> Path:
+        text = json.dumps(scan)
+        if self.scans is None:
+            raise ValueError("this lesson cannot contain its scan; name a recording")
+        path = self.scans.folder / f"{hashlib.sha256(text.encode()).hexdigest()[:12]}.json"
+        if not path.is_file():
+            path.write_text(text, encoding="utf-8")
+        return path
 
 
-class NamedLesson(Lesson):
-    """accepted: of each threshold of the task, the least and the largest value that solves it."""
-
-    id: str
-    accepted: dict[str, tuple[float, float]] = {}
-
-
-class Lessons(BaseModel):
-    """broken: one sentence for each file that is not a valid lesson. terms: all that texts use, explained."""
+@dataclass(frozen=True)
+class ReadLessons:
+    """broken: one sentence for each file that is not a valid lesson."""
 
     lessons: list[NamedLesson]
     broken: list[str]
-    terms: list[ExplainedTerm]
 
 
 def lesson_files() -> list[Path]:
     return sorted((data_folder("sample_scans") / "lessons").glob("*.json"))
 
 
-def read_lessons(files: list[Path]) -> Lessons:
+def read_lessons(files: list[Path], home: Home | None = None) -> ReadLessons:
     """The lessons in these files, ordered by file name, with all numbers put in."""
     lessons, broken = [], []
     for file in files:
         try:
-            lessons.append(_read(file.stem, file.read_text("utf-8")))
-        except ValidationError as error:
-            broken.append(f"{file.name}: {sentence(error)}")
-        except (OSError, ValueError) as error:
-            broken.append(f"{file.name}: {error}")
-    terms = [ExplainedTerm(**term._asdict()) for term in TERMS]
-    return Lessons(lessons=lessons, broken=broken, terms=terms)
+            lessons.append(read_lesson(file, home or Home()))
+        except ValueError as error:
+            broken.append(str(error))
+    return ReadLessons(lessons, broken)
 
 
-def looked_at(id: str, page: int) -> tuple[str, Looked] | None:
-    """The recording of a lesson, and what one of its pages looks at; the task comes after the steps."""
-    # Looked up, not made from the id, which comes from a link.
-    file = next((file for file in lesson_files() if file.stem == id), None)
-    if file is None:
-        return None
+def read_lesson(file: Path, home: Home) -> NamedLesson:
+    """Raises ValueError, with the file, the line, what was found and what was expected."""
+    text = ""
     try:
-        lesson = _read(file.stem, file.read_text("utf-8"))
-    except (OSError, ValueError):
-        return None
-    return lesson.recording, lesson.steps[page] if page < len(lesson.steps) else lesson.task
-
-
-@lru_cache(maxsize=64)
-def _read(id: str, text: str) -> NamedLesson:
-    lesson = Lesson.model_validate_json(text)
-    lesson = lesson.model_copy(update={"params": USUAL | lesson.params})
-    scan, task, usual = scan_of(lesson), lesson.task, Params().but(**lesson.params)
-    _check_beams(lesson, len(scan))
-    steps = []
-    for number, step in enumerate(lesson.steps, 1):
-        params = usual.but(**step.params)
-        numbers = Numbers(scan, usual, params, step.find, lesson.decisions, step.method or METHOD)
-        steps.append(step.model_copy(update={"text": _filled(numbers, step.text, f"step {number}")}))
-    params = usual.but(**task.params)
-    numbers = Numbers(scan, usual, params, task.goal.at, lesson.decisions)
-    words = {name: _filled(numbers, getattr(task, name), name) for name in ("text", "hint", "done")}
-    lesson = lesson.model_copy(update={"steps": tuple(steps), "task": task.model_copy(update=words)})
-    return NamedLesson(id=id, accepted=accepted(task.goal, scan, params), **lesson.model_dump())
-
-
-def _check_beams(lesson: Lesson, beams: int) -> None:
-    """Raises ValueError, naming the place, for a beam that the scan does not have."""
-    goal = lesson.task.goal
-    pairs = [beam for pair in (*goal.together, *goal.either, *goal.apart) for beam in pair]
-    looked = {f"step {k}": step for k, step in enumerate(lesson.steps, 1)} | {"task": lesson.task}
-    places = {place: [*each.near, *each.names.values()] for place, each in looked.items()}
-    places |= {f"step {k}": [*places[f"step {k}"], step.selected or 0] for k, step in enumerate(lesson.steps, 1)}
-    places["goal"] = [*pairs, *goal.inside, *goal.outside, *goal.selected]
-    for place, named in places.items():
-        for beam in named:
-            if beam >= beams:
-                raise ValueError(f"{place}: there is no beam {beam}; {lesson.recording} has beams 0 to {beams - 1}")
-
-
-def _filled(numbers: Numbers, text: str, place: str) -> str:
-    try:
-        return numbers.fill(text)
+        if file.stat().st_size > LARGEST:
+            raise ValueError(f"a lesson has at most {LARGEST / 1e6:g} MB; put its recording into a file beside it")
+        text = file.read_text("utf-8-sig")
+        # pydantic says where a text ceases to be JSON, but not in which line of a file.
+        json.loads(text)
+        return _filled(home, f"{home.prefix}{file.stem}", Lesson.model_validate_json(text))
+    except RecursionError:
+        raise ValueError(f"{file.name}: this is nested too deeply to be a lesson") from None
+    except OSError as error:
+        raise ValueError(f"{file.name} cannot be read: {error.strerror}") from None
     except ValueError as error:
-        raise ValueError(f"{place}: {error}") from None
+        raise ValueError(told(file.name, text, error, Lesson)) from None
 
 
-def scan_of(lesson: Lesson) -> Scan:
-    """The scan that a lesson is about. Raises ValueError if it is none of the samples."""
-    kind, _, name = lesson.recording.partition(":")
-    folder = data_folder("sample_scans") / ("lessons" if kind == "lesson" else "")
-    file = folder / f"{name}.npz"
-    if kind not in ("lesson", "sample") or not file.is_file():
-        raise ValueError(
-            f"recording is {lesson.recording!r}; it must be lesson:NAME or sample:NAME of an NPZ file there"
-        )
-    recording = open_recording(file)
+def scan_of(lesson: Lesson, home: Home | None = None) -> Scan:
+    """The scan that a lesson is about. Raises ValueError if there is none."""
+    return _scan(lesson, (home or Home()).place_of(lesson)[1])
+
+
+def _scan(lesson: Lesson, path: Path | None) -> Scan:
+    recording: Recording
+    if path is None:
+        recording = Drawing.parse(lesson.recording.removeprefix("drawn:")).recording()
+    else:
+        recording = open_recording(path)
     if lesson.frame >= len(recording):
-        raise ValueError(f"frame is {lesson.frame}, but {lesson.recording} has {len(recording)} frames")
+        raise ValueError(f"frame is {lesson.frame}, but {lesson.recording or 'scan'} has {len(recording)} frames")
     return recording[lesson.frame]
+
+
+def _filled(home: Home, id: str, lesson: Lesson) -> NamedLesson:
+    """The lesson with its recording looked up, its numbers put in, and everything checked."""
+    try:
+        recording, path = home.place_of(lesson)
+        scan = _scan(lesson, path)
+    except (ValueError, OSError) as error:
+        raise MistakeError(("scan" if lesson.scan else "recording",), str(error)) from None
+    _check_beams(lesson, scan, recording)
+    lesson = lesson.model_copy(update={"recording": recording, "scan": {}, "params": USUAL | lesson.params})
+    usual = _params(Params(), lesson.params, ("params",))
+    steps = []
+    for k, step in enumerate(lesson.steps):
+        params = _params(usual, step.params, ("steps", k, "params"))
+        numbers = Numbers(scan, usual, params, step.find, lesson.decisions, step.method or METHOD)
+        if step.find is not None:
+            _at(("steps", k, "find"), numbers.shown_decision)
+        steps.append(step.model_copy(update={"text": _text(numbers, step.text, ("steps", k, "text"), home)}))
+    task = lesson.task
+    params = _params(usual, task.params, ("task", "params"))
+    numbers = Numbers(scan, usual, params, task.goal.at if task.goal else None, lesson.decisions)
+    lesson = lesson.model_copy(update={"steps": tuple(steps), "task": _filled_task(task, numbers, home)})
+    ranges = accepted(task.goal, scan, params) if task.goal else {}
+    return NamedLesson(id=id, accepted=ranges, own=home.folder is not None, **lesson.model_dump())
+
+
+def _filled_task(task: Task, numbers: Numbers, home: Home) -> Task:
+    filled: dict[str, Any] = {
+        name: _text(numbers, getattr(task, name), ("task", name), home) for name in ("text", "hint", "done")
+    }
+    filled["choice"] = tuple(
+        option.model_copy(
+            update={
+                name: _text(numbers, getattr(option, name), ("task", "choice", k, name), home)
+                for name in ("text", "why")
+            }
+        )
+        for k, option in enumerate(task.choice)
+    )
+    if task.number is not None:
+        place = ("task", "number", "answer")
+        answer = _text(numbers, task.number.answer, place, home)
+        if not QUANTITY.fullmatch(answer):
+            raise MistakeError(place, f"{answer!r} does not begin with a number, such as 45 mm")
+        filled["number"] = task.number.model_copy(update={"answer": answer})
+    return task.model_copy(update=filled)
+
+
+def _params(usual: Params, values: dict[str, float], place: Place) -> Params:
+    return _at(place, lambda: usual.but(**values))
+
+
+def _text(numbers: Numbers, text: str, place: Place, home: Home) -> str:
+    """The text with its numbers, after a look at its links and pictures."""
+    _at(place, lambda: check_text(text, home.folder))
+    return _at(place, lambda: numbers.fill(text))
+
+
+def _at(place: Place, work: Callable[[], T]) -> T:
+    """The result of the work; what it complains of is said of this place."""
+    try:
+        return work()
+    except ValueError as error:
+        raise MistakeError(place, str(error)) from None
+
+
+def _check_beams(lesson: Lesson, scan: Scan, recording: str) -> None:
+    """Raises MistakeError for a beam that the scan does not have."""
+    beams = len(scan)
+    for place, beam in _beams_of(lesson):
+        if beam >= beams:
+            raise MistakeError(place, f"there is no beam {beam}; {recording} has beams 0 to {beams - 1}")
+
+
+def _beams_of(lesson: Lesson) -> Iterator[tuple[Place, int]]:
+    """All beams that a lesson names, each with its place."""
+    looked: list[tuple[Place, Looked]] = [(("steps", k), step) for k, step in enumerate(lesson.steps)]
+    for place, each in [*looked, (("task",), lesson.task)]:
+        for beam in each.near:
+            yield (*place, "near"), beam
+        for name, beam in each.names.items():
+            yield (*place, "names", name), beam
+    for k, step in enumerate(lesson.steps):
+        if step.selected is not None:
+            yield ("steps", k, "selected"), step.selected
+    goal = lesson.task.goal
+    if goal is None:
+        return
+    for name in ("together", "either", "apart"):
+        for pair in getattr(goal, name):
+            yield from ((("task", "goal", name), beam) for beam in pair)
+    for name in ("inside", "outside", "selected"):
+        yield from ((("task", "goal", name), beam) for beam in getattr(goal, name))

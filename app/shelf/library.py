@@ -17,6 +17,7 @@ from lineseg.simulate.drawing import Drawing
 from ..live.hub import Live
 from ..places import data_folder
 from ..told.messages import RecordingEntry
+from .lesson_shelf import LessonShelf
 from .recent import Recent
 from .uploads import Uploads
 
@@ -27,6 +28,9 @@ POLL = 0.05
 # The id of a drawn world contains the world itself, so a link is enough to open it.
 DRAWN = "drawn:"
 FIRST_DRAWING = "w-2,2,3,2;w3,2,3,-1.5;w3,-1.5,0.5,-1.5;c1.2,0.8,0.25;l0,0,0;b-135,135,0.5,30,0.01;s0"
+# The recording of a lesson that is not one of the program's.
+OWN = "own"
+OWN_LABEL = "Recording of the lesson"
 DRAWN_LABEL = "Your own world"
 
 Progress = Callable[[int, int], None]
@@ -87,8 +91,10 @@ class Library:
         uploads: Uploads,
         live: Live | None = None,
         reading: Reading | None = None,
+        lessons: LessonShelf | None = None,
     ) -> None:
         self.uploads = uploads
+        self.lessons = lessons or LessonShelf()
         self.live = live or Live()
         self._samples = _samples()
         self._files = {f"file:{_digest(path)}": path for path in map(_absolute, files)}
@@ -171,6 +177,8 @@ class Library:
         path = self._files.get(id) or self._recent.get(id)
         if path is not None:
             return path.name
+        if id.startswith(f"{OWN}:"):
+            return OWN_LABEL
         return next((upload.name for upload in self.uploads.all() if id == f"upload:{upload.id}"), id)
 
     def path(self, id: str) -> Path:
@@ -179,10 +187,14 @@ class Library:
         try:
             if kind == "upload":
                 return self.uploads[name].path
+            if kind == OWN:
+                return self.lessons.recording(id)
             return {**self._samples, **self._files, **self._recent}[id]
         except KeyError:
             if kind == "upload":
                 raise ValueError("this upload is no longer on the server; drop the file on the page again") from None
+            if kind == OWN:
+                raise ValueError("this server no longer has the lesson of this link; drop its file again") from None
             if kind in ("file", "recent"):
                 raise ValueError(
                     "this server does not know the file of this link; open it from the command line"

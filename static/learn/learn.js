@@ -12,6 +12,7 @@ import { Lessons } from "./lessons.js";
 import { Listing } from "./listing.js";
 import { shapeOf } from "./shapes.js";
 import { shapeOfQuestion } from "./question.js";
+import { boxOnStage, openMaking } from "./make_lesson.js";
 import { createPredict } from "./predict.js";
 import { Stepper } from "./stepper.js";
 import { Trace } from "./trace.js";
@@ -103,7 +104,10 @@ class Learn {
       answers: this.#predict.buttons,
       extras: [views, this.#trail, this.#predict.toggle, this.#predict.score],
     });
-    this.#lessons = new Lessons(words, this.#glossary, { onChange, onDraw, onGo });
+    const project = (/** @type {number} */ x, /** @type {number} */ y) => view.project(x, y);
+    const box = () => (this.#event ? null : boxOnStage(project, stage));
+    const onMake = () => openMaking(text.making, { session, box, onMade: (lessons) => this.takeLessons(lessons) });
+    this.#lessons = new Lessons(words, this.#glossary, { onChange, onDraw, onGo, onMake });
     panel.setAttribute("aria-label", text.panel);
     const method = h("div", { class: "method" }, this.#other, this.#listingPlace, this.#formulas.element);
     panel.append(this.#lessons.element, method);
@@ -211,6 +215,11 @@ class Learn {
     this.#formulas.set(explained, this.#trace, this.#params);
     this.#charts.set(explained, this.#trace, this.#params);
     this.#listing?.set(explained, event ? variables(event) : [], event ? compared(event, this.#knobs) : "");
+  }
+
+  /** Lessons of the user. @param {import("./lessons.js").Lesson[]} lessons */
+  takeLessons(lessons) {
+    this.#lessons.take(lessons);
   }
 
   /** @param {boolean} yes */

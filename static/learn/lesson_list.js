@@ -10,7 +10,7 @@ import { symbols } from "../widgets/symbols.js";
 const DONE_KEY = "lineseg.lessons";
 
 export class LessonList {
-  /** @type {Lesson[]} */ lessons = [];
+  /** @type {Lesson[]} */ #lessons = [];
   /** Says why there are no lessons. */
   trouble = h("div");
   #done = new Set(load());
@@ -22,17 +22,18 @@ export class LessonList {
   /**
    * @param {typeof import("../text/learn.js").learnText.lesson} text
    * @param {import("./glossary.js").Glossary} glossary
-   * @param {{onOpen: (id: string) => void, onDraw: () => void}} handlers onDraw: the user wants to draw a world
+   * @param {{onOpen: (id: string) => void, onDraw: () => void, onMake: () => void}} handlers onDraw: the user wants to draw a world, onMake: to make a lesson
    */
-  constructor(text, glossary, { onOpen, onDraw }) {
+  constructor(text, glossary, { onOpen, onDraw, onMake }) {
     this.#text = text;
     this.#onOpen = onOpen;
-    const drawing = h(
-      "button",
-      { type: "button", class: "lesson-item", onclick: onDraw },
-      h("span", { class: "lesson-item-title" }, drawText.open),
-      h("span", { class: "muted" }, drawText.openHint),
-    );
+    const other = (/** @type {string} */ title, /** @type {string} */ hint, /** @type {() => void} */ onclick) =>
+      h(
+        "button",
+        { type: "button", class: "lesson-item other", onclick },
+        h("span", { class: "lesson-item-title" }, title),
+        h("span", { class: "muted" }, hint),
+      );
     this.element = h(
       "div",
       { class: "lesson-overview" },
@@ -41,15 +42,38 @@ export class LessonList {
       this.trouble,
       this.#broken,
       this.#items,
-      drawing,
+      other(drawText.open, drawText.openHint, onDraw),
+      other(text.make, text.makeHint, onMake),
     );
   }
 
-  /** @param {Lesson[]} lessons @param {string[]} broken why other files are not valid lessons */
-  set(lessons, broken) {
-    this.lessons = lessons;
-    this.#broken.replaceChildren(...broken.map((why) => h("p", {}, why)));
+  /** @param {Lesson[]} lessons */
+  set(lessons) {
+    // Those that were dropped before these came stay.
+    const dropped = this.#lessons.filter(({ id }) => lessons.every((each) => each.id !== id));
+    this.#lessons = [...lessons, ...dropped];
     this.show();
+  }
+
+  /** @param {Lesson[]} lessons */
+  add(lessons) {
+    this.#lessons = [...this.#lessons.filter(({ id }) => lessons.every((each) => each.id !== id)), ...lessons];
+    this.show();
+  }
+
+  /** @param {string} id */
+  find(id) {
+    return this.#lessons.find((each) => each.id === id);
+  }
+
+  /** @param {Lesson} lesson */
+  numberOf(lesson) {
+    return this.#lessons.indexOf(lesson) + 1;
+  }
+
+  /** @param {Lesson} lesson @returns {Lesson | undefined} */
+  after(lesson) {
+    return this.#lessons[this.numberOf(lesson)];
   }
 
   /** @param {string} why */
@@ -60,7 +84,7 @@ export class LessonList {
   }
 
   show() {
-    this.#items.replaceChildren(...this.lessons.map((lesson) => h("li", {}, this.#itemOf(lesson))));
+    this.#items.replaceChildren(...this.#lessons.map((lesson) => h("li", {}, this.#itemOf(lesson))));
   }
 
   /** @param {Lesson} lesson */

@@ -3,6 +3,7 @@
 import { Threshold } from "../tune/threshold.js";
 import { h } from "../widgets/dom.js";
 import { gestureCount } from "../widgets/slider.js";
+import { fetchText } from "../fetch.js";
 import { fetchInto } from "./fetched.js";
 import { find, missing } from "./goals.js";
 import { LessonList } from "./lesson_list.js";
@@ -17,8 +18,8 @@ import { Reader } from "./reader.js";
 /** @typedef {import("../wire.js").Find} Find */
 /** @typedef {import("../wire.js").Step} LessonStep */
 /** @typedef {import("../wire.js").NamedLesson} Lesson */
-/** @typedef {{lessons: Lesson[], broken: string[], terms: import("../wire.js").ExplainedTerm[]}} Told */
-/** @typedef {{onChange: (patch: Patch, gesture?: string | null) => void, onGo: (step: number | null) => void, onDraw: () => void}} Handlers */
+/** @typedef {import("../wire.js").Lessons} Told */
+/** @typedef {{onChange: (patch: Patch, gesture?: string | null) => void, onGo: (step: number | null) => void, onDraw: () => void, onMake: () => void}} Handlers */
 
 // Every lesson is about this method; a step may show another for comparison.
 const METHOD = "region-growing";
@@ -33,6 +34,7 @@ export class Lessons {
   #pending = null;
   #solved = false;
   /** What was set before the lesson, to be given back when it is left. @type {Patch | null} */ #before = null;
+  /** Lessons that were asked for by name. @type {Set<string>} */ #fetched = new Set();
   /** @type {Readonly<View> | null} */ #view = null;
   /** @type {Knob[]} */ #knobs = [];
   /** @type {Map<string, Threshold>} */ #sliders = new Map();
@@ -46,12 +48,14 @@ export class Lessons {
     this.#words = words;
     this.#handlers = handlers;
     const text = words.learn.lesson;
-    this.#list = new LessonList(text, glossary, { onOpen: (id) => this.open(id), onDraw: handlers.onDraw });
-    this.#reader = new Reader(text, glossary, {
+    this.#list = new LessonList(text, glossary, { ...handlers, onOpen: (id) => this.open(id) });
+    this.#reader = new Reader(text, glossary, words.learn.answers, {
       onLeave: () => this.#leave(),
       onBack: () => this.#turn(this.#at - 1),
       onNext: () => this.#forward(),
       onHint: () => this.#lesson && this.#reader.hint(this.#lesson.task.hint),
+      onLesson: (id) => this.open(id),
+      onAnswer: (solved, why) => this.#answered(solved, why),
     });
     this.element = h(
       "section",
@@ -61,7 +65,7 @@ export class Lessons {
     );
     fetchInto(this.#list.trouble, "/api/lessons", text, (/** @type {Told} */ told) => {
       glossary.set(told.terms, told.lessons);
-      this.#list.set(told.lessons, told.broken);
+      this.#list.set(told.lessons);
       this.#come("lessons");
     });
   }
@@ -81,7 +85,7 @@ export class Lessons {
 
   /** Opens a lesson at its first page. @param {string} id */
   open(id) {
-    const chosen = this.#list.lessons.find((each) => each.id === id);
+    const chosen = this.#list.find(id);
     if (!chosen) return this.#list.complain(this.#words.learn.lesson.unknown(id));
     if (!this.#lesson && this.#view) this.#before = settingsOf(this.#view);
     this.#show(chosen);
@@ -98,9 +102,8 @@ export class Lessons {
         .filter(({ name }) => chosen.knobs.includes(name))
         .map((knob) => [knob.name, this.#createSlider(knob)]),
     );
-    const number = this.#list.lessons.indexOf(chosen) + 1;
     this.#reader.open(
-      `${number} · ${chosen.title}`,
+      `${this.#list.numberOf(chosen)} · ${chosen.title}`,
       [...this.#sliders.values()].map((slider) => slider.element),
     );
   }
@@ -108,8 +111,8 @@ export class Lessons {
   /** Shows the lesson and the page of a View that came from elsewhere: a link, or the presenter. @param {Readonly<View>} view */
   #adopt({ lesson, page, recording }) {
     if (this.#awaited.size || (lesson === (this.#lesson?.id ?? null) && (!lesson || page === this.#at))) return;
-    const chosen = this.#list.lessons.find((each) => each.id === lesson);
-    if (lesson && !chosen) return this.#list.complain(this.#words.learn.lesson.unknown(lesson));
+    const chosen = lesson ? this.#list.find(lesson) : null;
+    if (lesson && !chosen) return this.#fetchDropped(lesson);
     if (!chosen) return this.#close();
     if (chosen !== this.#lesson) this.#show(chosen);
     // A link that names no more than the lesson.
@@ -117,6 +120,24 @@ export class Lessons {
     this.#at = Math.min(page, chosen.steps.length);
     this.#pending = null;
     this.#read(chosen);
+  }
+
+  /** One that was dropped on another page, which a link or the presenter names. @param {string} id */
+  #fetchDropped(id) {
+    if (this.#fetched.has(id)) return;
+    this.#fetched.add(id);
+    fetchText(`/api/lessons/one?${new URLSearchParams({ id })}`).then(({ words, trouble }) => {
+      if (trouble !== null) return this.#list.complain(this.#words.learn.lesson.unknown(id));
+      this.#list.add([JSON.parse(words)]);
+      return this.#view && this.#adopt(this.#view);
+    });
+  }
+
+  /** Offers lessons of the user, and opens the first. @param {Lesson[]} lessons */
+  take(lessons) {
+    this.#list.add(lessons);
+    this.#handlers.onChange({ mode: "learn" });
+    this.open(lessons[0].id);
   }
 
   /** @param {Knob} knob */
@@ -153,7 +174,7 @@ export class Lessons {
 
   /** @param {Lesson} lesson @returns {Lesson | undefined} */
   #following(lesson) {
-    return this.#list.lessons[this.#list.lessons.indexOf(lesson) + 1];
+    return this.#list.after(lesson);
   }
 
   /** @param {number} to */
@@ -175,8 +196,9 @@ export class Lessons {
     this.#solved = false;
     this.element.dataset.page = step ? "step" : "task";
     this.#reader.show({
+      lesson: lesson.id,
       words: step?.text ?? task.text,
-      isTask: !step,
+      task: step ? null : task,
       // On other pages the sliders would only take up space.
       sliders: !step || Object.keys(step.params).length > 0,
       at: this.#at,
@@ -242,11 +264,13 @@ export class Lessons {
       const index = target ? find(trace, target) : -1;
       this.#handlers.onGo(index >= 0 ? index : null);
     }
-    if (!this.#pending && this.#at === lesson.steps.length && !this.#solved) this.#check(lesson, state, trace, params);
+    if (!this.#pending && this.#at === lesson.steps.length && !this.#solved && lesson.task.goal)
+      this.#check(lesson, state, trace, params);
   }
 
   /** Whether the task is done; nothing is said before the first attempt. @param {Lesson} lesson @param {State} state @param {Trace} trace @param {Params} start */
   #check({ id, task: { goal, done }, accepted }, state, trace, start) {
+    if (!goal) return;
     const { lesson: text, goals } = this.#words.learn;
     const lacks = missing({ goal, accepted }, state, trace, start, this.#knobs, goals);
     this.#solved = lacks.length === 0;
@@ -257,7 +281,16 @@ export class Lessons {
       this.#solved ? `${text.right} ${done}` : [text.notYet, ...lacks.slice(0, 2)].join(" "),
     );
     if (this.#solved) this.#list.markDone(id);
-    return undefined;
+  }
+
+  /** What was chosen or typed. @param {boolean} solved @param {string} why it is not right, if anyone has said so */
+  #answered(solved, why) {
+    const text = this.#words.learn.lesson;
+    const lesson = this.#lesson;
+    if (!lesson) return;
+    this.#solved = solved;
+    this.#reader.judge(solved, solved ? `${text.right} ${lesson.task.done}` : `${text.no} ${why}`);
+    if (solved) this.#list.markDone(lesson.id);
   }
 }
 

@@ -1,25 +1,28 @@
 // @ts-check
 // Opens what a person chose or dropped: a recording, a table of a sweep, or parameters.
 import { isSweepTable } from "../tune/sweep_table.js";
+import { hasLesson, sendLessons } from "../learn/dropped.js";
 import { fetchText } from "../fetch.js";
 import { toast } from "../widgets/toast.js";
 import { catchDrops, chooseFile, hasScans, nameOfAll, pick, uploadAll } from "./files.js";
 
 /**
  * @param {import("../page.js").Page} page
- * @param {{work: ReturnType<typeof import("./work.js").createWork>, notices: ReturnType<typeof import("../stage/notices.js").mountNotices>}} shown
+ * @param {{work: ReturnType<typeof import("./work.js").createWork>, notices: ReturnType<typeof import("../stage/notices.js").mountNotices>,
+ *   tune: ReturnType<typeof import("../tune/tune.js").createTune>, learn: ReturnType<typeof import("../learn/learn.js").mountLearn>}} shown
  * @param {typeof import("../text/page.js").pageText} text
- * @param {{onSweep: (file: File) => void, rest: (name: string) => import("../view/store.js").Patch}} handlers
+ * @param {{rest: (name: string) => import("../view/store.js").Patch}} handlers
  *   rest: what else a link says about the file of this name
  */
-export function createOpening(page, { work, notices }, text, { onSweep, rest }) {
+export function createOpening(page, { work, notices, tune, learn }, text, { rest }) {
   /** @param {File[]} files */
   async function open(files) {
+    if (await hasLesson(files)) return openLessons(files);
     const picked = pick(files);
     if (!picked) return work.refuse(text.stage.nothingDropped);
     if (picked.kind === "recordings") {
       const [[file]] = picked.recordings;
-      return (await isSweepTable(file)) ? onSweep(file) : send(picked.recordings);
+      return (await isSweepTable(file)) ? tune.openSweep(file) : send(picked.recordings);
     }
     const [file] = picked.files;
     const words = await file.text();
@@ -27,6 +30,14 @@ export function createOpening(page, { work, notices }, text, { onSweep, rest }) 
     const why = await importParams(words);
     if (why) work.refuse(`${file.name}: ${why}`);
     return undefined;
+  }
+
+  /** @param {File[]} files lessons and what belongs to them */
+  function openLessons(files) {
+    return work.run(text.stage.uploading(files[0].name), async (_, signal) => {
+      const lessons = await sendLessons(files);
+      if (!signal.aborted) learn.takeLessons(lessons);
+    });
   }
 
   /** Sends recordings, and opens the first. @param {File[][]} recordings the files of each */

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from lineseg_app.shelf.lesson import NamedLesson, Step
 from lineseg_app.shelf.lesson_numbers import METHOD, found, trace_by
-from lineseg_app.shelf.lessons import NamedLesson, Step, lesson_files, read_lessons, scan_of
+from lineseg_app.shelf.lessons import lesson_files, read_lessons, scan_of
 
 from lineseg import Params
 

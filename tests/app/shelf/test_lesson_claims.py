@@ -9,9 +9,10 @@ from functools import cache
 
 import numpy as np
 import pytest
+from lineseg_app.shelf.lesson import NamedLesson
 from lineseg_app.shelf.lesson_goals import solves
 from lineseg_app.shelf.lesson_numbers import PLACEHOLDER, trace_by
-from lineseg_app.shelf.lessons import NamedLesson, lesson_files, read_lessons, scan_of
+from lineseg_app.shelf.lessons import lesson_files, read_lessons, scan_of
 
 from lineseg import Params, Scan, Trace, extract
 from lineseg.tracing.decisions import Decision

@@ -7,8 +7,10 @@ import shutil
 from pathlib import Path
 
 import pytest
+from lineseg_app.shelf.lesson import NamedLesson
 from lineseg_app.shelf.lesson_numbers import found
-from lineseg_app.shelf.lessons import NamedLesson, lesson_files, looked_at, read_lessons, scan_of
+from lineseg_app.shelf.lesson_shelf import LessonShelf
+from lineseg_app.shelf.lessons import lesson_files, read_lessons, scan_of
 from live import Address
 
 from lineseg import Params, trace
@@ -50,27 +52,33 @@ def test_a_file_that_is_not_a_lesson_is_named_with_its_error(tmp_path: Path):
     assert "abuot" in told.broken[0] or "about" in told.broken[0]
 
 
+def line_with(text: str, words: str) -> int:
+    """The number of the first line that has these words, from 1."""
+    return next(number for number, line in enumerate(text.splitlines(), 1) if words in line)
+
+
 @pytest.mark.parametrize(
     ("written", "complaint"),
     [
-        ("{epsilom}", "step 1: {epsilom} is not known; there is delta.beam, delta.count, beams"),
-        ("{beam}", "step 1: {beam} is not known"),
-        ("{delta.bean}", "step 1: {delta.bean} is not known"),
-        ("{epsilon:inch}", "step 1: {epsilon:inch} has no unit of mm, cm, deg"),
+        ("{epsilom}", "step 1, text: {epsilom} is not known; there is delta.beam, delta.count, beams"),
+        ("{beam}", "step 1, text: {beam} is not known"),
+        ("{delta.bean}", "step 1, text: {delta.bean} is not known"),
+        ("{epsilon:inch}", "step 1, text: {epsilon:inch} has no unit of mm, cm, deg"),
     ],
 )
 def test_a_number_that_cannot_be_put_in_is_named_with_what_is_known(tmp_path: Path, written: str, complaint: str):
     text = lesson_files()[0].read_text("utf-8").replace("{returns}", written)
     (tmp_path / "mine.json").write_text(text, "utf-8")
     (why,) = read_lessons([tmp_path / "mine.json"]).broken
-    assert why.startswith(f"mine.json: {complaint}")
+    assert why.startswith(f"mine.json:{line_with(text, written)}: {complaint}")
 
 
 def test_a_beam_that_the_scan_does_not_have_is_named_with_its_place(tmp_path: Path):
     text = lesson_files()[4].read_text("utf-8").replace('"selected": [\n        56', '"selected": [\n        111')
     (tmp_path / "mine.json").write_text(text, "utf-8")
     (why,) = read_lessons([tmp_path / "mine.json"]).broken
-    assert why == "mine.json: goal: there is no beam 111; lesson:9_wide_corner has beams 0 to 110"
+    line = line_with(text, '"selected"')
+    assert why == f"mine.json:{line}: task.goal.selected: there is no beam 111; lesson:9_wide_corner has beams 0 to 110"
 
 
 def test_the_server_offers_the_lessons_in_order(server: Address):
@@ -79,9 +87,9 @@ def test_the_server_offers_the_lessons_in_order(server: Address):
 
 
 def test_the_id_of_a_lesson_is_no_path(tmp_path):
-    lesson = lesson_files()[0]
-    assert looked_at(lesson.stem, 0) is not None
+    lesson, shelf = lesson_files()[0], LessonShelf()
+    assert shelf.looked_at(lesson.stem, 0) is not None
     elsewhere = shutil.copy(lesson, tmp_path / "elsewhere.json")
     path = os.path.relpath(elsewhere, lesson.parent).removesuffix(".json")
-    assert looked_at(path, 0) is None
-    assert looked_at(str(elsewhere).removesuffix(".json"), 0) is None
+    assert shelf.looked_at(path, 0) is None
+    assert shelf.looked_at(str(elsewhere).removesuffix(".json"), 0) is None

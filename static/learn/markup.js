@@ -1,0 +1,45 @@
+// @ts-check
+// Texts of lessons: paragraphs, emphasis, links and pictures (app/shelf/lesson_markup.py). None of it is read as HTML.
+import { h } from "../widgets/dom.js";
+
+/** @typedef {import("./glossary.js").Mark} Mark */
+/** Of which lesson a text is, and what happens when a link to another lesson is chosen. @typedef {{id: string, onLesson: (id: string) => void}} Of */
+
+const INLINE = /\*(\S(?:[^*\n]*\S)?)\*|\[([^\]\n]+)\]\(([^()\s]+)\)/u;
+const PICTURE = /^!\[([^\]\n]+)\]\(([^()\s]+)\)$/u;
+const WEB = /^https?:\/\//u;
+const LESSON = "lesson:";
+
+/** @param {string} words @param {Mark} mark @param {Of} of */
+export function paragraphs(words, mark, of) {
+  return words.split("\n\n").map((part) => {
+    const picture = part.trim().match(PICTURE);
+    return picture ? pictureOf(picture[2], picture[1], of.id) : h("p", {}, ...rich(part, mark, of));
+  });
+}
+
+/** @param {string} name @param {string} words what it shows @param {string} id */
+function pictureOf(name, words, id) {
+  const src = `/api/lessons/picture?${new URLSearchParams({ id, name })}`;
+  return h("figure", { class: "lesson-picture" }, h("img", { src, alt: words }));
+}
+
+/** One line of a text. @param {string} words @param {Mark} mark @param {Of} of @returns {(Node | string)[]} */
+export function rich(words, mark, of) {
+  // Between the plain parts stand what is emphasised, or the words and the target of a link.
+  const parts = words.split(new RegExp(INLINE, "gu"));
+  return parts.flatMap((part, k) => {
+    if (k % 4 === 0) return mark(part);
+    if (k % 4 === 1 && part !== undefined) return [h("em", {}, ...mark(part))];
+    return k % 4 === 2 && part !== undefined ? [linkOf(part, parts[k + 1], of)] : [];
+  });
+}
+
+/** @param {string} words @param {string} target @param {Of} of */
+function linkOf(words, target, { onLesson }) {
+  if (target.startsWith(LESSON)) {
+    const go = () => onLesson(target.slice(LESSON.length));
+    return h("button", { type: "button", class: "named", onclick: go }, words);
+  }
+  return WEB.test(target) ? h("a", { href: target, target: "_blank", rel: "noopener noreferrer" }, words) : words;
+}
