@@ -19,6 +19,7 @@ from .reading import ReadingFlags, each_file, reading_of
 
 # No laser scatters by less [m]; the walls of such a recording do not show how its laser does.
 LEAST_NOISE = 5e-4
+FRAMES_AT_ONCE = 1000
 
 
 def info(files: Positional[Files[str]], reading: OmitArgPrefixes[ReadingFlags]) -> None:  # type: ignore[valid-type]
@@ -61,20 +62,52 @@ def _facts(recording: Recording) -> Iterator[tuple[str, object]]:
     yield "scans", len(recording)
     least, most = recording.beams
     yield "beams", least if least == most else f"{least} to {most}"
-    views = np.array([np.rad2deg(np.ptp(scan.bearings)) for scan in recording if len(scan)] or [0.0])
-    yield "field of view", f"{np.median(views):.2f}°"
-    steps = [np.rad2deg(np.abs(np.diff(scan.bearings)).mean()) for scan in recording if len(scan) > 1] or [0.0]
-    yield "beam spacing", f"{np.median(steps):.4f}°"
-    valid = sum(int(np.count_nonzero(scan.valid)) for scan in recording)
+    views, steps = _bearings(recording)
+    yield "field of view", f"{np.rad2deg(np.median(views)):.2f}°"
+    yield "beam spacing", f"{np.rad2deg(np.median(steps)):.4f}°"
+    valid, longest = _returns(recording)
     yield "invalid beams", f"{1 - valid / max(len(recording.ranges), 1):.2%}"
-    longest = [scan.ranges[scan.valid].max() for scan in recording if scan.valid.any()]
     yield "longest range", f"{max(longest, default=0.0):.3f} m"
     if account.believable:
         yield "duration", f"{np.ptp(recording.stamps):.3f} s"
     yield "poses", said_of(recording.poses, recording.pose_source)
     found = propose(recording)
-    yield "noise", _noise(found.noise, [float(ranges) for ranges in longest])
+    yield "noise", _noise(found.noise, longest)
     yield "thresholds", found.text or "The defaults fit this recording."
+
+
+def _bearings(recording: Recording) -> tuple[list[float], list[float]]:
+    """The field of view and the mean beam spacing of each scan that has one [rad]."""
+    views, steps = [], []
+    last = None
+    view = step = 0.0
+    for scan in recording:
+        # Scans of one geometry share their bearings.
+        if scan.bearings is not last:
+            last = scan.bearings
+            view = float(np.ptp(last)) if len(scan) else 0.0
+            step = float(np.abs(np.diff(last)).mean()) if len(scan) > 1 else 0.0
+        views += [view] * (len(scan) > 0)
+        steps += [step] * (len(scan) > 1)
+    return views or [0.0], steps or [0.0]
+
+
+def _returns(recording: Recording) -> tuple[int, list[float]]:
+    """The number of valid beams, and the longest range of each scan that has any [m]."""
+    number, longest = 0, []
+    for first in range(0, len(recording), FRAMES_AT_ONCE):
+        frames = slice(first, first + FRAMES_AT_ONCE)
+        offsets = recording.offsets[first : frames.stop + 1]
+        ranges, beams = recording.ranges[offsets[0] : offsets[-1]], np.diff(offsets)
+        least, most = (
+            np.repeat(limit[frames].astype(ranges.dtype), beams) for limit in (recording.range_min, recording.range_max)
+        )
+        valid = (ranges > 0) & (ranges >= least) & (ranges < most)
+        number += int(np.count_nonzero(valid))
+        starts = (offsets[:-1] - offsets[0])[beams > 0]
+        farthest = np.maximum.reduceat(np.where(valid, ranges, 0), starts) if len(starts) else np.empty(0)
+        longest += farthest[farthest > 0].tolist()
+    return number, longest
 
 
 def _noise(noise: RangeNoise, longest: list[float]) -> str:
