@@ -8,9 +8,11 @@ import sys
 import threading
 import time
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from typing import Generic, TypeVar
 
 T = TypeVar("T")
+R = TypeVar("R")
 NICENESS = 10
 
 
@@ -68,6 +70,16 @@ class Newest(Generic[T]):
                 self._changed.wait(rest if self._waiting else None)
             pieces, self._waiting = self._waiting, []
             return pieces
+
+
+def done_behind(work: Callable[[], R]) -> R:
+    """The result of work that another thread does with low priority while the caller waits.
+
+    Only for work that leaves Python for most of its time. While a thread of low priority has the interpreter, whatever
+    else keeps the machine busy holds up all other threads.
+    """
+    with ThreadPoolExecutor(1, initializer=step_back) as pool:
+        return pool.submit(work).result()
 
 
 def step_back() -> None:

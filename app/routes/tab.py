@@ -19,7 +19,7 @@ from lineseg import EXTRACTORS, __version__
 from lineseg.failing import mistake
 
 from ..session.following import OWN
-from ..session.session import Session
+from ..session.session import Page, Session
 from ..session.sessions import Sessions, TooManySessionsError
 from ..shelf.library import Library
 from ..told.messages import Failure, MethodEntry, Quick, ReadingEntry, Recordings, ScoreEntry, Surveyed, Welcome
@@ -141,6 +141,11 @@ async def _converse(
         except (CancelledError, TimeoutError, WebSocketDisconnect, RuntimeError):
             log.debug("a message to %s was lost", session.id[:6])
 
+    async def tell(message: BaseModel) -> None:
+        with contextlib.suppress(TimeoutError, WebSocketDisconnect, RuntimeError):
+            async with asyncio.timeout(SEND_SECONDS):
+                await _tell(socket, message)
+
     def announce() -> None:
         asyncio.run_coroutine_threadsafe(_tell(socket, Recordings(recordings=library.entries())), loop)
 
@@ -153,7 +158,7 @@ async def _converse(
         await _tell(socket, welcome)
         if complaint is not None:
             await _tell(socket, Failure(where="view", message=complaint, rev=hello.rev))
-        session.attach(send, hang_up, hello.rev)
+        session.attach(Page(send, tell, hang_up), hello.rev)
         if hello.follow is not None:
             await _follow(socket, session, sessions, hello.follow)
         await _listen(socket, session, sessions)

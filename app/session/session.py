@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import asyncio
 import logging
 import os
 import threading
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Awaitable, Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any, Literal
 
@@ -33,23 +32,37 @@ from ..view import View
 from .composing import Composer, Content
 from .following import Presence, Presenter, mirrored
 from .strip import Strip, key_of
-from .turns import InOrder, in_loop
+from .turns import InOrder, Rounds
 from .warm_up import WarmUp
 
 Origin = Literal["page", "scene"]
-Send = Callable[[BaseModel], None]
 Watch = Callable[[View, Recording, str, Findings], None]
 
 log = logging.getLogger(__name__)
 # Shortest time between redraws of a live recording [s]; no scan is lost.
 FOLLOW_EVERY = 0.04
-# Tabs draw one after the other. Python runs one thread at a time anyway: more would only make each other wait, and show
-# older Views, because each takes the newest when its turn comes.
+# Longest time that closing waits for a picture [s].
+CLOSING_SECONDS = 10.0
+# Threads of tabs draw one after the other. Python runs one at a time anyway: more would only make each other wait, and
+# show older Views, because each takes the newest when its turn comes.
 QUICK_TURN = InOrder()
 # Scans of more beams take longer [beams].
 QUICK_BEAMS = 2_000
 # What may take long does not make the others wait; its kernels run beside Python.
 SLOW_TURNS = threading.Semaphore(max(2, os.cpu_count() or 2))
+
+
+@dataclass(frozen=True)
+class Page:
+    """What a session needs of its page.
+
+    send: for its threads; returns when the page has taken the message, so a slow page slows its own session only.
+    tell: the same for the event loop. hang_up: called when the session ends.
+    """
+
+    send: Callable[[BaseModel], None]
+    tell: Callable[[BaseModel], Awaitable[None]]
+    hang_up: Callable[[], None]
 
 
 @dataclass(frozen=True)
@@ -60,6 +73,16 @@ class Request:
     view: View
     rev: int
     origin: Origin
+
+
+@dataclass(frozen=True, eq=False)
+class Painted:
+    """A request with its picture, which viser has."""
+
+    request: Request
+    recording: Recording
+    content: Content
+    timings: Timings
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,10 +104,10 @@ class Shown:
 
 
 class Session:
-    """Every input changes the View and wakes the worker; while the worker draws, only the newest request is kept.
+    """Every input changes the View and has it drawn; while a picture is drawn, only the newest request is kept.
 
-    `send` is called in the worker's thread and may block: a slow page only slows its own session.
-    Creating a session starts a viser server, in `loop`, and blocks for a moment.
+    Short work on a recording that is open is done in the event loop that answers all tabs, in `rounds`; a worker thread
+    does the rest, and all of it without `rounds`. Creating a session starts a viser server, and blocks for a moment.
     """
 
     def __init__(
@@ -95,18 +118,17 @@ class Session:
         warm_up: WarmUp,
         view: View,
         watch: Watch | None = None,
-        loop: asyncio.AbstractEventLoop | None = None,
+        rounds: Rounds | None = None,
     ) -> None:
         self.id = id
         self._watch = watch
-        self._loop = loop
+        self._rounds = rounds
         self._warm_up = warm_up
         self.last_input = time.monotonic()
         self.detached_at: float | None = self.last_input
         self._library = library
         self._composer = Composer(library, files)
-        self._send: Send | None = None
-        self._hang_up: Callable[[], None] | None = None
+        self._page: Page | None = None
         self._told: Findings | None = None
         self._traced: Findings | None = None
         self._timed: Recording | None = None
@@ -116,7 +138,10 @@ class Session:
         self._done = 0
         self._cancelled = self._closing = False
         self._lock = threading.RLock()
-        self._scene = ViserScene(self._change_from_scene, self._pick, loop)
+        # Held while a picture is drawn, in the thread or in the loop.
+        self._alone = threading.Lock()
+        self._in_loop = False
+        self._scene = ViserScene(self._change_from_scene, self._pick, rounds and rounds.loop)
         self._drawing = Newest(f"session {id[:6]}", self._work)
         self._strip = Strip(f"strip {id[:6]}", warm_up.surveyed, self._tell)
         self._followed = 0.0
@@ -140,12 +165,12 @@ class Session:
         with self._lock:
             return self._shown
 
-    def attach(self, send: Send, hang_up: Callable[[], None], rev: int | None = None) -> None:
-        """A page has connected; send it everything. hang_up: called when the session ends; rev: the page's revision."""
+    def attach(self, page: Page, rev: int | None = None) -> None:
+        """A page has connected; send it everything. rev: the page's revision."""
         with self._lock:
             self.detached_at = None
             self.last_input = time.monotonic()
-            self._send, self._hang_up = send, hang_up
+            self._page = page
             self._told = self._traced = self._timed = None
             self._strip.keep(None)
             self._ask(self._wanted.view, self._wanted.rev if rev is None else rev, "page")
@@ -154,7 +179,7 @@ class Session:
     def detach(self) -> None:
         with self._lock:
             self.detached_at = time.monotonic()
-            self._send = self._hang_up = None
+            self._page = None
         self._strip.keep(None)
         self.presenter.tell("away")
 
@@ -208,10 +233,9 @@ class Session:
         """Stop the worker and the viser server; blocks until they have ended."""
         with self._lock:
             self._closing = True
-            hang_up = self._hang_up
-            self._send = self._hang_up = None
-        if hang_up is not None:
-            hang_up()
+            page, self._page = self._page, None
+        if page is not None:
+            page.hang_up()
         self._forget_live()
         self._forget_labels()
         self._library.live.leave(self.id)
@@ -219,12 +243,64 @@ class Session:
         self.presenter.tell("gone")
         self._strip.close()
         self._drawing.close()
+        self._alone.acquire(timeout=CLOSING_SECONDS)
         self._scene.stop()
 
     def _ask(self, view: View, rev: int, origin: Origin, due: float = 0.0) -> None:
         self._wanted = Request(self._wanted.number + 1, view, rev, origin)
         self._strip.keep(view)
-        self._drawing.put(self._wanted, due)
+        if due or not self._goes_round():
+            self._drawing.put(self._wanted, due)
+
+    def _goes_round(self) -> bool:
+        """Whether what is wanted now is drawn in the event loop."""
+        if self._in_loop or self._rounds is None or not self._at_hand(self._wanted.view):
+            return self._in_loop
+        self._in_loop = True
+        self._rounds.start(self._go_round)
+        return True
+
+    async def _go_round(self) -> None:
+        """Draw the newest View in the event loop for as long as it is at hand; leave the rest to the thread."""
+        assert self._rounds is not None
+        alone = self._alone.acquire(blocking=False)
+        try:
+            while alone:
+                async with self._rounds:
+                    painted = self._painted_round()
+                if painted is None:
+                    return
+                page, messages = self._news(painted)
+                for message in messages if page is not None else ():
+                    await page.tell(message)
+                self._afterwards(painted)
+        except Exception:
+            # The thread fails in the same way, and tells why.
+            log.debug("drawing %s failed", self._wanted.view, exc_info=True)
+        finally:
+            with self._lock:
+                self._in_loop = False
+                if self._done != self._wanted.number:
+                    self._drawing.put(self._wanted)
+            if alone:
+                self._alone.release()
+
+    def _painted_round(self) -> Painted | None:
+        """The newest picture; None if there is none to draw, or if it is for the thread."""
+        with self._lock:
+            request, shown = self._wanted, self._shown
+            if shown is None or self._done == request.number or not self._at_hand(request.view):
+                return None
+        view = request.view
+        if self._library.open_already(view.recording, view.read_as) is not shown.recording:
+            return None
+        return self._paint(request, shown.recording)
+
+    def _at_hand(self, view: View) -> bool:
+        """Whether drawing the View is short and waits for nothing, unless its file has changed."""
+        if self._shown is None or self._page is None or self._closing or self._watch is not None or takes_long(view):
+            return False
+        return self._shown.view.place == view.place and quick(self._shown.recording)
 
     def _change_from_scene(self, patch: Mapping[str, Any]) -> None:
         if self.following:
@@ -250,8 +326,16 @@ class Session:
             self._change_from_scene({"selected": beam})
 
     def _work(self, request: Request) -> None:
-        with self._lock:
-            self._cancelled = False
+        with self._alone:
+            with self._lock:
+                self._cancelled = False
+                if request.number <= self._done:
+                    # Drawn in the event loop meanwhile.
+                    return
+            self._attempt(request)
+        self._keep_up()
+
+    def _attempt(self, request: Request) -> None:
         try:
             self._draw(request)
         except Cancelled:
@@ -261,7 +345,6 @@ class Session:
         except Exception as error:
             log.exception("drawing %s failed", request.view)
             self._fall_back(request, mistake(error))
-        self._keep_up()
 
     def _keep_up(self) -> None:
         """Draw the newest frame of a live recording that is followed, if nothing else is to be drawn."""
@@ -279,7 +362,7 @@ class Session:
     def _behind(self) -> bool:
         """Whether a newer frame of the live recording should be shown."""
         shown, wanted = self._shown, self._wanted.view
-        if self._send is None or shown is None or not (wanted.live and isinstance(shown.recording, LiveRecording)):
+        if self._page is None or shown is None or not (wanted.live and isinstance(shown.recording, LiveRecording)):
             return False
         source = self._library.live.get(wanted.recording)
         return source is not None and source.ring.total != shown.recording.total
@@ -291,56 +374,56 @@ class Session:
             label = self._library.label(view.recording)
             self._tell(Loading(recording=view.recording, label=label, done=0, total=0, note=note))
             self._warm_up.done.wait()
-        newest = self._newest_drawn(request, recording)
-        if newest is None:
+        painted = self._painted(request, recording)
+        if painted is None:
             return
-        request, content, timings = newest
+        page, messages = self._news(painted)
+        for message in messages if page is not None else ():
+            page.send(message)
+        view = painted.content.view
+        self._library.remember(view.recording, view.read_as)
+        if self._watch is not None:
+            self._watch(view, recording, self._library.label(view.recording), painted.content.found)
+        self._afterwards(painted)
+
+    def _news(self, painted: Painted) -> tuple[Page | None, list[BaseModel]]:
+        """Note what is on the screen now. Returns the page, and what it does not know yet."""
+        request, content, recording = painted.request, painted.content, painted.recording
         view, found = content.view, content.found
         growing = isinstance(recording, LiveRecording) and request.view.live
+        state: DrawnState = {**content.state, **painted.timings, "following": self._presence}
+        messages: list[BaseModel] = []
         with self._lock:
             self._shown = Shown(view, recording, found)
             self._done = request.number
             if self._wanted.number == request.number:
                 self._wanted = replace(request, view=view)
-            send, new_trace = self._send, self._told is not found
+            page, new_trace = self._page, self._told is not found
             self._told = found
-            trace_wanted = send is not None and view.mode == "learn" and self._traced is not found
-            if trace_wanted:
-                self._traced = found
             # The times of a recording that grows are sent once it is paused.
-            times_wanted = send is not None and self._timed is not recording and not growing
-            if times_wanted:
+            if page is not None and self._timed is not recording and not growing:
                 self._timed = recording
+                messages.append(content.times())
+            if page is not None and view.mode == "learn" and self._traced is not found:
+                self._traced = found
+                messages.append(Traced(trace=columns_of(found)))
         self._library.live.follow(self.id, view.recording, view.method, view.params)
-        if send is not None:
-            if times_wanted:
-                send(content.times())
-            if trace_wanted:
-                send(Traced(trace=columns_of(found)))
-            state: DrawnState = {**content.state, **timings, "following": self._presence}
-            if new_trace:
-                state["marks"] = found.marks
-            send(Drawn(rev=request.rev, origin=request.origin, state=state))
-        self.presenter.show(view)
-        self._library.remember(view.recording, view.read_as)
-        if self._watch is not None:
-            self._watch(view, recording, self._library.label(view.recording), found)
+        if new_trace:
+            state["marks"] = found.marks
+        return page, [*messages, Drawn(rev=request.rev, origin=request.origin, state=state)]
+
+    def _afterwards(self, painted: Painted) -> None:
+        self.presenter.show(painted.content.view)
         # After the status: the scene's iframe shares a thread with the page, and its rendering would delay the status.
         self._scene.flush()
         self._survey()
 
-    def _newest_drawn(self, request: Request, recording: Recording) -> tuple[Request, Content, Timings] | None:
+    def _painted(self, request: Request, recording: Recording) -> Painted | None:
         """Draws the newest View when its turn comes; None as for `_newest`."""
-        if takes_long(request.view):
-            with SLOW_TURNS:
-                return self._drawn_now(request, recording)
-        shown = self.shown
-        with QUICK_TURN:
-            if self._loop is None or shown is None or shown.recording is not recording or not quick(recording):
-                return self._drawn_now(request, recording)
-            return in_loop(self._loop, lambda: self._drawn_now(request, recording))
+        with SLOW_TURNS if takes_long(request.view) else QUICK_TURN:
+            return self._paint(request, recording)
 
-    def _drawn_now(self, request: Request, recording: Recording) -> tuple[Request, Content, Timings] | None:
+    def _paint(self, request: Request, recording: Recording) -> Painted | None:
         newest = self._newest(request)
         if newest is None:
             return None
@@ -348,12 +431,12 @@ class Session:
             newest = _at_the_end(newest, recording)
         begun = time.perf_counter()
         content = self._composer.compose(newest.view, recording)
-        painted = time.perf_counter()
+        drawn = time.perf_counter()
         self._scene.draw(content.picture, content.view.params, content.view.dark)
         # They are kept with what was found.
         _ = content.found.marks
-        timings: Timings = {"pictureMs": _ms(painted - begun), "drawMs": _ms(time.perf_counter() - painted)}
-        return newest, content, timings
+        timings: Timings = {"pictureMs": _ms(drawn - begun), "drawMs": _ms(time.perf_counter() - drawn)}
+        return Painted(newest, recording, content, timings)
 
     def _newest(self, request: Request) -> Request | None:
         """What to draw instead, if more was asked for while this waited; None if that waits for something else."""
@@ -370,7 +453,7 @@ class Session:
         """Update the strip to match the screen."""
         with self._lock:
             shown = self._shown
-            if shown is not None and self._send is not None:
+            if shown is not None and self._page is not None:
                 passing = key_of(self._wanted.view) != key_of(shown.view)
                 self._strip.want(shown.view, shown.recording, self._wanted.rev, passing)
 
@@ -435,9 +518,9 @@ class Session:
 
     def _tell(self, message: BaseModel) -> None:
         with self._lock:
-            send = self._send
-        if send is not None:
-            send(message)
+            page = self._page
+        if page is not None:
+            page.send(message)
 
 
 def _ms(seconds: float) -> float:
@@ -456,7 +539,7 @@ def _waits_for(view: View) -> tuple[str, bool, bool]:
 
 def takes_long(view: View) -> bool:
     """Whether drawing it may take much longer than a few milliseconds: other methods do, and what Inspect computes."""
-    return view.method != "region-growing" or view.mode == "inspect" or view.against is not None
+    return view.method != "region-growing" or view.mode == "inspect" or view.layers.verdicts or view.against is not None
 
 
 def _at_the_end(request: Request, recording: Recording) -> Request:

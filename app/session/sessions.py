@@ -15,6 +15,7 @@ from ..shelf.library import Library
 from ..view import View
 from .following import Presenter
 from .session import Session, Shown, Watch
+from .turns import Rounds
 from .warm_up import WarmUp
 
 REAP_EVERY = 5.0
@@ -50,6 +51,7 @@ class Sessions:
         self._limits = limits
         self._watch = watch
         self._sessions: dict[str, Session] = {}
+        self._rounds: Rounds | None = None
         self._opening = 0
         self._closed = 0
 
@@ -94,9 +96,9 @@ class Sessions:
             await self.close(min(away, key=lambda session: session.detached_at or 0.0))
         self._opening += 1
         try:
-            shared = self._library, self._files, self._warm_up
-            loop = asyncio.get_running_loop()
-            session = await asyncio.to_thread(Session, secrets.token_urlsafe(16), *shared, view, self._watch, loop)
+            self._rounds = self._rounds or Rounds(asyncio.get_running_loop())
+            given = self._library, self._files, self._warm_up, view, self._watch, self._rounds
+            session = await asyncio.to_thread(Session, secrets.token_urlsafe(16), *given)
         finally:
             self._opening -= 1
         self._sessions[session.id] = session

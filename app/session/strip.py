@@ -9,7 +9,7 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack
 from dataclasses import dataclass, replace
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import NamedTuple
 
 import numpy as np
@@ -26,7 +26,7 @@ from lineseg.survey.difference import FATES, KEPT
 from lineseg.survey.stability import with_stability
 
 from ..live.ring import numbering
-from ..newest import Newest
+from ..newest import Newest, done_behind
 from ..told.messages import Surveyed
 from ..view import Against, View, all_weights
 from .turns import Turns
@@ -99,7 +99,7 @@ def ranked(key: Key, scores: NDArray[np.floating]) -> NDArray[np.floating]:
 
 
 class Strip:
-    """Surveys in its own low-priority thread; a new subject stops the previous one.
+    """Surveys in its own thread; a new subject stops the previous one.
 
     A long recording first gets a quick survey of evenly spread frames, ready while a slider is still moving.
     ready: set once the kernels are compiled. send: called in the strip's thread; may block.
@@ -116,7 +116,7 @@ class Strip:
         self._asked_at = -math.inf
         self._closing = False
         self._rest_until = 0.0
-        self._surveying = Newest(name, self._work, behind=True)
+        self._surveying = Newest(name, self._work)
 
     def want(self, view: View, recording: Recording, rev: int, passing: bool = False) -> None:
         """Survey this unless it has been surveyed; only quickly, in passing, if a newer one is about to come."""
@@ -210,7 +210,8 @@ class Strip:
         elif not isinstance(key.params, Params):
             # Too slow to let other tabs wait for it.
             end_turn()
-        whole, committee = survey(recording, key.params, subject.stop), known_committee(recording)
+        whole = done_behind(partial(survey, recording, key.params, subject.stop))
+        committee = known_committee(recording)
         if committee is not None:
             whole = disputed(recording, whole, committee, np.arange(len(recording)))
         end_turn()
@@ -223,11 +224,11 @@ class Strip:
             known = replace(known, changed=changed, totals=totals)
             yield told(subject, known)
         if key.deep and committee is None:
-            whole = with_disputes(recording, whole, subject.stop)
+            whole = done_behind(partial(with_disputes, recording, whole, subject.stop))
             known = replace(known, scores=whole.need_scores())
             yield told(subject, known)
         if key.deep:
-            deep = with_stability(recording, whole, subject.stop)
+            deep = done_behind(partial(with_stability, recording, whole, subject.stop))
             known = replace(known, scores=deep.need_scores())
             yield told(subject, known)
         self._known = known
@@ -251,7 +252,8 @@ class Strip:
     def _pinned_survey(self, subject: Subject, params: Thresholds) -> Survey:
         """The survey of A, which stays the same while the thresholds of B change."""
         if self._pinned is None or self._pinned[0] is not subject.recording or self._pinned[1] != params:
-            self._pinned = subject.recording, params, survey(subject.recording, params, subject.stop, scores=False)
+            pinned = done_behind(partial(survey, subject.recording, params, subject.stop, scores=False))
+            self._pinned = subject.recording, params, pinned
         return self._pinned[2]
 
 

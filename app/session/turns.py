@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import threading
 import time
 from collections import deque
-from collections.abc import Callable, Iterator
-from concurrent.futures import Future
+from collections.abc import Callable, Coroutine, Iterator
 from contextlib import contextmanager
-from typing import TypeVar
-
-T = TypeVar("T")
+from typing import Any
 
 MOST_REST = 0.5
 
@@ -65,19 +63,35 @@ class InOrder:
                 self._taken = False
 
 
-def in_loop(loop: asyncio.AbstractEventLoop, work: Callable[[], T]) -> T:
-    """The result of short work, which is done in the thread of a running loop while the caller waits.
+class Rounds:
+    """Short work of many tabs in the thread of an event loop: one piece in each pass of the loop, in order of asking.
 
-    numpy lets go of the interpreter at every array of more than 500 numbers. A thread beside a loop that answers
-    messages would lose it each time and win it back by a switch of threads, and these took longer than a picture.
+    Between two pieces the loop hears what has arrived, so that each tab draws its newest View. Threads would be slower:
+    numpy lets go of the interpreter at every array of more than 500 numbers, and a thread beside a busy loop would lose
+    it each time and win it back by a switch of threads, and these took longer than a picture.
     """
-    done: Future[T] = Future()
 
-    def run() -> None:
-        try:
-            done.set_result(work())
-        except BaseException as error:
-            done.set_exception(error)
+    def __init__(self, loop: asyncio.AbstractEventLoop) -> None:
+        self.loop = loop
+        self._turn = asyncio.Lock()
+        self._tasks = set[asyncio.Task[None]]()
 
-    loop.call_soon_threadsafe(run)
-    return done.result()
+    async def __aenter__(self) -> None:
+        await self._turn.acquire()
+
+    async def __aexit__(self, *error: object) -> None:
+        self._turn.release()
+
+    def start(self, work: Callable[[], Coroutine[Any, Any, None]]) -> None:
+        """Run a coroutine in the loop; may be called in any thread. Nothing happens once the loop is closed."""
+
+        def begin() -> None:
+            task = self.loop.create_task(work())
+            self._tasks.add(task)
+            task.add_done_callback(self._tasks.discard)
+
+        if asyncio._get_running_loop() is self.loop:
+            begin()
+        else:
+            with contextlib.suppress(RuntimeError):
+                self.loop.call_soon_threadsafe(begin)

@@ -249,6 +249,17 @@ class Library:
                     if self._loads.get(key) is load:
                         del self._loads[key]
 
+    def open_already(self, id: str, reading: Reading) -> Recording | None:
+        """The recording of a file, if it is open and the file is as it was when it was read."""
+        if id.startswith(("live:", DRAWN)):
+            return None
+        try:
+            key = self._key(id, reading)
+        except (ValueError, OSError):
+            return None
+        with self._lock:
+            return self._open.get(key)
+
     def _key(self, id: str, reading: Reading) -> _Key:
         path = self.path(id)
         try:

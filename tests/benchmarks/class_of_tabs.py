@@ -129,16 +129,20 @@ async def _run(server: Server, tabs: int, seconds: float) -> None:
     pupils = [asyncio.create_task(pupil(server.address, seed, seconds, together)) for seed in range(tabs)]
     await together.wait()
     PICTURES.clear()
-    begun, spent = time.perf_counter(), server.seconds
+    begun, spent, own = time.perf_counter(), server.seconds, time.process_time()
     await together.wait()
     elapsed, spent, during = time.perf_counter() - begun, server.seconds - spent, server.megabytes
+    own = time.process_time() - own
     await together.wait()
     times = np.array([each for its in await asyncio.gather(*pupils) for each in its])
     await asyncio.sleep(SETTLED)
     median, most = np.percentile(times, (50, 95))
     pictures = len(PICTURES)
     print(f"{tabs} tabs, {times.size} changes: median {median:.0f} ms, p95 {most:.0f} ms, most {times.max():.0f} ms")
-    print(f"{pictures / elapsed:.0f} pictures a second, {1e3 * spent / pictures:.1f} ms of processor time each")
+    print(
+        f"{pictures / elapsed:.0f} pictures a second, {1e3 * spent / pictures:.1f} ms of processor time each; ", end=""
+    )
+    print(f"of one core: server {100 * spent / elapsed:.0f} %, these tabs {100 * own / elapsed:.0f} %")
     print(f"memory: {before:.0f} MB before, {during:.0f} with ({(during - before) / tabs:.1f} a tab), ", end="")
     print(f"{server.megabytes:.0f} after; threads: {threads} before, {server.threads} after")
 

@@ -8,7 +8,7 @@ from types import SimpleNamespace
 
 import pytest
 from lineseg_app.session import turns as turns_module
-from lineseg_app.session.turns import MOST_REST, InOrder, Turns, in_loop
+from lineseg_app.session.turns import MOST_REST, InOrder, Rounds, Turns
 
 
 def test_one_thread_works_at_a_time_and_each_turn_is_followed_by_a_rest():
@@ -66,13 +66,39 @@ def test_threads_are_let_in_in_the_order_in_which_they_came():
     assert not gate._taken
 
 
-def test_work_in_a_loop_gives_its_result_or_its_error_to_the_thread_that_waits():
+def test_a_loop_hears_what_arrives_between_the_pieces_of_two_tabs():
+    done = list[str]()
+
+    async def tab(name: str, rounds: Rounds) -> None:
+        for _ in range(2):
+            async with rounds:
+                done.append(name)
+                asyncio.get_running_loop().call_soon(done.append, "heard")
+
+    async def run() -> None:
+        rounds = Rounds(asyncio.get_running_loop())
+        for name in "abc":
+            rounds.start(lambda name=name: tab(name, rounds))
+        while len(done) < 12:
+            await asyncio.sleep(0)
+
+    asyncio.run(run())
+    assert done == [each for name in "abcabc" for each in (name, "heard")]
+
+
+def test_a_coroutine_is_started_from_another_thread_and_never_in_a_closed_loop():
+    ran = threading.Event()
+
+    async def work() -> None:
+        ran.set()
+
     loop = asyncio.new_event_loop()
     thread = threading.Thread(target=loop.run_forever)
     thread.start()
-    assert in_loop(loop, threading.get_ident) == thread.ident
-    with pytest.raises(ZeroDivisionError):
-        in_loop(loop, lambda: 1 / 0)
+    rounds = Rounds(loop)
+    rounds.start(work)
+    assert ran.wait(60)
     loop.call_soon_threadsafe(loop.stop)
     thread.join()
     loop.close()
+    rounds.start(work)
