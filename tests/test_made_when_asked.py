@@ -55,3 +55,12 @@ def test_a_result_can_be_copied_and_pickled_before_and_after_it_was_looked_at(sc
     assert np.array_equal(replace(again, segments=()).labels, found.labels)
     with pytest.raises(AttributeError, match="no attribute 'lines'"):
         found.lines  # noqa: B018
+
+
+def test_a_trace_keeps_its_decisions_and_knows_whose_lines_stand_at_the_end(scans):
+    traces = [trace(scan) for scan in scans]
+    kept = [each.log.tobytes() for each in traces]
+    for scan, each, log in zip(scans, traces, kept, strict=True):
+        assert trace(scan).log.tobytes() == log
+        assert each.log.tobytes() == log
+        assert each.candidates == tuple(line.candidate for line in each.lines_at(len(each) - 1))

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lineseg import EXTRACTORS, Extraction, Recording, Scan, Thresholds, Trace
+from lineseg.colours import segment_colours
 from lineseg.knobs import Knob
 from lineseg.region_growing.checks import number_of
 from lineseg.region_growing.prediction import predicted_ranges
@@ -76,6 +77,11 @@ class Findings:
         ends[some, 0] = self.scan.xy[beams[outermost[:-1][some]]]
         ends[some, 1] = self.scan.xy[beams[outermost[1:][some] - 1]]
         return ends
+
+    @cached_property
+    def colours(self) -> NDArray[np.uint8]:
+        """(segments, 3) sRGB."""
+        return segment_colours(self.extraction.segments)
 
     @cached_property
     def marks(self) -> dict[str, list[int]]:

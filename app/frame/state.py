@@ -155,8 +155,9 @@ def _segment(segment: Segment, colour: str) -> told.Segment:
 def _dropped_once(found: Findings) -> list[told.Dropped]:
     """The dropped lines, each once: the longest of those that grew over mostly the same points from several seeds."""
     n = len(found.scan)
-    spans, at = np.unique(found.drop_spans, axis=1, return_index=True)
-    first, length = spans[0], (spans[1] - spans[0]) % n + 1
+    first, last = found.drop_spans
+    _, at = np.unique(first * n + last, return_index=True)
+    first, length = first[at], (last[at] - first[at]) % n + 1
     ahead = (first - first[:, None]) % n
     shared = np.maximum(np.minimum(length[:, None], ahead + length) - ahead, 0)
     shared += np.maximum(np.minimum(length[:, None], ahead + length - n), 0)
@@ -169,12 +170,17 @@ def _dropped_once(found: Findings) -> list[told.Dropped]:
     return _dropped(found, np.sort(at[kept]))
 
 
-def _asked(found: Findings, first: int, last: int) -> int:
-    """A beam of a dropped line, in no segment if possible."""
-    beams = found.trace.beams(first, last)
-    free = beams[found.extraction.labels[beams] < 0]
-    asked = free if len(free) else beams
-    return int(asked[len(asked) // 2]) if len(asked) else first
+def _asked(found: Findings, first: NDArray[np.int64], last: NDArray[np.int64]) -> NDArray[np.int64]:
+    """(lines,) a beam of each dropped line, in no segment if possible."""
+    beams, line = found.trace.beams_of(first, last)
+    free = found.extraction.labels[beams] < 0
+    some = np.bincount(line[free], minlength=len(first)) > 0
+    fitting = free | ~some[line]
+    beams, counts = beams[fitting], np.bincount(line[fitting], minlength=len(first))
+    if not len(beams):
+        return first
+    middle = np.cumsum(counts) - counts + counts // 2
+    return np.where(counts > 0, beams.take(middle, mode="clip"), first)
 
 
 def _dropped(found: Findings, which: NDArray[np.intp]) -> list[told.Dropped]:
@@ -186,11 +192,9 @@ def _dropped(found: Findings, which: NDArray[np.intp]) -> list[told.Dropped]:
         lengths = np.abs(rows["line"]["a"] * dy - rows["line"]["b"] * dx)
     lengths = np.where(np.isfinite(lengths), lengths, np.hypot(dx, dy))
     points = np.maximum(rows["last"] - rows["first"] + 1, 0)
-    spans, columns = found.drop_spans[:, which].tolist(), (points, lengths, rows["check"])
-    asked = [_asked(found, first, last) for first, last in zip(*spans, strict=True)]
-    lines = zip(
-        ends.tolist(), *spans, asked, *(each.tolist() for each in columns), found.trace.texts(indices), strict=True
-    )
+    first, last = found.drop_spans[:, which]
+    columns = ends, first, last, _asked(found, first, last), points, lengths, rows["check"]
+    lines = zip(*(each.tolist() for each in columns), found.trace.texts(indices), strict=True)
     return [
         {
             "start": (start[0], start[1]),

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lineseg import Decision, Params, Scan
-from lineseg.colours import SEGMENTS, segment_colours
+from lineseg.colours import SEGMENTS
 from lineseg.region_growing.prediction import predicted_ranges
 
 from ..frame.findings import Findings
@@ -57,15 +57,12 @@ def _final(found: Findings) -> State:
     segments = found.extraction.segments
     starts = np.array([segment.start for segment in segments], dtype=float).reshape(-1, 2)
     ends = np.array([segment.end for segment in segments], dtype=float).reshape(-1, 2)
-    lines = found.trace.lines_at(len(found.trace) - 1) if len(found.trace) else ()
-    candidates = tuple(line.candidate for line in lines)
-    return State(found.extraction.labels, segment_colours(segments), starts, ends, candidates, len(found.drops))
+    return State(found.extraction.labels, found.colours, starts, ends, found.trace.candidates, len(found.drops))
 
 
 def _candidate_colours(found: Findings, candidates: tuple[int, ...]) -> Colours:
     """A line has the colour of its final segment from the start; other lines take turns."""
-    of_segment = segment_colours(found.extraction.segments)
-    by_first = {segment.first: colour for segment, colour in zip(found.extraction.segments, of_segment, strict=True)}
+    by_first = {segment.first: colour for segment, colour in zip(found.extraction.segments, found.colours, strict=True)}
     last = found.trace.lines_at(len(found.trace) - 1)
     known = {line.candidate: by_first[line.first] for line in last if line.first in by_first}
     chosen = [known.get(candidate, SEGMENTS[candidate % len(SEGMENTS)]) for candidate in candidates]

@@ -207,6 +207,8 @@ class Strip:
             if scores is not None:
                 yield surveyed(subject, ranked(key, scores), stride)
             self._wait_for_end_of_drag(subject)
+            if subject.stop[0]:
+                return
         elif not isinstance(key.params, Params):
             # Too slow to let other tabs wait for it.
             end_turn()

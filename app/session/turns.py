@@ -80,7 +80,8 @@ class Rounds:
         await self._turn.acquire()
 
     async def __aexit__(self, *error: object) -> None:
-        self._turn.release()
+        # In the next pass, so that what has arrived is heard before the next piece.
+        self.loop.call_soon(self._turn.release)
 
     def start(self, work: Callable[[], Coroutine[Any, Any, None]]) -> None:
         """Run a coroutine in the loop; may be called in any thread. Nothing happens once the loop is closed."""

@@ -68,6 +68,11 @@ class GrowthTrace(Trace):
     def __init__(self, scan: Scan, params: Params, extraction: Extraction, run: Run) -> None:
         log = run.log if run.log is not None else np.empty(0, ROW)
         super().__init__(scan, params, extraction, VOCABULARY, log, run.beam, run.points)
+        self._candidates = run.lines["candidate"]
+
+    @cached_property
+    def candidates(self) -> tuple[int, ...]:
+        return tuple(self._candidates.tolist())
 
     @cached_property
     def looked_past(self) -> NDArray[np.bool_]:
@@ -87,7 +92,7 @@ class GrowthTrace(Trace):
     def phases(self) -> NDArray[np.int64]:
         """The index in PHASES of each decision; a line dropped after the last growth counts as overlap."""
         of_kind = np.array([PHASES.index(kind.phase) for kind in VOCABULARY.kinds])
-        phases = of_kind[self.log["kind"]]
+        phases = of_kind[self.kinds]
         phases[self._growth_ended_at :] = np.maximum(phases[self._growth_ended_at :], PHASES.index("overlap"))
         return phases
 
@@ -100,7 +105,7 @@ class GrowthTrace(Trace):
     @cached_property
     def _growth_ended_at(self) -> int:
         """Index of the first decision after the last growth; lines dropped later were dropped for an overlap."""
-        growth = np.flatnonzero(self.log["kind"] <= GROWTH_STOPPED)
+        growth = np.flatnonzero(self.kinds <= GROWTH_STOPPED)
         if not len(growth):
             return 0
         after = int(growth[-1]) + 1

@@ -135,6 +135,9 @@ class _Job:
         def compare(start: int, stop: int) -> None:
             compare_frames(segments, offsets, views, start, stop, np.empty(VOTES), *columns, self.cancelled)
 
+        if threads == 1:
+            compare(0, len(self.counts))
+            return
         ends = np.linspace(0, len(self.counts), threads + 1).astype(int).tolist()
         with ThreadPoolExecutor(threads) as pool:
             list(pool.map(compare, ends[:-1], ends[1:]))

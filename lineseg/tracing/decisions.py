@@ -173,22 +173,27 @@ class Trace:
         return np.where(positions < 0, -1, self._beams.take(positions, mode="clip"))
 
     @cached_property
+    def kinds(self) -> NDArray[np.int8]:
+        """The number of each decision's kind in the vocabulary; side by side, and so faster than the log's column."""
+        return np.ascontiguousarray(self.log["kind"])
+
+    @cached_property
     def phases(self) -> NDArray[np.int64]:
         """The index of each decision's phase in the vocabulary."""
         of_kind = [self.vocabulary.phases.index(kind.phase) for kind in self.vocabulary.kinds]
-        return np.array(of_kind, dtype=np.int64)[self.log["kind"]]
+        return np.array(of_kind, dtype=np.int64)[self.kinds]
 
     def indices(self, kind: str) -> NDArray[np.intp]:
         """Indices of the decisions of a kind."""
         names = self.vocabulary.names
         if kind not in names:
             raise ValueError(f"there is no decision {kind!r}; choose from {', '.join(names)}")
-        return np.flatnonzero(self.log["kind"] == names.index(kind))
+        return np.flatnonzero(self.kinds == names.index(kind))
 
     def jump(self, name: str) -> NDArray[np.intp]:
         """Indices of the decisions that a jump leads to, see `Kind`; none if the method has no such decisions."""
         wanted = np.array([kind.jump == name for kind in self.vocabulary.kinds])
-        return np.flatnonzero(wanted[self.log["kind"]])
+        return np.flatnonzero(wanted[self.kinds])
 
     def starts(self, level: str) -> NDArray[np.intp]:
         """Indices where a "decision", a "phase" or a "line" (decisions about one candidate) starts."""
@@ -219,9 +224,14 @@ class Trace:
         return tuple(lines.values())
 
     @cached_property
+    def candidates(self) -> tuple[int, ...]:
+        """The candidate of each line after the last decision."""
+        return tuple(line.candidate for line in self.lines_at(len(self) - 1))
+
+    @cached_property
     def _lasting(self) -> NDArray[np.bool_]:
         lasting = [kind.effect not in ("none", "shown") for kind in self.vocabulary.kinds]
-        return np.array(lasting)[self.log["kind"]]
+        return np.array(lasting)[self.kinds]
 
     def _effect(self, row: Row) -> Effect:
         return self.vocabulary.kinds[row.kind].effect

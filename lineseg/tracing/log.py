@@ -5,6 +5,7 @@ A kernel compiled for `log = None` contains no logging at all; compiled for a `L
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable
 from typing import NamedTuple, TypeVar
 
@@ -109,7 +110,7 @@ def write(log, kind, check, pair, direction, span, beam, line, other, value, lim
 
 def written(call: Callable[[Log], T], rows: int) -> tuple[T, NDArray[np.void]]:
     """The result of `call`, and the rows it logged; calls it again with more memory if `rows` was too small."""
-    log = Log(np.empty(rows, ROW), np.zeros(1, np.int64))
+    log = Log(_rows_of_thread(rows), np.zeros(1, np.int64))
     result = call(log)
     if log.used[0] > rows:
         log = Log(np.empty(log.used[0], ROW), np.zeros(1, np.int64))
@@ -117,6 +118,21 @@ def written(call: Callable[[Log], T], rows: int) -> tuple[T, NDArray[np.void]]:
     # A copy, because few rows of the memory are used, and a trace may be kept for long. As bytes: numpy copies
     # structured rows field by field.
     return result, log.rows.view(np.uint8)[: log.used[0] * ROW.itemsize].copy().view(ROW)
+
+
+# More rows than this are rarely needed, and their memory, 144 bytes each, is not worth keeping.
+MOST_KEPT = 20_000
+_THREAD = threading.local()
+
+
+def _rows_of_thread(rows: int) -> NDArray[np.void]:
+    """Memory for this many rows, which this thread keeps: to get new memory takes longer than a run writes to it."""
+    if rows > MOST_KEPT:
+        return np.empty(rows, ROW)
+    kept: NDArray[np.void] | None = getattr(_THREAD, "rows", None)
+    if kept is None or len(kept) < rows:
+        kept = _THREAD.rows = np.empty(rows, ROW)
+    return kept[:rows]
 
 
 class Notes:

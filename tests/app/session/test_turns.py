@@ -74,6 +74,7 @@ def test_a_loop_hears_what_arrives_between_the_pieces_of_two_tabs():
             async with rounds:
                 done.append(name)
                 asyncio.get_running_loop().call_soon(done.append, "heard")
+            await asyncio.sleep(0)
 
     async def run() -> None:
         rounds = Rounds(asyncio.get_running_loop())
