@@ -45,6 +45,7 @@ from .routes.push import add_push
 from .routes.rereading import add_rereading
 from .routes.rerun import add_rerun
 from .routes.robot import add_back
+from .routes.scene import add_scene
 from .routes.sweep_table import add_sweep_table
 from .routes.tab import add_sockets
 from .routes.tuning import add_tuning
@@ -139,6 +140,7 @@ def create_app(settings: Settings) -> FastAPI:
     app.add_exception_handler(Exception, _mistake)
     add_api(app, library, sessions)
     add_export(app, library, sessions)
+    add_scene(app, sessions)
     add_inspection(app, sessions, files)
     add_labels(app, library, files)
     add_lessons(app, library, sessions)

@@ -12,7 +12,7 @@ import { closePopovers } from "./widgets/menu.js";
  *          timeline: {toggle: () => void, pace: (by: 1 | -1) => void, move: (by: number) => void, doubtful: (by: 1 | -1) => void},
  *          inspect: ReturnType<typeof import("./inspect/inspect.js").createInspect>, labels: ReturnType<typeof import("./label/labels.js").createLabels>,
  *          draw: Editor, panel: {open: (name: string) => void}, camera: {fit: () => void, closeUp: {toggle: () => void}, toggle: () => void},
- *          layout: {toggle: (part: "panel" | "timeline") => void}, layers: {button: HTMLElement, toggle: (name: string) => void}, opening: {choose: () => void}}} parts
+ *          layout: {toggle: (part: "panel" | "timeline") => void}, ruler: {readonly active: boolean, toggle: () => void}, layers: {button: HTMLElement, toggle: (name: string) => void}, opening: {choose: () => void}}} parts
  * @param {typeof import("./text/words.js").words} words
  * @param {() => void} help
  * @returns {Binding[]}
@@ -43,6 +43,7 @@ export function bindingsOf(page, parts, words, help) {
   function leave() {
     if (document.querySelector(":popover-open:not([popover=manual])")) closePopovers();
     else if (labels.leave()) return;
+    else if (parts.ruler.active) parts.ruler.toggle();
     else if (page.view.selected !== null) page.change({ selected: null });
     else if (page.replaying) steps().leave();
   }
@@ -89,6 +90,7 @@ export function bindingsOf(page, parts, words, help) {
     { keys: ["l"], shown: "L", does: does.layers, run: () => parts.layers.button.click() },
     { keys: ["p"], shown: "P T", does: does.hide, run: () => parts.layout.toggle("panel") },
     { keys: ["t"], shown: "", does: "", run: () => parts.layout.toggle("timeline") },
+    { keys: ["u"], shown: "U", does: does.ruler, run: () => parts.ruler.toggle() },
     { keys: ["i"], shown: "I", does: does.numbers, run: () => parts.layers.toggle("numbers") },
     { keys: ["o", "Ctrl+o"], shown: "O", does: does.open, run: parts.opening.choose },
     { keys: ["Ctrl+z"], shown: "Ctrl+Z", does: does.undo, run: () => editor().undo() },

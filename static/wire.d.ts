@@ -910,10 +910,16 @@ export interface LabelsOverview {
   frames: Record<number, Brief>;
 }
 
-/** points: of each beam [m], null if it has no return. */
+/** points: of each beam [m], null if it has no return; bearings: of each beam [rad]. */
 export interface Sweep {
   points: ([number, number] | null)[];
+  bearings: number[];
   fullCircle: boolean;
+}
+
+/** beam: whose point is nearest to a place, null if none is near. */
+export interface Near {
+  beam: number | null;
 }
 
 /**

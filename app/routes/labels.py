@@ -61,7 +61,7 @@ def add_labels(app: FastAPI, library: Library, files: LabelFiles) -> None:
     def points(frame: int, recording: str = "", reading: str = "{}") -> Sweep:
         scan = _scan(_open(library, recording, _values(reading)), frame)
         xy = [(round(float(x), 4), round(float(y), 4)) if x == x else None for x, y in scan.xy]
-        return {"points": xy, "fullCircle": scan.full_circle}
+        return {"points": xy, "bearings": scan.bearings.round(5).tolist(), "fullCircle": scan.full_circle}
 
     @app.put("/api/labels")
     async def save(request: Request) -> Response:

@@ -21,6 +21,7 @@ from ..frame.geometry import beam_near
 from ..frame.stepping import columns_of
 from ..live.ring import LiveRecording
 from ..newest import Newest
+from ..scene.picture import Picture
 from ..scene.portless import Door
 from ..scene.viser_scene import ViserScene
 from ..shelf.label_files import LabelFiles
@@ -92,6 +93,7 @@ class Shown:
     view: View
     recording: Recording
     found: Findings
+    picture: Picture
 
     @property
     def position(self) -> int:
@@ -394,7 +396,7 @@ class Session:
         state: DrawnState = {**content.state, **painted.timings, "following": self._presence}
         messages: list[BaseModel] = []
         with self._lock:
-            self._shown = Shown(view, recording, found)
+            self._shown = Shown(view, recording, found, content.picture)
             self._done = request.number
             if self._wanted.number == request.number:
                 self._wanted = replace(request, view=view)

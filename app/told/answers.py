@@ -140,10 +140,17 @@ class LabelsOverview(TypedDict):
 
 
 class Sweep(TypedDict):
-    """points: of each beam [m], null if it has no return."""
+    """points: of each beam [m], null if it has no return; bearings: of each beam [rad]."""
 
     points: list[Point | None]
+    bearings: list[float]
     fullCircle: bool
+
+
+class Near(TypedDict):
+    """beam: whose point is nearest to a place, null if none is near."""
+
+    beam: int | None
 
 
 class ThresholdSweep(TypedDict):

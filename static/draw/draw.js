@@ -11,7 +11,7 @@ import { idOf, inPlan, inWorld, MOST_CIRCLES, MOST_WALLS, withNumbers, without, 
 /** @typedef {import("./world.js").Thing} Thing */
 /** @typedef {import("./world.js").Point} Point */
 /** @typedef {typeof import("../text/draw.js").drawText} Text */
-/** @typedef {import("./handles.js").PlanView & {frame: HTMLElement, pan: (dx: number, dy: number) => void}} PlanView */
+/** @typedef {import("./handles.js").PlanView & {element: HTMLElement, pan: (dx: number, dy: number) => void}} PlanView */
 /** @typedef {{onRecording: (id: string) => void, onSave: () => void}} Handlers */
 
 const LASER = /** @type {Thing} */ ({ kind: "laser", index: 0 });
@@ -142,7 +142,7 @@ class Draw {
 
   /** The middle of the visible plan. @param {World} world @returns {Point} */
   #middle(world) {
-    const { clientWidth, clientHeight } = this.#view.frame;
+    const { clientWidth, clientHeight } = this.#view.element;
     const at = this.#view.unproject(clientWidth / 2, clientHeight / 2);
     return at ? inWorld(world, at) : [1, 0];
   }

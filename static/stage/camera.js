@@ -8,7 +8,7 @@ import { iconButton } from "../widgets/icon.js";
 
 /**
  * @param {import("../page.js").Page} page
- * @param {import("./stage.js").Stage} stage
+ * @param {import("./kinds.js").AnyStage} stage
  * @param {typeof import("../text/page.js").pageText.stage} text
  * @param {{drawing: () => boolean, names: (recording: string) => boolean, onLook: () => void, onFraming: (framing: Framing | null) => void}} handlers
  *   drawing: the recording is a world that is being drawn; names: the recording is the one in the link; onLook: the visible part changed; onFraming: as of the close-up
@@ -20,6 +20,7 @@ export function createCamera(page, stage, text, { drawing, names, onLook, onFram
   const closeUp = createCloseUp(page, stage, { whole: fit, onFraming });
   const fitButton = iconButton("fit", text.fit, fit);
   const freeButton = iconButton("cube", text.free, toggle);
+  freeButton.hidden = !stage.hasFree;
   stage.onMove(() => {
     if (wanted) return;
     page.store.look = stage.look;

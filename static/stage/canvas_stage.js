@@ -21,11 +21,13 @@ const CLICK_PX = 4;
 const PICK_PX = 20;
 
 export class CanvasStage {
+  hasFree = false;
   element = h("canvas", { class: "scene ready", tabIndex: 0 });
   /** @type {import("./canvas.js").Picture} */ #picture = { palette: [], nodes: [] };
   /** What is shown. @type {Look | null} */ #look = null;
   /** What a fit showed. @type {Look | null} */ #whole = null;
   /** @type {Stretch | null} */ #stretch = null;
+  /** The last fit. @type {[Box, Stretch | null, typeof WHOLE] | null} */ #fitted = null;
   #away = true;
   #drawing = 0;
   #square = 0;
@@ -51,6 +53,7 @@ export class CanvasStage {
     this.#listen();
     new ResizeObserver(() => {
       if (this.#pending) this.#pending();
+      else if (this.#fitted && this.look === null) this.#fit(...this.#fitted);
       else this.#moved();
     }).observe(this.element);
   }
@@ -178,6 +181,7 @@ export class CanvasStage {
 
   /** @param {Box} box @param {Stretch | null} stretch @param {typeof WHOLE} room */
   #fit(box, stretch, room) {
+    this.#fitted = [box, stretch, room];
     this.#stretch = stretch;
     this.#away = room === WHOLE;
     const size = this.#size;
@@ -232,6 +236,12 @@ export class CanvasStage {
   onHover(listener) {
     this.#hoverListeners.push(listener);
   }
+
+  /** There is the plan alone. */
+  setMode() {}
+
+  /** viser needs WebGL. */
+  open() {}
 
   /** @param {() => void} listener called when the view of the scene changed */
   onMove(listener) {

@@ -5,7 +5,7 @@
 
 /**
  * @param {import("../page.js").Page} page
- * @param {import("./stage.js").Stage} stage
+ * @param {import("./kinds.js").AnyStage} stage
  * @param {{whole: () => void, onFraming: (framing: Framing | null) => void}} handlers whole: shows the whole plan; onFraming: another decision is shown
  */
 export function createCloseUp(page, stage, { whole, onFraming }) {

@@ -14,9 +14,10 @@ const REACH_PX = 14;
 /**
  * @param {import("../page.js").Page} page
  * @param {HTMLElement} holder
- * @param {import("./stage.js").Stage} stage
- * @param {{onLight: (threshold: string | null) => void, onThreshold: (name: string) => void, label: (beam: number) => string}} handlers
- *   onLight: the threshold that is pointed at; onThreshold: one was chosen; label: of the beam at the pointer
+ * @param {import("./kinds.js").AnyStage} stage
+ * @param {{onLight: (threshold: string | null) => void, onThreshold: (name: string) => void, label: (beam: number) => string,
+ *          onPlace: (at: [number, number] | null, sweep: import("../wire.js").Sweep | null) => void}} handlers
+ *   onLight: the threshold that is pointed at; onThreshold: one was chosen; label: of the beam at the pointer; onPlace: where in the plan the pointer is
  */
 export function createPointing(page, holder, stage, handlers) {
   return new Pointing(page, holder, stage, handlers);
@@ -35,15 +36,16 @@ class Pointing {
   /** Chosen, and its points are still on their way. @type {Link | null} */ #awaited = null;
   /** @type {Finding | null} */ #finding = null;
   /** Where the pointer is on the stage. @type {[number, number] | null} */ #pointer = null;
+  /** Whether the pointer labels the nearest point. */ #labels = true;
   #resting = 0;
 
-  /** @param {import("../page.js").Page} page @param {HTMLElement} holder @param {import("./stage.js").Stage} stage @param {Parameters<typeof createPointing>[3]} handlers */
+  /** @param {import("../page.js").Page} page @param {HTMLElement} holder @param {import("./kinds.js").AnyStage} stage @param {Parameters<typeof createPointing>[3]} handlers */
   constructor(page, holder, stage, handlers) {
     this.#page = page;
     this.#stage = stage;
     this.#handlers = handlers;
     this.#overlay = createOverlay(holder, { project: stage.seen, onMove: (draw) => stage.onMove(draw) });
-    stage.onHover((at) => this.#hover(at));
+    stage.onHover((at) => this.hover(at));
   }
 
   /** A word is pointed at; null: no longer. @param {Link | null} named */
@@ -109,17 +111,25 @@ class Pointing {
     this.#drawPointer();
   }
 
-  /** @param {[number, number] | null} at */
-  #hover(at) {
+  /** The points of the frame, if they are known. */
+  get sweep() {
+    return this.#sweep.now;
+  }
+
+  /** @param {[number, number] | null} at where the pointer is on the stage [px] @param {boolean} [labels] whether it labels the nearest point */
+  hover = (at, labels = true) => {
+    this.#labels = labels;
     this.#pointer = at;
     clearTimeout(this.#resting);
     if (at && !this.#sweep.now) this.#resting = setTimeout(() => this.#need(), REST_MS);
     this.#drawPointer();
-  }
+  };
 
   #drawPointer() {
     const sweep = this.#sweep.now;
-    const beam = this.#pointer && sweep ? nearestBeam(sweep, this.#pointer, this.#stage.seen, REACH_PX) : null;
+    this.#handlers.onPlace(this.#pointer && this.#stage.unproject(...this.#pointer), sweep);
+    const beam =
+      this.#labels && this.#pointer && sweep ? nearestBeam(sweep, this.#pointer, this.#stage.seen, REACH_PX) : null;
     const at = beam === null ? null : sweep?.points[beam];
     this.#overlay.set("pointer", at ? { labels: [{ at, text: this.#handlers.label(Number(beam)) }] } : null);
   }

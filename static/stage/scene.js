@@ -5,10 +5,15 @@ import { h } from "../widgets/dom.js";
 import { createCamera } from "./camera.js";
 import { createKey } from "./key.js";
 import { createLayers } from "./layers.js";
+import { CanvasStage } from "./canvas_stage.js";
+import { createFlatPicture } from "./flat_picture.js";
+import { createStage } from "./kinds.js";
 import { createNames } from "./names.js";
+import { createPick } from "./pick.js";
 import { createPointing } from "./pointing.js";
 import { mountNotices } from "./notices.js";
-import { Stage } from "./stage.js";
+import { createReadout } from "./readout.js";
+import { createRuler } from "./ruler.js";
 
 /**
  * @param {import("../page.js").Page} page
@@ -24,7 +29,7 @@ export function mountScene(
   text,
   { onKey, onFrame, onCancel, onRetry, drawing, names: isNamed, onLook, onLight, onThreshold },
 ) {
-  const stage = new Stage(holder, text.stage, { onKey, onFrame });
+  const stage = createStage(holder, text.stage, { onKey, onFrame, onPick: createPick(page) });
   const notices = mountNotices(holder, text.stage, { onCancel, onRetry });
   const names = createNames(holder, stage);
   const key = createKey(holder, text.stage.key);
@@ -35,22 +40,37 @@ export function mountScene(
     onFraming: (framing) => names.set(framing?.names ?? [], framing?.measures ?? [], framing?.normal),
   });
   const layers = createLayers(text, (switched) => page.change({ layers: switched }));
-  const pointing = createPointing(page, holder, stage, { onLight, onThreshold, label: text.stage.beam });
+  const readout = createReadout(holder, text.stage.readout);
+  const pointing = createPointing(page, holder, stage, {
+    onLight,
+    onThreshold,
+    label: text.stage.beam,
+    onPlace: readout.show,
+  });
+  const ruler = createRuler(holder, stage, text.stage.ruler, {
+    sweep: () => pointing.sweep,
+    onHover: (at) => pointing.hover(at, false),
+    plan: () => page.change({ camera: "plan" }),
+  });
+  const flat = stage instanceof CanvasStage ? createFlatPicture(page, stage, text.stage) : null;
+  if (flat) notices.add(flat.notice);
+  notices.add(ruler.card);
   const explanation = createExplanation(text.explanation, stage, pointing, {
     onClose: () => page.change({ selected: null }),
     onChange: (params) => page.change({ params }),
   });
-  const tools = h("div", { class: "stage-tools" }, ...camera.buttons, layers.button);
+  const tools = h("div", { class: "stage-tools" }, ...camera.buttons, ruler.button, layers.button);
   notices.add(key.element);
   holder.append(tools, layers.list, explanation.element);
   holder.setAttribute("aria-label", text.stage.label);
   return {
-    parts: [notices, layers, camera, key, pointing, explanation],
+    parts: [notices, layers, camera, key, pointing, ruler, explanation, ...(flat ? [flat] : [])],
     stage,
     notices,
     camera,
     layers,
     explanation,
     pointing,
+    ruler,
   };
 }

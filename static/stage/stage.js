@@ -3,6 +3,7 @@
 import { h } from "../widgets/dom.js";
 import { closePopovers } from "../widgets/menu.js";
 import { around, CLOSE, project, towards, unproject, WHOLE } from "./plan.js";
+import { onLongPress } from "./long_press.js";
 import { createScale } from "./scale.js";
 import {
   bend,
@@ -24,9 +25,11 @@ import {
 /** @typedef {import("../view/store.js").Look} Look */
 /**
  * onKey: a key pressed in the scene, true if the page took it; onFrame: a scene was loaded
- * @typedef {{onKey: (event: KeyboardEvent) => boolean, onFrame: (frame: Window) => void}} Handlers
+ * @typedef {{onKey: (event: KeyboardEvent) => boolean, onFrame: (frame: Window) => void, onPick: (at: [number, number], radius: number, beside: boolean) => void}} Handlers
  */
 
+// How near to a point a finger must rest.
+const FINGER_PX = 30;
 const CAMERA_KEYS = new Set(["KeyW", "KeyA", "KeyS", "KeyD", "KeyQ", "KeyE"]);
 // viser's own panel and notices go, because the page shows connection and values; its slow fade-in goes, too.
 const OVERRULED = `
@@ -36,6 +39,7 @@ const OVERRULED = `
 const TAN = Math.tan(rad(PLAN_FOV_DEG / 2));
 
 export class Stage {
+  hasFree = true;
   frame;
   /** @type {"plan" | "free"} */
   #mode = "plan";
@@ -74,6 +78,10 @@ export class Stage {
     new ResizeObserver(() => this.#resized()).observe(this.frame);
   }
 
+  get element() {
+    return this.frame;
+  }
+
   #loaded() {
     const inner = this.frame.contentWindow;
     if (!inner || !this.#source) return;
@@ -92,10 +100,17 @@ export class Stage {
       this.#touched = true;
     };
     for (const kind of ["pointerdown", "wheel"]) inner.addEventListener(kind, touch, true);
+    onLongPress(inner, (left, top) => this.#held(left, top));
     this.#handlers.onFrame(inner);
     this.#locked = null;
     this.#touched = false;
     this.#settle();
+  }
+
+  /** A finger rests: asks why. @param {number} left @param {number} top [px] */
+  #held(left, top) {
+    const [at, sight] = [this.unproject(left, top), this.#sight];
+    if (at && sight) this.#handlers.onPick(at, FINGER_PX / sight.pxPerMetre, false);
   }
 
   /** Fits again what was fitted, unless a person has moved the camera since. */

@@ -9,6 +9,9 @@ function secondsOf(seconds) {
   return `${Math.round(seconds / 86_400).toLocaleString("en")} days`;
 }
 
+/** With a minus that is as wide as a plus. @param {number} value @param {number} digits */
+const signed = (value, digits) => value.toFixed(digits).replace("-", "−");
+
 /** @param {number | null} value */
 const shareOf = (value) => (value === null ? "–" : `${Math.round(100 * value)} %`);
 
@@ -73,6 +76,30 @@ export const pageText = {
     free: "Rotate the scene freely in 3D",
     plan: "Back to the plan view",
     across: (/** @type {number} */ factor) => `×${factor} across the line`,
+    noWebGL:
+      "This browser has no WebGL: the plan is drawn in 2D, and there is no free 3D view. Turning on graphics acceleration in the browser's settings may bring it back.",
+    readout: (
+      /** @type {[number, number]} */ [x, y],
+      /** @type {number} */ range,
+      /** @type {number} */ bearing,
+      /** @type {number | null} */ beam,
+    ) =>
+      `x ${signed(x, 2)} m   y ${signed(y, 2)} m   range ${range.toFixed(2)} m   bearing ${signed(bearing, 1)}°${beam === null ? "" : `   beam ${beam}`}`,
+    ruler: {
+      label: "Measure distances and angles (U)",
+      close: "Put the ruler away",
+      first: "Click a point or a line. Shift: the point, not the line.",
+      second: "Click a second point or line.",
+      length: (/** @type {number} */ metres) => `${metres.toFixed(3)} m`,
+      said: (/** @type {import("../stage/measure.js").Measured} */ { from, to, distance, angle, cross }) => {
+        const metres = `${distance.toFixed(3)} m`;
+        const degrees = angle === null ? "" : `${((180 * angle) / Math.PI).toFixed(2)}°`;
+        if (cross)
+          return `The lines meet at ${degrees}, at x ${signed(cross[0], 3)} m, y ${signed(cross[1], 3)} m. Between their nearest ends: ${metres}.`;
+        if (degrees) return `The lines are ${metres} apart, at an angle of ${degrees}.`;
+        return `${metres}: ${signed(to[0] - from[0], 3)} m in x, ${signed(to[1] - from[1], 3)} m in y.`;
+      },
+    },
     key: {
       label: "Marks",
       marks: /** @type {Record<string, string>} */ ({
@@ -309,6 +336,7 @@ export const pageText = {
       fit: "fit the recording in view",
       view: "plan or free 3D view",
       layers: "layers",
+      ruler: "measure distances and angles",
       hide: "hide or show the panel, the timeline",
       numbers: "beam numbers in the scene",
       open: "open a file",

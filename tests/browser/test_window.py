@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 
 import pytest
-from browser.conftest import Tab
+from browser.conftest import Profile, Tab
+from live import Address
 from playwright.sync_api import ViewportSize
 
 pytestmark = pytest.mark.own_tab
@@ -62,3 +64,65 @@ def test_at_every_width_nothing_is_cut_off_and_the_view_fits(new_tab: Callable[.
         )
         tab.eventually(lambda: tab.page.evaluate(inside), f"the view does not fit at {wide} px")
     assert tab.page.evaluate("() => stage.getBoundingClientRect().bottom <= panel.getBoundingClientRect().top + 1")
+
+
+WITHOUT_WEBGL = """const get = HTMLCanvasElement.prototype.getContext;
+    HTMLCanvasElement.prototype.getContext = function (kind, ...more) {
+        return kind.startsWith("webgl") ? null : get.call(this, kind, ...more);
+    };"""
+# How many colours the canvas of the scene has.
+COLOURS = """() => {
+    const canvas = document.querySelector("canvas.scene");
+    const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    return new Set(new Uint32Array(data.buffer)).size;
+}"""
+POINTER = """([at, kinds]) => {
+    const canvas = document.querySelector("canvas.scene");
+    const { left, top } = canvas.getBoundingClientRect();
+    canvas.setPointerCapture = () => {};
+    for (const [kind, id, x, y] of kinds)
+        canvas.dispatchEvent(new PointerEvent(kind, {
+            pointerType: "touch", pointerId: id, isPrimary: id === 1, bubbles: true,
+            clientX: left + at[0] + x, clientY: top + at[1] + y }));
+}"""
+
+
+def test_without_webgl_the_plan_is_drawn_in_2d_and_answers_fingers(profile: Profile, address: Address):
+    page = profile.context.new_page()
+    page.add_init_script(WITHOUT_WEBGL)
+    tab = Tab(page, f"{address.http}/").open("#recording=sample:hallway")
+    tab.eventually(lambda: page.locator(".notice.flat").is_visible(), "no line says why")
+    tab.eventually(lambda: page.evaluate(COLOURS) > 8, "nothing is drawn")
+    at = page.evaluate("() => lineseg.project(...lineseg.state.segments[0].start)")
+    page.evaluate(POINTER, [at, [("pointerdown", 1, 0, 0), ("pointerup", 1, 0, 0)]])
+    tab.until("s.view.selected !== null")
+    wide = "() => lineseg.project(1, 0)[0] - lineseg.project(0, 0)[0]"
+    before = page.evaluate(wide)
+    pinch = [("pointerdown", 1, -20, 0), ("pointerdown", 2, 20, 0), ("pointermove", 2, 60, 0)]
+    page.evaluate(POINTER, [at, pinch])
+    tab.eventually(lambda: page.evaluate(wide) > 1.5 * before, "two fingers do not zoom")
+    page.close()
+    assert tab.complaints == []
+
+
+def test_the_ruler_measures_between_two_lines(new_tab: Callable[..., Tab]):
+    tab = new_tab("#recording=sample:hallway")
+    page = tab.page
+    along = """([k, share]) => {
+        const { start, end } = lineseg.state.segments[k];
+        const at = lineseg.project(...[0, 1].map((i) => start[i] + share * (end[i] - start[i])));
+        const { left, top } = document.querySelector("#stage").getBoundingClientRect();
+        return [at[0] + left, at[1] + top];
+    }"""
+    tab.eventually(lambda: page.evaluate("() => lineseg.project(0, 0)"), "no plan")
+    lines = tab.state["segments"]
+    one, other = sorted(range(len(lines)), key=lambda k: -lines[k]["length"])[:2]
+    page.keyboard.press("u")
+    for k in (one, other):
+        page.mouse.click(*page.evaluate(along, [k, 0.5]))
+    (a, b, _), (c, d, _) = lines[one]["line"], lines[other]["line"]
+    angle = math.degrees(math.atan2(abs(a * d - b * c), abs(a * c + b * d)))
+    tab.eventually(lambda: f"{angle:.2f}°" in page.locator(".ruler").inner_text(), f"no angle of {angle:.2f}°")
+    assert "range" in page.locator(".readout").inner_text()
+    page.keyboard.press("Escape")
+    tab.eventually(lambda: not page.locator(".ruler").is_visible(), "the ruler stays")
