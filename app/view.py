@@ -46,7 +46,10 @@ STRIP_SCORES = {**SCORES, SUSPICION.name: SUSPICION, DIFFERENCE.name: DIFFERENCE
 
 @dataclass(frozen=True)
 class Layers:
-    """What is drawn; `replay` is the geometry of the decision on the screen, `ghosts` the missed lines in Inspect."""
+    """What is drawn; `replay` is the geometry of the decision on the screen, `ghosts` the missed lines in Inspect.
+
+    In the world: `trajectory` of the laser, `past` scans, and `all_lines` of the recording.
+    """
 
     points: bool = True
     invalid: bool = False
@@ -62,6 +65,9 @@ class Layers:
     numbers: bool = False
     replay: bool = True
     ghosts: bool = True
+    trajectory: bool = True
+    past: bool = True
+    all_lines: bool = False
 
     def but(self, /, **values: bool) -> Self:
         """A copy with some layers switched. Raises ValueError, listing the known names, for an unknown one."""
@@ -161,6 +167,8 @@ class View:
     score: shown in the strip. against: the result to compare with.
     weights: of the suspicion, if not the defaults.
     reference: the truth to use if both exist: "labels" made by people, or the "wall" of the recording.
+    space: whether the scene shows the frame of the laser or the world; past: which other scans the world shows: none,
+    the last so many, or all. ride: whether the picture moves with the robot.
     live: whether to follow the newest frame of a live recording; if not, the recording stays frozen.
     dark: whether the page has dark colours.
     """
@@ -243,6 +251,9 @@ class View:
             written="switches",
         ),
     ] = field(default_factory=Layers)
+    space: Annotated[Literal["laser", "world"], ViewField(link="space", mirrored=True)] = "laser"
+    past: Annotated[Literal["none", "10", "100", "all"], ViewField(link="past", mirrored=True)] = "all"
+    ride: Annotated[Literal["on", "off"], ViewField(link="ride", mirrored=True)] = "off"
     live: Annotated[bool, ViewField(link=None, mirrored=True, reset_by=PLACE, off_by=("frame", "step"))] = True
     dark: Annotated[bool, ViewField(link=None, mirrored=False)] = False
 

@@ -12,7 +12,7 @@ import { closePopovers } from "./widgets/menu.js";
  *          timeline: {toggle: () => void, pace: (by: 1 | -1) => void, move: (by: number) => void, doubtful: (by: 1 | -1) => void},
  *          inspect: ReturnType<typeof import("./inspect/inspect.js").createInspect>, labels: ReturnType<typeof import("./label/labels.js").createLabels>,
  *          draw: Editor, panel: {open: (name: string) => void}, camera: {fit: () => void, closeUp: {toggle: () => void}, toggle: () => void},
- *          layout: {toggle: (part: "panel" | "timeline") => void}, ruler: {readonly active: boolean, toggle: () => void}, layers: {button: HTMLElement, toggle: (name: string) => void}, opening: {choose: () => void}}} parts
+ *          layout: {toggle: (part: "panel" | "timeline") => void}, ruler: {readonly active: boolean, toggle: () => void}, layers: {button: HTMLElement, toggle: (name: string) => void}, world: {toggle: () => unknown}, opening: {choose: () => void}}} parts
  * @param {typeof import("./text/words.js").words} words
  * @param {() => void} help
  * @returns {Binding[]}
@@ -29,10 +29,7 @@ export function bindingsOf(page, parts, words, help) {
   /** @param {"refusal" | "merge" | "cut"} mark */
   const jumpInLearn = (mark) => page.learning && learn.stepper.jump(mark);
 
-  function openLabels() {
-    page.setMode("inspect");
-    parts.panel.open("labels");
-  }
+  const openLabels = () => (page.setMode("inspect"), parts.panel.open("labels"));
 
   /** @param {1 | -1} by */
   function doubtful(by) {
@@ -87,6 +84,7 @@ export function bindingsOf(page, parts, words, help) {
     { keys: ["2"], shown: "", does: "", run: () => page.learning && learn.answer(false) },
     { keys: ["f"], shown: "F", does: does.fit, run: camera.fit },
     { keys: ["v"], shown: "V", does: does.view, run: camera.toggle },
+    { keys: ["g"], shown: "G", does: does.world, run: parts.world.toggle },
     { keys: ["l"], shown: "L", does: does.layers, run: () => parts.layers.button.click() },
     { keys: ["p"], shown: "P T", does: does.hide, run: () => parts.layout.toggle("panel") },
     { keys: ["t"], shown: "", does: "", run: () => parts.layout.toggle("timeline") },

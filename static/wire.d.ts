@@ -80,6 +80,9 @@ export interface ViewPatch {
   weights?: Record<string, number>;
   reference?: "labels" | "wall";
   layers?: Record<string, boolean>;
+  space?: "laser" | "world";
+  past?: "none" | "10" | "100" | "all";
+  ride?: "on" | "off";
   live?: boolean;
   dark?: boolean;
 }
@@ -611,6 +614,16 @@ export interface Framing {
 }
 
 /**
+ * The laser in the world. pose: x, y [m] and heading [rad], null if it is not known at this frame.
+ *
+ * upsideDown: whether its beams turn clockwise seen from above.
+ */
+export interface World {
+  pose: number[] | null;
+  upsideDown: boolean;
+}
+
+/**
  * What is on the screen.
  *
  * view: the whole View, as a patch that restores it. label: of the recording; pack: description in a failure pack.
@@ -623,8 +636,10 @@ export interface Framing {
  * recording has its true walls. agreement: in the mode Inspect if the truth is known; labels: in the mode Inspect
  * if the recording can have labels. framing: of the decision on the screen, ahead: of the next one without its
  * outcome; null where the whole plan is shown. nodes: what the scene shows. references: available references;
- * judgedBy: the one in use, "" without truth. extent: box around the points of the frame, bounds: of the recording
- * [m]; square: side of the grid's squares [m]. extractionUs: time of the extraction [µs].
+ * judgedBy: the one in use, "" without truth. mayHavePoses: whether poses were or can be looked for; poses: what is
+ * said of them, "" if nobody asked. world: null if the scene shows the frame of the laser. extent: box around the
+ * points of the frame, bounds: of what the scene shows [m]; square: side of the grid's squares [m]. extractionUs:
+ * time of the extraction [µs].
  */
 export interface Scene {
   view: View;
@@ -669,6 +684,9 @@ export interface Scene {
   framing: Framing | null;
   ahead: Framing | null;
   nodes: string[];
+  mayHavePoses: boolean;
+  poses: string;
+  world: World | null;
   explanation: Explanation | null;
   histograms: Record<string, Histogram>;
   truth: boolean;
@@ -735,6 +753,9 @@ export interface DrawnState {
   framing: Framing | null;
   ahead: Framing | null;
   nodes: string[];
+  mayHavePoses: boolean;
+  poses: string;
+  world: World | null;
   explanation: Explanation | null;
   histograms: Record<string, Histogram>;
   truth: boolean;

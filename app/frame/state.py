@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from lineseg import Decision, FrameLabels, Recording, Segment, Thresholds, TrueLine, difference
 from lineseg.colours import segment_colours
+from lineseg.poses import said_of
 from lineseg.readers import Account
 from lineseg.scan import PackAbout
 from lineseg.writers.finite import finite_or_none
@@ -94,6 +95,9 @@ def state_of(
         "framing": _framed(found, view, view.step, looked),
         "ahead": _framed(found, view, view.step + 1, looked) if view.step is not None else None,
         "nodes": list(nodes),
+        "mayHavePoses": recording.track is not None,
+        "poses": said_of(recording.poses, recording.pose_source) if view.space == "world" else "",
+        "world": None,
         "explanation": _explanation(found, view.selected) if view.selected is not None else None,
         "histograms": {name: _histogram(each) for name, each in found.histograms.items()},
         "truth": recording.walls is not None and recording.poses is not None,

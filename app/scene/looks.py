@@ -8,6 +8,7 @@ Shape = Literal["circle", "square", "diamond"]
 
 # name: (size on the screen [pixels], which viser draws about twice as wide; shape)
 CLOUDS: dict[str, tuple[float, Shape]] = {
+    "past": (1.4, "circle"),
     "points": (2.2, "circle"),
     "seeds": (3.2, "square"),
     "endpoints": (4.5, "circle"),
@@ -19,6 +20,8 @@ CLOUDS: dict[str, tuple[float, Shape]] = {
 # name: width on the screen [pixels]
 LINES = {
     "grid": 1.0,
+    "all lines": 1.2,
+    "trajectory": 1.6,
     "pinned": 9.0,
     "invalid": 1.0,
     "truth": 3.0,
@@ -38,8 +41,11 @@ LINES = {
 }
 # Each lies over those before it.
 ORDER = (
-    "grid", "pinned", "invalid", "truth", "laser", "ray", "selected ray", "dropped", "band", "missed", "ghosts",
+    "grid", "past", "all lines", "trajectory",
+    "pinned", "invalid", "truth", "laser", "ray", "selected ray", "dropped", "band", "missed", "ghosts",
     "points", "segments", "matched", "false", "normals", "other", "growing",
     "seeds", "endpoints", "window", "predicted",
     "candidate", "selected",
 )  # fmt: skip
+# These are drawn where they are in the world; all others where the laser sees them.
+IN_THE_WORLD = ("grid", "past", "all lines", "trajectory")

@@ -34,6 +34,9 @@ class Theme:
     missed: Colour
     false: Colour
     ghost: Colour
+    past: Colour
+    past_line: Colour
+    trajectory: Colour
 
 
 LIGHT = Theme(
@@ -43,6 +46,7 @@ LIGHT = Theme(
     predicted=(110, 70, 215), other=(0, 119, 187),
     pinned=(208, 213, 221), changed=(178, 102, 210),
     matched=(0, 119, 187), missed=(20, 22, 26), false=(238, 119, 51), ghost=(110, 70, 215),
+    past=(196, 200, 206), past_line=(150, 186, 214), trajectory=(238, 119, 51),
 )  # fmt: skip
 DARK = Theme(
     point=(128, 134, 142), invalid=(92, 98, 107), strong=(245, 246, 248), faint=(120, 126, 134),
@@ -51,6 +55,7 @@ DARK = Theme(
     predicted=(170, 140, 255), other=(51, 160, 238),
     pinned=(70, 76, 86), changed=(150, 88, 190),
     matched=(51, 160, 238), missed=(245, 246, 248), false=(255, 140, 70), ghost=(170, 140, 255),
+    past=(78, 84, 93), past_line=(50, 92, 128), trajectory=(255, 140, 70),
 )  # fmt: skip
 # In place of both themes: the colour of a field is its number, as no segment has it.
 NUMBERED = Theme(*((number, 1, 254) for number in range(len(fields(Theme)))))

@@ -6,12 +6,13 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import NamedTuple
 from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
 
-from lineseg import Recording, Scan, Segment, difference
+from lineseg import Recording, Scan, Segment, Survey, difference
 from lineseg.survey.difference import KEPT
 from lineseg.survey.remark import Ghost
 
@@ -22,6 +23,7 @@ from ..view import View
 from .palette import DARK, LIGHT, Colours, Theme
 from .replay import State, decision_geometry, foot_between, state_at
 from .shapes import Lines, Points, dashed, joined, lines_between, points_at
+from .world import Pose, World
 
 DASH = 0.10
 FALSE_DASH = 0.04
@@ -35,16 +37,47 @@ CACHED = 64
 
 @dataclass(frozen=True, eq=False)
 class Picture:
-    """Shapes by node name; missing nodes are hidden. bounds: x₁, y₁, x₂, y₂ of the recording [m]."""
+    """Shapes by node name; missing nodes are hidden. bounds: x₁, y₁, x₂, y₂ of the recording [m].
+
+    place: of the laser in the world; None if all is drawn in its own frame.
+    """
 
     points: dict[str, Points]
     lines: dict[str, Lines]
     bounds: Bounds
+    place: Place | None = None
 
     @property
     def nodes(self) -> list[str]:
         """The names of all that is to be seen."""
         return [name for name, shape in (*self.points.items(), *self.lines.items()) if len(shape.xyz)]
+
+
+class Place(NamedTuple):
+    """Where the laser is in the world, None if unknown; upside_down: whether its beams turn clockwise from above."""
+
+    pose: Pose | None
+    upside_down: bool
+
+
+def picture_in_world(view: View, drawn: Picture, world: World, survey: Survey | None) -> Picture:
+    """A picture of a frame in the world; without a pose, the frame is left out. survey: of all frames, if known."""
+    theme, layers = DARK if view.dark else LIGHT, view.layers
+    frame = world.recording.position(view.frame)
+    pose = world.pose(frame)
+    points, lines = (drawn.points, drawn.lines) if pose is not None else ({}, {})
+    points, lines = dict(points), {name: shape for name, shape in lines.items() if name != "grid"}
+    if layers.grid:
+        lines["grid"] = grid(world.bounds, theme)
+    if layers.trajectory:
+        lines["trajectory"] = world.trajectory(theme)
+    if layers.all_lines and survey is not None:
+        lines["all lines"] = world.all_lines(survey, theme)
+    if layers.past and view.past != "none":
+        points["past"] = world.all_seen(theme) if view.past == "all" else world.last_seen(frame, int(view.past), theme)
+    if layers.laser and pose is not None:
+        lines["laser"] = laser(world.bounds, theme)
+    return Picture(points, lines, world.bounds, Place(pose, world.upside_down))
 
 
 def picture(

@@ -13,11 +13,12 @@ from numpy.typing import NDArray
 from viser._messages import SceneNodeUpdateMessage
 
 from lineseg import Knob, Params, Thresholds
+from lineseg.poses import seen_from
 
 from ..frame.geometry import Bounds
-from .looks import CLOUDS, LINES, ORDER
+from .looks import CLOUDS, IN_THE_WORLD, LINES, ORDER
 from .palette import linear
-from .picture import Picture
+from .picture import Picture, Place
 from .portless import Door, PortlessServer
 from .shapes import Lines, Points
 
@@ -28,6 +29,8 @@ PICK_PIXELS = 20.0
 # Higher nodes hide lower ones; seen from the plan camera, 20 mm of height makes no visible difference.
 LEVEL = 0.02
 HEIGHTS = {name: LEVEL * level for level, name in enumerate(ORDER)}
+
+LASER = "/seen"
 
 Change = Callable[[dict[str, Any]], None]
 Pick = Callable[[tuple[float, float], float, bool], None]
@@ -48,6 +51,9 @@ class ViserScene:
         self._bounds: Bounds | None = None
         self._shown = Picture({}, {}, (0.0, 0.0, 0.0, 0.0))
         nodes = self._server.scene
+        # What the laser sees hangs on it.
+        self._laser = nodes.add_frame(LASER, show_axes=False)
+        self._place: Place | None = None
         no_points, no_lines = np.zeros((1, 3), np.float32), np.zeros((1, 2, 3), np.float32)
         self._clouds = {
             name: nodes.add_point_cloud(
@@ -84,6 +90,7 @@ class ViserScene:
         with self._server.atomic():
             self._set_theme(dark)
             self._set_bounds(picture.bounds)
+            self._set_place(picture.place)
             for name, cloud in self._clouds.items():
                 _show_points(cloud, picture.points.get(name), self._shown.points.get(name))
             for name, lines in self._lines.items():
@@ -118,6 +125,21 @@ class ViserScene:
         if dark != self._dark:
             self._dark = dark
             self._server.gui.configure_theme(dark_mode=dark, show_logo=False, show_share_button=False)
+
+    def _set_place(self, place: Place | None) -> None:
+        """Move what the laser sees to where it is in the world; a laser that hangs upside down has it below itself."""
+        if place == self._place:
+            return
+        upside_down = place is not None and place.upside_down
+        if upside_down != (self._place is not None and self._place.upside_down):
+            for name, handle in (*self._clouds.items(), *self._lines.items()):
+                if name not in IN_THE_WORLD:
+                    handle.position = (0.0, 0.0, -HEIGHTS[name] if upside_down else HEIGHTS[name])
+        self._place = place
+        x, y, heading = (place and place.pose) or (0.0, 0.0, 0.0)
+        cos, sin = math.cos(heading / 2), math.sin(heading / 2)
+        self._laser.position = (x, y, 0.0)
+        self._laser.wxyz = (0.0, cos, sin, 0.0) if upside_down else (cos, 0.0, 0.0, sin)
 
     def _set_bounds(self, bounds: Bounds) -> None:
         """The initial camera of a view opened by itself: above the middle, high enough to see everything."""
@@ -182,10 +204,20 @@ class ViserScene:
             dx, dy, dz = event.ray_direction
             if abs(dz) > 1e-9 and z / -dz > 0:
                 at = (x - dx * z / dz, y - dy * z / dz)
-                pick(at, PICK_PIXELS * self._metres_per_pixel, event.modifier == "shift")
+                self._picked(at, event.modifier == "shift", pick)
 
         self._server.scene.on_click()(clicked)
         self._server.scene.on_click(modifier="shift")(clicked)
+
+    def _picked(self, at: tuple[float, float], shift: bool, pick: Pick) -> None:
+        """Tell which point of the laser's frame was clicked; nothing while the laser has no place in the world."""
+        place = self._place
+        if place is not None:
+            if place.pose is None:
+                return
+            x, y = seen_from(np.array([at]), np.array(place.pose), place.upside_down)[0].tolist()
+            at = (x, y)
+        pick(at, PICK_PIXELS * self._metres_per_pixel, shift)
 
     def _follow_camera(self, client: viser.ClientHandle) -> None:
         """Keep the size of points on the screen at any zoom."""
@@ -205,7 +237,7 @@ class ViserScene:
 
 
 def _path(name: str) -> str:
-    return "/" + name.replace(" ", "_")
+    return ("/" if name in IN_THE_WORLD else f"{LASER}/") + name.replace(" ", "_")
 
 
 def _show_points(handle: viser.PointCloudHandle, points: Points | None, last: Points | None) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
-from lineseg import Recording
+from lineseg import Recording, Survey
 from lineseg.survey.disputes import lines_missed
 
 from ..frame.clock import Clock
@@ -14,7 +14,8 @@ from ..frame.geometry import Bounds, bounds_of, united
 from ..frame.judge import Reference, judged
 from ..frame.state import state_of
 from ..live.ring import LiveRecording
-from ..scene.picture import Picture, picture
+from ..scene.picture import Picture, picture, picture_in_world
+from ..scene.world import World
 from ..shelf.label_files import LabelFiles
 from ..shelf.lesson import Looked
 from ..shelf.library import Library
@@ -55,9 +56,11 @@ class Composer:
         self._ghosts = lru_cache(maxsize=FRAMES_KEPT)(lines_missed)
         self._clock = lru_cache(maxsize=4)(Clock.of)
         self._bounds = lru_cache(maxsize=4)(bounds_of)
+        self._world = lru_cache(maxsize=2)(World.of)
         self._live_bounds: tuple[str, int, Bounds] = ("", 0, (0.0, 0.0, 0.0, 0.0))
 
-    def compose(self, view: View, recording: Recording) -> Content:
+    def compose(self, view: View, recording: Recording, survey: Survey | None = None) -> Content:
+        """survey: the lines of all frames, if they are known."""
         view = _inside(view, recording)
         frame = recording.position(view.frame)
         found = self._findings(recording, frame, view.method, view.params)
@@ -71,11 +74,18 @@ class Composer:
         judgement = self._judged(found, said) if inspected else None
         ghosts = self._ghosts(recording, frame, view.params) if _shows_ghosts(view, recording) else ()
         drawing = picture(view, recording, found, bounds, pinned, judgement, ghosts)
+        world = self._world(recording) if view.space == "world" and view.mode != "learn" else None
+        if world is not None:
+            drawing = picture_in_world(view, drawing, world, survey)
+            bounds = world.bounds
         label = self._library.label(view.recording)
         clock = self._clock(recording)
         since, nodes = clock.at(frame), drawing.nodes
         looked = self._looked_at(view)
         state = state_of(view, recording, label, found, bounds, reference, since, pinned, judgement, nodes, looked)
+        if world is not None:
+            pose = world.pose(frame)
+            state["world"] = {"pose": pose and list(pose), "upsideDown": world.upside_down}
         return Content(view, found, drawing, state, clock)
 
     def _looked_at(self, view: View) -> Looked | None:

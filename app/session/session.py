@@ -12,7 +12,7 @@ from typing import Any, Literal
 
 from pydantic import BaseModel
 
-from lineseg import Recording
+from lineseg import Recording, Survey
 from lineseg.failing import mistake
 from lineseg.readers import Cancelled
 
@@ -145,7 +145,9 @@ class Session:
         self._in_loop = False
         self._scene = ViserScene(self._change_from_scene, self._pick, rounds and rounds.loop)
         self._drawing = Newest(f"session {id[:6]}", self._work)
-        self._strip = Strip(f"strip {id[:6]}", warm_up.surveyed, self._tell)
+        self._strip = Strip(f"strip {id[:6]}", warm_up.surveyed, self._tell, self._surveyed)
+        # The lines of all frames, as far as they were found last.
+        self._lines: tuple[Recording, Survey] | None = None
         self._followed = 0.0
         self.presenter = Presenter()
         self._leave_presenter: Callable[[], None] | None = None
@@ -432,7 +434,8 @@ class Session:
         if isinstance(recording, LiveRecording) and newest.view.live:
             newest = _at_the_end(newest, recording)
         begun = time.perf_counter()
-        content = self._composer.compose(newest.view, recording)
+        lines = self._lines
+        content = self._composer.compose(newest.view, recording, lines[1] if lines and lines[0] is recording else None)
         drawn = time.perf_counter()
         self._scene.draw(content.picture, content.view.params, content.view.dark)
         # They are kept with what was found.
@@ -458,6 +461,13 @@ class Session:
             if shown is not None and self._page is not None:
                 passing = key_of(self._wanted.view) != key_of(shown.view)
                 self._strip.want(shown.view, shown.recording, self._wanted.rev, passing)
+
+    def _surveyed(self, recording: Recording, survey: Survey) -> None:
+        """Draw the lines of all frames where they are shown."""
+        with self._lock:
+            self._lines = recording, survey
+            if self._wanted.view.space == "world" and self._wanted.view.layers.all_lines:
+                self._ask(self._wanted.view, self._wanted.rev, "scene")
 
     def _load(self, request: Request) -> Recording:
         view = request.view
@@ -541,7 +551,10 @@ def _waits_for(view: View) -> tuple[str, bool, bool]:
 
 def takes_long(view: View) -> bool:
     """Whether drawing it may take much longer than a few milliseconds: other methods do, and what Inspect computes."""
-    return view.method != "region-growing" or view.mode == "inspect" or view.layers.verdicts or view.against is not None
+    if view.method != "region-growing" or view.mode == "inspect" or view.layers.verdicts or view.against is not None:
+        return True
+    # The poses of a bag take another pass over its file.
+    return view.space == "world"
 
 
 def _at_the_end(request: Request, recording: Recording) -> Request:

@@ -102,11 +102,18 @@ class Strip:
     """Surveys in its own thread; a new subject stops the previous one.
 
     A long recording first gets a quick survey of evenly spread frames, ready while a slider is still moving.
-    ready: set once the kernels are compiled. send: called in the strip's thread; may block.
+    ready: set once the kernels are compiled. send: called in the strip's thread; may block. whole: called there with
+    each survey of all frames.
     """
 
-    def __init__(self, name: str, ready: threading.Event, send: Callable[[BaseModel], None]) -> None:
-        self._ready, self._send = ready, send
+    def __init__(
+        self,
+        name: str,
+        ready: threading.Event,
+        send: Callable[[BaseModel], None],
+        whole: Callable[[Recording, Survey], None] = lambda recording, survey: None,
+    ) -> None:
+        self._ready, self._send, self._whole = ready, send, whole
         self._glance = lru_cache(maxsize=1)(glance_of)
         self._known: Known | None = None
         self._pinned: tuple[Recording, Thresholds, Survey] | None = None
@@ -213,6 +220,7 @@ class Strip:
             # Too slow to let other tabs wait for it.
             end_turn()
         whole = done_behind(partial(survey, recording, key.params, subject.stop))
+        self._whole(recording, whole)
         committee = known_committee(recording)
         if committee is not None:
             whole = disputed(recording, whole, committee, np.arange(len(recording)))

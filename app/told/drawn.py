@@ -226,6 +226,16 @@ class Framing(TypedDict):
     measures: list[Measured]
 
 
+class World(TypedDict):
+    """The laser in the world. pose: x, y [m] and heading [rad], null if it is not known at this frame.
+
+    upsideDown: whether its beams turn clockwise seen from above.
+    """
+
+    pose: list[float] | None
+    upsideDown: bool
+
+
 class Scene(TypedDict):
     """What is on the screen.
 
@@ -239,7 +249,9 @@ class Scene(TypedDict):
     agreement: in the mode Inspect if the truth is known; labels: in the mode Inspect if the recording can have labels.
     framing: of the decision on the screen, ahead: of the next one without its outcome; null where the whole plan is
     shown. nodes: what the scene shows. references: available references; judgedBy: the one in use, "" without truth.
-    extent: box around the points of the frame, bounds: of the recording [m]; square: side of the grid's squares [m].
+    mayHavePoses: whether poses were or can be looked for; poses: what is said of them, "" if nobody asked.
+    world: null if the scene shows the frame of the laser. extent: box around the points of the frame, bounds: of what
+    the scene shows [m]; square: side of the grid's squares [m].
     extractionUs: time of the extraction [µs].
     """
 
@@ -285,6 +297,9 @@ class Scene(TypedDict):
     framing: Framing | None
     ahead: Framing | None
     nodes: list[str]
+    mayHavePoses: bool
+    poses: str
+    world: World | None
     explanation: Explanation | None
     histograms: dict[str, Histogram]
     truth: bool

@@ -52,10 +52,11 @@ export function createCamera(page, stage, text, { drawing, names, onLook, onFram
       freeButton.setAttribute("aria-label", camera === "free" ? text.plan : text.free);
     },
     /** @param {import("../wire.js").State} state */
-    setState({ recording, place: scans, framing, square }) {
+    setState({ recording, place: scans, framing, square, world, view }) {
       stage.square = square;
+      stage.place(world, view.ride === "on");
       // A drawn world stays where it is while it changes.
-      const place = drawing() ? "drawn" : scans;
+      const place = drawing() ? "drawn" : `${scans} ${world ? "world" : ""}`;
       if (place !== fitted) {
         fitted = place;
         closeUp.forget();

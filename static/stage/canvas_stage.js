@@ -3,6 +3,7 @@
 import { h } from "../widgets/dom.js";
 import { drawPicture } from "./canvas.js";
 import { around, CLOSE, project, towards, unproject, WHOLE } from "./plan.js";
+import { placed, placedBox, seenFrom } from "./placed.js";
 import { createScale } from "./scale.js";
 
 /** @typedef {import("../wire.js").Box} Box */
@@ -31,6 +32,8 @@ export class CanvasStage {
   #away = true;
   #drawing = 0;
   #square = 0;
+  /** Where the laser stands; null: the plan is its own. @type {import("../wire.js").World | null} */ #world = null;
+  #riding = false;
   /** A fit to repeat once the stage has a size. @type {(() => void) | null} */ #pending = null;
   /** @type {(() => void)[]} */ #moveListeners = [];
   /** @type {((at: Point | null) => void)[]} */ #hoverListeners = [];
@@ -210,17 +213,30 @@ export class CanvasStage {
 
   /** Moves the plan so that the box can be seen well, and zooms in if it is too small. @param {Box} box */
   goTo = (box) => {
-    const look = towards(this.#sight, this.#size, box);
+    const there = placedBox(this.#world, box);
+    const look = there && towards(this.#sight, this.#size, there);
     if (look) this.lookAt(look);
   };
 
-  /** Position of a point of the plan on the stage [px]. @param {number} x @param {number} y @returns {Point | null} */
-  project = (x, y) => this.#sight && project(this.#sight, x, y);
+  /** As of the other stage. @param {import("../wire.js").World | null} world @param {boolean} ride */
+  place(world, ride) {
+    const [before, now, look] = [this.#world?.pose, world?.pose, this.#look];
+    this.#world = world;
+    const from = this.#riding ? before : look && [look.x, look.y];
+    this.#riding = ride && world !== null;
+    if (ride && from && now) this.pan(now[0] - from[0], now[1] - from[1]);
+  }
+
+  /** Position of a point of the laser on the stage [px]. @param {number} x @param {number} y @returns {Point | null} */
+  project = (x, y) => {
+    const there = placed(this.#world, [x, y]);
+    return there && this.#sight && project(this.#sight, ...there);
+  };
 
   seen = this.project;
 
-  /** The point of the plan at a place on the stage [px]. @param {number} left @param {number} top @returns {Point | null} */
-  unproject = (left, top) => this.#sight && unproject(this.#sight, left, top);
+  /** The point of the laser at a place on the stage [px]. @param {number} left @param {number} top @returns {Point | null} */
+  unproject = (left, top) => this.#sight && seenFrom(this.#world, unproject(this.#sight, left, top));
 
   /** Passes on a wheel event that an element over the scene received. @param {WheelEvent} event */
   pass = (event) => {

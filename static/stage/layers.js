@@ -39,9 +39,10 @@ export function createLayers(words, onLayers) {
     list,
     /** @param {string} name of a layer */
     toggle: (name) => boxes.get(name)?.click(),
-    /** Offers the true walls only if they are known. @param {import("../wire.js").State} state */
-    setState({ truth }) {
+    /** Offers the true walls only if they are known, and the world only in it. @param {import("../wire.js").State} state */
+    setState({ truth, world }) {
       rows[names.indexOf("truth")].hidden = !truth;
+      for (const name of ["trajectory", "past", "all_lines"]) rows[names.indexOf(name)].hidden = !world;
     },
     /** @param {Readonly<import("../wire.js").View>} view */
     setView({ layers }) {

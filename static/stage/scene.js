@@ -14,6 +14,7 @@ import { createPointing } from "./pointing.js";
 import { mountNotices } from "./notices.js";
 import { createReadout } from "./readout.js";
 import { createRuler } from "./ruler.js";
+import { createWorld } from "./world.js";
 
 /**
  * @param {import("../page.js").Page} page
@@ -55,20 +56,22 @@ export function mountScene(
   const flat = stage instanceof CanvasStage ? createFlatPicture(page, stage, text.stage) : null;
   if (flat) notices.add(flat.notice);
   notices.add(ruler.card);
+  const world = createWorld(page, text.stage.world);
   const explanation = createExplanation(text.explanation, stage, pointing, {
     onClose: () => page.change({ selected: null }),
     onChange: (params) => page.change({ params }),
   });
-  const tools = h("div", { class: "stage-tools" }, ...camera.buttons, ruler.button, layers.button);
+  const tools = h("div", { class: "stage-tools" }, ...camera.buttons, ruler.button, world.button, layers.button);
   notices.add(key.element);
-  holder.append(tools, layers.list, explanation.element);
+  holder.append(tools, world.list, layers.list, explanation.element);
   holder.setAttribute("aria-label", text.stage.label);
   return {
-    parts: [notices, layers, camera, key, pointing, ruler, explanation, ...(flat ? [flat] : [])],
+    parts: [notices, layers, camera, world, key, pointing, ruler, explanation, ...(flat ? [flat] : [])],
     stage,
     notices,
     camera,
     layers,
+    world,
     explanation,
     pointing,
     ruler,

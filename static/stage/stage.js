@@ -4,6 +4,7 @@ import { h } from "../widgets/dom.js";
 import { closePopovers } from "../widgets/menu.js";
 import { around, CLOSE, project, towards, unproject, WHOLE } from "./plan.js";
 import { onLongPress } from "./long_press.js";
+import { placed, placedBox, seenFrom } from "./placed.js";
 import { createScale } from "./scale.js";
 import {
   bend,
@@ -67,6 +68,9 @@ export class Stage {
   #handlers;
   #scaleMark;
   #square = 0;
+  /** Where the laser stands; null: the plan is its own. @type {import("../wire.js").World | null} */
+  #world = null;
+  #riding = false;
 
   /** @param {HTMLElement} holder @param {typeof import("../text/page.js").pageText.stage} text @param {Handlers} handlers */
   constructor(holder, text, handlers) {
@@ -273,25 +277,41 @@ export class Stage {
     this.#apply();
   }
 
-  /** Moves the plan so that the box can be seen well, and zooms in if it is too small. @param {Box} box */
+  /** Places the laser in the world; ride: whether the plan moves along. @param {import("../wire.js").World | null} world @param {boolean} ride */
+  place(world, ride) {
+    const [before, now, plan] = [this.#world?.pose, world?.pose, this.#plan];
+    this.#world = world;
+    // Whoever begins to ride is taken to the robot.
+    const from = this.#riding ? before : plan && [plan.x, plan.y];
+    this.#riding = ride && world !== null;
+    if (ride && from && now) this.pan(now[0] - from[0], now[1] - from[1]);
+    this.#tellMoved();
+  }
+
+  /** Moves the plan so that the box of the laser can be seen well, and zooms in if it is too small. @param {Box} box */
   goTo = (box) => {
-    const look = towards(this.#sight, this.#size, box);
+    const there = placedBox(this.#world, box);
+    const look = there && towards(this.#sight, this.#size, there);
     if (look) this.lookAt(look);
   };
 
-  /** Position of a point of the plan on the stage [px], in any view; null if it cannot be seen. @param {number} x @param {number} y @returns {[number, number] | null} */
+  /** Position of a point of the laser on the stage [px], in any view; null if it cannot be seen. @param {number} x @param {number} y @returns {[number, number] | null} */
   seen = (x, y) => {
     if (this.#mode === "plan") return this.project(x, y);
     const found = cameraIn(this.frame);
-    const at = found && onScreen(found, [x, y, 0]);
+    const there = placed(this.#world, [x, y]);
+    const at = found && there && onScreen(found, [...there, 0]);
     return at && [at[0] * this.frame.clientWidth, at[1] * this.frame.clientHeight];
   };
 
-  /** Position of a point of the plan on the stage [px]; null in the free view. @param {number} x @param {number} y @returns {[number, number] | null} */
-  project = (x, y) => this.#sight && project(this.#sight, x, y);
+  /** Position of a point of the laser on the stage [px]; null in the free view. @param {number} x @param {number} y @returns {[number, number] | null} */
+  project = (x, y) => {
+    const there = placed(this.#world, [x, y]);
+    return there && this.#sight && project(this.#sight, ...there);
+  };
 
-  /** The point of the plan at a place on the stage [px]; null in the free view. @param {number} left @param {number} top @returns {[number, number] | null} */
-  unproject = (left, top) => this.#sight && unproject(this.#sight, left, top);
+  /** The point of the laser at a place on the stage [px]; null in the free view. @param {number} left @param {number} top @returns {[number, number] | null} */
+  unproject = (left, top) => this.#sight && seenFrom(this.#world, unproject(this.#sight, left, top));
 
   /** Passes to the scene a wheel event that an element over it received. @param {WheelEvent} event */
   pass = (event) => {

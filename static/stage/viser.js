@@ -27,7 +27,7 @@ export function cameraIn(frame) {
 /** Whether viser has heard what to draw; before, it shows axes on white. @param {HTMLIFrameElement} frame */
 export function hasContent(frame) {
   const tree = /** @type {any} */ (frame.contentWindow)?.__viserSceneTree;
-  return Boolean(tree?.getState()["/points"]);
+  return Boolean(tree?.getState()["/seen/points"]);
 }
 
 /** The point it looks at from straight above; null if it looks from elsewhere. @param {Found} found @returns {Plan | null} */

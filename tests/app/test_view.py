@@ -18,11 +18,11 @@ OF_EACH_OTHER = View(
     mode="inspect", recording="c", topic="/rear", reading=Reading(unit="mm"), frame=2, method="region-growing",
     params=Params(epsilon=0.05), step=1, selected=4, beside=9, camera="free", score="gap",
     against=Against("region-growing", Params()), weights=(("gap", 4.0),), reference="wall", layers=Layers(grid=False),
-    speed="2", live=False, dark=True,
+    speed="2", space="world", past="10", ride="on", live=False, dark=True,
 )  # fmt: skip
 LINK_KEYS = {
     "mode", "recording", "topic", "reading", "frame", "method", "step", "beam", "beside", "camera", "score", "against",
-    "weights", "reference", "layers", "speed", "closeup", "lesson", "page", EACH,
+    "weights", "reference", "layers", "speed", "closeup", "lesson", "page", "space", "past", "ride", EACH,
 }  # fmt: skip
 
 

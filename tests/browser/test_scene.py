@@ -172,3 +172,20 @@ def test_a_link_is_shown_in_the_colours_of_the_page(tab):
     fresh.wait_for_function("window.lineseg?.state?.view.frame === 3 && lineseg.settled")
     assert fresh.evaluate("lineseg.state.view.dark") is True
     fresh.close()
+
+
+def test_in_the_world_the_points_of_a_frame_are_where_a_click_finds_them(tab):
+    tab.page.keyboard.press("g")
+    state = tab.until("s.world !== null && s.view.space === 'world'")
+    assert "scans, from the array poses" in state["poses"]
+    tab.page.keyboard.press("Shift+ArrowRight")
+    moved = tab.until("s.frame === 10")
+    assert moved["world"]["pose"] != state["world"]["pose"]
+    start = moved["segments"][0]["start"]
+    box = tab.page.locator("iframe").bounding_box()
+    at = tab.eventually(lambda: tab.page.evaluate("at => window.lineseg.project(...at)", start), "it is on the stage")
+    tab.page.mouse.click(box["x"] + at[0], box["y"] + at[1])
+    picked = tab.until("s.selected !== null")
+    assert picked["explanation"]["at"] == pytest.approx(start, abs=0.3)
+    tab.page.keyboard.press("g")
+    assert tab.until("s.view.space === 'laser'")["world"] is None

@@ -58,7 +58,7 @@ def test_the_scene_is_relayed_with_its_subprotocol(server: Address, page: Page):
     page.hello()
     with scene_of(server, page) as socket:
         assert socket.subprotocol == "viser-v1.1.1"
-        assert hear(socket, "PointCloudMessage", name="/points")
+        assert hear(socket, "PointCloudMessage", name="/seen/points")
 
 
 def test_changes_reach_the_scene(server: Address, page: Page):
@@ -66,7 +66,7 @@ def test_changes_reach_the_scene(server: Address, page: Page):
     with scene_of(server, page) as socket:
         hear(socket, "ReplayDoneMessage")
         page.change(frame=2)
-        assert "points" in hear(socket, "SceneNodeUpdateMessage", name="/points")["updates"]
+        assert "points" in hear(socket, "SceneNodeUpdateMessage", name="/seen/points")["updates"]
 
 
 def test_unchanged_things_are_not_sent_again(server: Address, page: Page):
@@ -77,7 +77,7 @@ def test_unchanged_things_are_not_sent_again(server: Address, page: Page):
         data = socket.recv(timeout=20)
         assert isinstance(data, bytes)
         names = {message.get("name") for message in window_of(data)}
-        assert names <= {"/selected", "/selected_ray"}
+        assert names <= {"/seen/selected", "/seen/selected_ray"}
 
 
 def test_a_click_in_the_scene_selects_the_nearest_beam(server: Address, page: Page):
@@ -85,7 +85,7 @@ def test_a_click_in_the_scene_selects_the_nearest_beam(server: Address, page: Pa
     with scene_of(server, page) as socket:
         say(socket, camera())
         hear(socket, "ReplayDoneMessage")
-        hear(socket, "SceneNodeUpdateMessage", name="/points")
+        hear(socket, "SceneNodeUpdateMessage", name="/seen/points")
         point = wall_ahead(4.0, 10.0).xy[30]
         say(socket, click(point + 0.001))
         drawn = page.hear_a("drawn")
@@ -132,7 +132,7 @@ def test_no_share_tunnel_can_be_asked_for(server: Address, page: Page):
         hear(socket, "ReplayDoneMessage")
         say(socket, ShareUrlRequest())
         page.change(frame=1)
-        hear(socket, "SceneNodeUpdateMessage", name="/points")
+        hear(socket, "SceneNodeUpdateMessage", name="/seen/points")
     assert not [thread for thread in threading.enumerate() if "tunnel" in thread.name.lower()]
 
 
