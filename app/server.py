@@ -23,8 +23,6 @@ from fastapi.exceptions import RequestValidationError
 from fastapi.responses import JSONResponse, Response
 from starlette.exceptions import HTTPException
 from starlette.requests import ClientDisconnect
-from starlette.staticfiles import StaticFiles
-from starlette.types import Scope
 
 from lineseg.failing import mistake
 from lineseg.readers import Reading
@@ -41,6 +39,7 @@ from .routes.export import add_export
 from .routes.inspection import add_inspection
 from .routes.labels import add_labels
 from .routes.lessons import add_lessons
+from .routes.page import add_page
 from .routes.push import add_push
 from .routes.rereading import add_rereading
 from .routes.rerun import add_rerun
@@ -58,8 +57,6 @@ from .shelf.library import Library
 from .shelf.recent import Recent
 from .shelf.scratch import remove_leftovers
 from .shelf.uploads import Uploads
-from .view import View
-from .view_field import page_module
 
 WAITING_THREADS = 32
 # A thread that computes lets others go on after this time. The one that answers all tabs lets go of the interpreter at
@@ -152,10 +149,7 @@ def create_app(settings: Settings) -> FastAPI:
     may_send = [*(robot.url for robot in settings.robots), *settings.may_send]
     add_back(app, library, sessions, may_send, user_folder(settings.data_folder))
     rerun = add_rerun(app, library, sessions)
-    static = data_folder("static")
-    app.add_route("/static/declared.js", lambda request: _module(page_module(View)))
-    app.mount("/static", Static(directory=static))
-    app.add_route("/", lambda request: Static(directory=static).file_response_of("index.html", request.scope))
+    add_page(app, data_folder("static"))
     return app
 
 
@@ -207,25 +201,6 @@ def _to_open(address: str, settings: Settings) -> Iterator[str]:
         yield Path(name).as_uri()
     finally:
         Path(name).unlink(missing_ok=True)
-
-
-class Static(StaticFiles):
-    """Static files that the browser revalidates every time; unchanged ones are answered by their ETag."""
-
-    def file_response_of(self, path: str, scope: Scope) -> Response:
-        full, status = self.lookup_path(path)
-        if status is None:
-            raise HTTPException(404, f"{path} is missing in this installation")
-        return self.file_response(full, status, scope)
-
-    def file_response(self, *args, **kwargs) -> Response:
-        response = super().file_response(*args, **kwargs)
-        response.headers["Cache-Control"] = "no-cache"
-        return response
-
-
-def _module(text: str) -> Response:
-    return Response(text, media_type="text/javascript", headers={"Cache-Control": "no-cache"})
 
 
 async def _sentence(request: Request, error: Exception) -> Response:

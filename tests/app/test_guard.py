@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import queue
+import re
 import socket
 import threading
 import time
@@ -13,6 +14,7 @@ from urllib.request import url2pathname
 import pytest
 from lineseg_app.keys import COOKIE_SECONDS, GUESSES, Keys, TooManyGuessesError
 from lineseg_app.listening import listen, server_of
+from lineseg_app.routes.page import state_of
 from lineseg_app.server import Settings, create_app, serve
 from live import SECONDS, Address, Page, page_of, serving
 from websockets.exceptions import InvalidStatus
@@ -118,6 +120,21 @@ def test_static_files_are_answered_by_their_etag(server: Address):
     assert first.headers["cache-control"] == "no-cache"
     again = server.get("/static/index.html", headers={"If-None-Match": first.headers["etag"]})
     assert again.status_code == 304
+
+
+def test_the_page_loads_its_files_from_a_place_that_changes_with_them(server: Address, tmp_path: Path):
+    (address,) = re.findall(r'src="(/static/at/\w+/)main.js"', server.get("/").text)
+    for name in ("main.js", "declared.js", "bars/strip.css"):
+        kept = server.get(address + name)
+        assert "immutable" in kept.headers["cache-control"]
+        assert kept.content == server.get("/static/" + name).content
+    assert server.get(address + "nothing.js").headers["cache-control"] == "no-store"
+    (tmp_path / "parts").mkdir()
+    (tmp_path / "parts" / "one.js").write_text("1")
+    before = state_of(tmp_path, "")
+    assert state_of(tmp_path, "") == before != state_of(tmp_path, "declared otherwise")
+    (tmp_path / "parts" / "one.js").write_text("12")
+    assert state_of(tmp_path, "") != before
 
 
 def test_an_unknown_address_is_answered_with_a_message(server: Address):
