@@ -40,9 +40,9 @@ FLAGS = (
     "--disable-quic",
 )
 # Nobody looks at the pixels of a scene of a test, only at what it is drawn from. Painting them without a graphics card
-# takes as long as all the rest.
+# takes as long as all the rest. Nor is it cleared, which alone would send a picture of it to the screen.
 UNPAINTED = """if (location.pathname.includes("/viser/"))
-    for (const draw of ["drawArrays", "drawElements", "drawArraysInstanced", "drawElementsInstanced"])
+    for (const draw of ["drawArrays", "drawElements", "drawArraysInstanced", "drawElementsInstanced", "clear"])
         WebGL2RenderingContext.prototype[draw] = () => {};"""
 SLIDER = "[data-knob={}] input[type=range]"
 FIELD = "[data-knob={}] input.number"
