@@ -34,11 +34,14 @@ def near_lines(scan: Scan, params: Params | None = None, occlusion: float = OCCL
 
     Such a run is no true line, but whoever finds a segment there is not wrong either. Otherwise as `true_lines`.
     """
-    return _runs_labelled(scan, params, occlusion, lambda share: 1.0 - SHORT <= share < 1.0)
+    return _runs_labelled(scan, params, occlusion, lambda share: (share >= 1.0 - SHORT) & (share < 1.0))
 
 
 def _runs_labelled(
-    scan: Scan, params: Params | None, occlusion: float, wanted: Callable[[float], bool]
+    scan: Scan,
+    params: Params | None,
+    occlusion: float,
+    wanted: Callable[[NDArray[np.float64]], NDArray[np.bool_]],
 ) -> NDArray[np.int32]:
     """Numbers the visible runs whose share of P_min and L_min, whichever is smaller, is wanted."""
     need_scan(scan)
@@ -47,14 +50,13 @@ def _runs_labelled(
     params = Params() if params is None else params
     need_thresholds(params, Params)
     labels = np.full(len(scan), -1, np.int32)
-    found = 0
-    for wall in np.unique(scan.wall[scan.valid & (scan.wall >= 0)]):
-        for run in _visible_runs(scan, np.flatnonzero(scan.valid & (scan.wall == wall)), occlusion):
-            length = float(np.hypot(*(scan.xy[run[-1]] - scan.xy[run[0]])))
-            share = min(len(run) / params.min_points, length / params.min_length if params.min_length else math.inf)
-            if wanted(share):
-                labels[run] = found
-                found += 1
+    beams, run, first, last = _visible_runs(scan, occlusion)
+    length = np.hypot(*(scan.xy[last] - scan.xy[first]).T)
+    share = np.bincount(run, minlength=len(first)) / params.min_points
+    if params.min_length:
+        share = np.minimum(share, length / params.min_length)
+    kept = wanted(share)
+    labels[beams] = np.where(kept, np.cumsum(kept) - 1, -1)[run]
     return labels
 
 
@@ -64,16 +66,32 @@ def demands_of(params: Thresholds) -> Params:
     return Params().but(**asked)
 
 
-def _visible_runs(scan: Scan, beams: NDArray[np.intp], occlusion: float) -> list[NDArray[np.intp]]:
-    ahead = np.roll(beams, -1)
+def _visible_runs(scan: Scan, occlusion: float) -> tuple[NDArray[np.intp], ...]:
+    """Beams that see a wall, wall by wall; the run of each; the first and the last beam of each run."""
+    assert scan.wall is not None
+    beams = np.flatnonzero(scan.valid & (scan.wall >= 0))
+    beams = beams[np.argsort(scan.wall[beams], kind="stable")]
+    starts = np.diff(scan.wall[beams], prepend=-1) != 0
+    wall_first = np.flatnonzero(starts)
+    wall_last = np.append(wall_first[1:], len(beams))[: len(wall_first)] - 1
+    following = np.arange(1, len(beams) + 1)
+    following[wall_last] = wall_first
+    ahead = beams[following]
     steps = (ahead - beams) % (scan.around or len(scan))
     cut = (steps > 1) & (np.hypot(*(scan.xy[ahead] - scan.xy[beams]).T) > occlusion)
     if not scan.full_circle:
-        cut[-1] = True
-    if not cut.any():
-        return [beams]
-    first = int(np.flatnonzero(cut)[-1]) + 1
-    return np.split(np.roll(beams, -first), np.flatnonzero(np.roll(cut, -first))[:-1] + 1)
+        cut[wall_last] = True
+    begins = starts.copy()
+    begins[following[cut]] = True
+    run = np.cumsum(begins) - 1
+    first, last = beams[begins], beams[np.roll(begins, -1)]
+    # If a wall is not cut between its last beam and its first, its last run goes on as its first.
+    head, tail = (run[ends][~cut[wall_last]] for ends in (wall_first, wall_last))
+    first[head] = np.where(head == tail, first[head], first[tail])
+    whole = np.arange(len(first))
+    whole[tail] = head
+    kept = whole == np.arange(len(first))
+    return beams, (np.cumsum(kept) - 1)[whole[run]], first[kept], last[kept]
 
 
 def true_ends(scan: Scan, truth: NDArray[np.integer]) -> NDArray[np.float64]:
