@@ -2,7 +2,7 @@ PYTHON ?= python3
 BIN := .venv/bin
 EXTRAS := rerun,tune,parquet,plot,ros2,zenoh
 # Tests of one file stay together, since they share a server, and in the order of tests/conftest.py.
-PYTEST := $(BIN)/pytest -n 2 --dist loadfile --no-loadscope-reorder
+PYTEST := $(BIN)/pytest --dist loadfile --no-loadscope-reorder -n
 .PHONY: run install quick test check check-page dist clean
 
 run: .venv/installed
@@ -17,10 +17,11 @@ quick test: export PYTHONDONTWRITEBYTECODE =
 
 # What needs neither a server nor a browser, with fewer made examples.
 quick: .venv/installed-dev
-	$(PYTEST) -m "not server" --hypothesis-profile quick
+	$(PYTEST) 2 -m "not server" --hypothesis-profile quick
 
+# One more than the two cores, since a browser, its server and its test wait for each other a third of the time.
 test: .venv/installed-dev
-	$(PYTEST)
+	$(PYTEST) 3
 
 check: .venv/installed-dev check-page
 	$(BIN)/ruff check .

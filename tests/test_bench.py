@@ -18,6 +18,12 @@ def recording():
     return Recording.from_scans([corner(noise=0.01), room(noise=0.01)] * 5, name="corners")
 
 
+@pytest.fixture(autouse=True)
+def short_survey(monkeypatch):
+    """What is measured is the same."""
+    monkeypatch.setattr("lineseg.bench.SURVEY_BEAMS", 40_000)
+
+
 def test_everything_is_timed_beside_the_floor(recording):
     timings = bench(recording, rounds=2)
     assert [timing.name for timing in timings] == NAMES

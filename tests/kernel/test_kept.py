@@ -2,12 +2,12 @@
 
 import os
 import re
-import subprocess
-import sys
 import time
 from pathlib import Path
 
 import pytest
+from fresh import called_in
+from fresh import programs as fresh_programs
 
 from lineseg.kernel.kept import folder, forget_the_unused
 
@@ -28,7 +28,8 @@ def entry(x):
 
 if __name__ == "entry":
     results = entry(1), entry(0.5)
-    print(*results, sum(entry.stats.cache_hits.values()), "loaded", sum(entry.stats.cache_misses.values()), "compiled")
+    loaded, compiled = (sum(counted.values()) for counted in (entry.stats.cache_hits, entry.stats.cache_misses))
+    said = f"{results[0]} {results[1]} {loaded} loaded {compiled} compiled"
 """
 
 
@@ -40,19 +41,15 @@ def programs(tmp_path: Path) -> Path:
     return tmp_path
 
 
-def start(programs: Path, kept: str = "kept") -> subprocess.Popen:
-    """Call the kernel with an integer and with a number."""
-    environment = os.environ | {"NUMBA_CACHE_DIR": str(programs / kept), "PYTHONDONTWRITEBYTECODE": "1"}
-    command = [sys.executable, "-c", "import entry"]
-    return subprocess.Popen(command, cwd=programs, env=environment, stdout=subprocess.PIPE, text=True)
-
-
 def run(programs: Path, kept: str = "kept") -> str:
-    with start(programs, kept) as process:
-        assert process.stdout
-        said = process.stdout.read().strip()
-    assert process.returncode == 0
-    return said
+    """Call the kernel with an integer and with a number, in a program of its own."""
+    return together(1, programs, kept)[0]
+
+
+def together(number: int, programs: Path, kept: str = "kept") -> list[str]:
+    """The same in several programs that start at the same time."""
+    with fresh_programs(number) as started:
+        return list(started.map(called_in, [programs] * number, [programs / kept] * number))
 
 
 def test_only_a_change_of_a_kernel_is_compiled_and_what_was_before_is_kept(programs):
@@ -67,11 +64,9 @@ def test_only_a_change_of_a_kernel_is_compiled_and_what_was_before_is_kept(progr
 
 
 def test_programs_that_start_together_compile_each_kernel_once(programs):
-    together = [start(programs) for _ in range(3)]
     compiled = 0
-    for process in together:
-        said, _ = process.communicate(timeout=100)
-        told = re.fullmatch(r"2 1\.5 \d loaded (\d) compiled", said.strip())
+    for said in together(3, programs):
+        told = re.fullmatch(r"2 1\.5 \d loaded (\d) compiled", said)
         assert told
         compiled += int(told[1])
     assert compiled == 2

@@ -254,6 +254,8 @@ except IndexError:
 """
     environment = os.environ | {
         "NUMBA_BOUNDSCHECK": "1",
+        # Sooner compiled; what is read and written is the same.
+        "NUMBA_OPT": "0",
         "PYTHONPATH": os.pathsep.join(map(str, Path(__file__).parents[:2])),
     }
     done = subprocess.run([sys.executable, "-c", program], env=environment, capture_output=True, text=True, timeout=280)

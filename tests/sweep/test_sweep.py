@@ -180,12 +180,13 @@ def test_an_impossible_sweep_is_refused_before_the_work(files, tmp_path, capsys,
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.fixture
-def cluster(tmp_path: Path) -> Iterator[tuple[str, list[subprocess.Popen]]]:
-    """The address of a Dask scheduler on the loopback, and its two workers, each a process."""
+@pytest.fixture(scope="module")
+def cluster(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[str, list[subprocess.Popen]]]:
+    """The address of a Dask scheduler on the loopback, and its two workers, each a process; a test kills the first."""
     pytest.importorskip("distributed")
-    where = tmp_path / "scheduler.json"
-    quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL, "cwd": tmp_path}
+    folder = tmp_path_factory.mktemp("cluster")
+    where = folder / "scheduler.json"
+    quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL, "cwd": folder}
     dask = [sys.executable, "-m", "dask"]
     local = ["--scheduler-file", str(where), "--no-dashboard"]
     scheduler = subprocess.Popen([*dask, "scheduler", "--host", "127.0.0.1", "--port", "0", *local], **quiet)
