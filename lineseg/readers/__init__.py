@@ -23,16 +23,20 @@ from .clouds import PointCloud
 from .dialect import labels_of
 from .folder import bag_of_metadata, recording_in
 from .foreign import foreign
+from .matlab import Matlab
 from .messages import EchoYaml, JsonMessages
 from .npz import Npz, save_npz
 from .pack import FailurePack
 from .player import PlayerLog
+from .printed import PrintedMessages
 from .reading import Reading
 from .ros1 import Ros1Bag
 from .ros2 import Mcap, Ros2Bag
 from .source import Cancelled, Progress, Reader, Source
 from .text import Text
+from .urgbenri import UrgBenriLog
 from .wrapping import unwrapped
+from .xml_scans import XmlScans
 
 __all__ = [
     "READERS", "Account", "Cancelled", "Guess", "Notice", "Progress", "Reading", "Skipped", "format_of",
@@ -45,7 +49,8 @@ MOST_LINES = 100
 
 # Readers are asked in this order: a failure pack is a zip like NPZ, and text accepts any lines, so it comes last.
 READERS: tuple[type[Reader], ...] = (
-    Ros1Bag, Ros2Bag, Mcap, FailurePack, Npz, Npy, PointCloud, CarmenLog, PlayerLog, JsonMessages, EchoYaml, Text,
+    Ros1Bag, Ros2Bag, Mcap, FailurePack, Npz, Npy, PointCloud, CarmenLog, PlayerLog, UrgBenriLog, JsonMessages,
+    XmlScans, PrintedMessages, Matlab, EchoYaml, Text,
 )  # fmt: skip
 
 

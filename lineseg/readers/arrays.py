@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from ..scan import Recording
 from .account import Notes
 from .beam_rows import beams_of
-from .headers import STAMPS, Name, is_angle, is_distance, name_of
+from .headers import LENGTHS, STAMPS, TURNS, Name, is_angle, is_distance, name_of
 from .reading import columns_of
 from .scan_columns import alike, with_angles
 from .scan_rows import scans_of
@@ -96,8 +96,14 @@ def recording_of_arrays(source: Source, arrays: Mapping[str, NDArray], format: s
     if len(found) != 1:
         raise ValueError(_which(source, arrays, f"{len(found)} of them may be the ranges"))
     ((name, array),) = found.items()
-    array = array.astype(np.float64)
-    source.notes.unstated.add("unit")
+    said = name_of(name)
+    array = array.astype(np.float64) * said.scale
+    if unit := LENGTHS.get(said.unit):
+        source.notes.found["unit"] = unit
+    else:
+        source.notes.unstated.add("unit")
+    if angles is not None and (turn := TURNS.get(name_of(angles).unit)):
+        source.notes.found["angle_unit"] = turn
     if angles is not None and rows[angles].shape == (array.shape[-1],):
         times = None if stamps is None else rows[stamps]
         return with_angles(source, np.atleast_2d(array), rows[angles].astype(np.float64), times, format)

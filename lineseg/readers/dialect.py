@@ -18,7 +18,7 @@ COMMENTS = (b"#", b"%", b"//")
 DECIMAL_COMMA = re.compile(rb"[-+]?\d+,\d+")
 EITHER = re.compile(rb"[-+]?\d+(?:,\d+)?")
 PAIR = re.compile(
-    rb"([A-Za-z_][\w ]*?)\s*[:=]\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(mm|cm|m|deg|rad)?(?![\w:])"
+    rb"([A-Za-z_][\w ]{0,40}?)\s{0,9}[:=]\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(mm|cm|m|deg|rad)?(?![\w:])"
 )
 QUOTED = re.compile(rb'(?:^|(?<=[,;|]))\s*"([^"]*)"\s*(?=[,;|]|$)')
 BRACKET = re.compile(rb"([\[\](){}])")

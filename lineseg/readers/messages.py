@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from itertools import chain
 from typing import Any, TypeGuard
@@ -47,28 +47,8 @@ class JsonMessages(Reader):
     @staticmethod
     def read(source: Source) -> Recording:
         source.notes.kind = "JSON"
-        found: dict[str, list[LaserScan]] = {}
-        beams: list[Mapping[str, Any]] = []
-        tables: list[Table] = []
-        for place, value in json_values(source):
-            for topic, message in _messages(value, "scan"):
-                if isinstance(message, list):
-                    tables.append(message)
-                elif _ranges_key(message) is None:
-                    beams.append(message)
-                else:
-                    try:
-                        scan = scan_of(source, message)
-                    except ValueError as error:
-                        source.notes.skip(place, str(error))
-                    else:
-                        found.setdefault(topic, []).append(scan)
-        if not found and len(beams) >= LEAST_BEAMS:
-            return _beams(source, beams)
-        if not found and tables:
-            table = np.array([row for each in tables for row in each], dtype=np.float64)
-            return beams_of(source, source.reading, table, None, format=JsonMessages.format)
-        return recording_of(source, found, JsonMessages.format)
+        recording = recording_of_values(source, json_values(source), JsonMessages.format)
+        return recording_of(source, {}, JsonMessages.format) if recording is None else recording
 
 
 class EchoYaml(Reader):
@@ -117,6 +97,37 @@ def recording_of(source: Source, found: dict[str, list[LaserScan]], format: str)
 
 
 # JSON
+
+
+def recording_of_values(source: Source, values: Iterable[tuple[str, Any]], format: str) -> Recording | None:
+    """The scans in (place, value), wherever they lie inside of the values; None if there are none.
+
+    Raises ValueError if none of them can be read.
+    """
+    found: dict[str, list[LaserScan]] = {}
+    beams: list[Mapping[str, Any]] = []
+    tables: list[Table] = []
+    for place, value in values:
+        for topic, message in _messages(value, "scan"):
+            if isinstance(message, list):
+                tables.append(message)
+            elif _ranges_key(message) is None:
+                beams.append(message)
+            else:
+                try:
+                    scan = scan_of(source, message)
+                except ValueError as error:
+                    source.notes.skip(place, str(error))
+                else:
+                    found.setdefault(topic, []).append(scan)
+    if not found and len(beams) >= LEAST_BEAMS:
+        return replace(_beams(source, beams), format=format)
+    if not found and tables:
+        table = np.array([row for each in tables for row in each], dtype=np.float64)
+        return beams_of(source, source.reading, table, None, format=format)
+    if not found:
+        source.notes.nothing_left()
+    return recording_of(source, found, format) if found else None
 
 
 def _messages(value: Any, topic: str, depth: int = 0) -> Iterator[tuple[str, Mapping[str, Any] | Table]]:

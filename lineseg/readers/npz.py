@@ -6,6 +6,7 @@ import zipfile
 import zlib
 from collections.abc import Mapping
 from contextlib import nullcontext
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, BinaryIO
 
@@ -54,13 +55,19 @@ class Npz(Reader):
         arrays = _load(file, source)
         if not is_exchange(arrays):
             return recording_of_arrays(source, arrays, Npz.format)
-        try:
-            recording = _recording(source, arrays)
-        except (TypeError, ValueError) as error:
-            raise ValueError(f"{source.name}: {error}") from None
-        source.choose(list(recording.topics), "array")
+        recording = recording_of_exchange(source, arrays, Npz.format)
         source.progress(1, 1)
         return recording
+
+
+def recording_of_exchange(source: Source, arrays: dict[str, NDArray], format: str) -> Recording:
+    """The scans of arrays with the names of the exchange format. Raises ValueError if they do not fit together."""
+    try:
+        recording = _recording(source, arrays)
+    except (TypeError, ValueError) as error:
+        raise ValueError(f"{source.name}: {error}") from None
+    source.choose(list(recording.topics), "array")
+    return replace(recording, format=format)
 
 
 def save_npz(recording: Recording, target: str | Path | BinaryIO) -> None:

@@ -56,7 +56,7 @@ class Span(NamedTuple):
     high: float
 
 
-TEXT_FORMATS = ("text", "JSON", "NPY", "NPZ")
+TEXT_FORMATS = ("text", "JSON", "XML", "MATLAB", "NPY", "NPZ")
 BAG_FORMATS = ("ROS 1 bag", "ROS 2 bag", "MCAP")
 
 
@@ -97,7 +97,7 @@ class Reading:
             least=0,
             most=99,
             why="echoes are numbered from 0",
-            only=BAG_FORMATS,
+            only=(*BAG_FORMATS, "UrgBenri log"),
             elsewhere="has one range for each beam",
         ),
     ] = None

@@ -134,6 +134,28 @@ FORMS = {
     "the stamp beside the scan": ("".join(json.dumps({"t": stamp, "data": scan()}) + "\n" for stamp in STAMPS),
         3, STAMPS, set()),
     "a line of words above lists": ("INFO: started\n" + f"[{row('inf')}]\n" * 3, 3, None, {"angle_min"}),
+    "variables of MATLAB": ("% room\nangles = (-135:0.5:135)*pi/180;\nranges = [" + ";\n".join(
+        [row("NaN", between=" ").replace(" ", " ...\n", 1)] * 3) + "];\n", 3, None, {"unit"}),
+    "a start and a step in MATLAB": ("angle_min = -3*pi/4;\nangle_increment = deg2rad(0.5);\nrange_max = 12;\n"
+        + f"scan.ranges_mm = [{row('0', scale=1000)}]';\n", 1, None, set()),
+    "variables of Octave": ("# Created by Octave 8.4.0\n# name: theta\n# type: matrix\n# rows: 541\n"
+        + "".join(f" {angle:.6f}\n" for angle in BEARINGS) + "\n# name: rho\n# type: matrix\n# rows: 541\n"
+        + row("NA", between="\n") + "\n", 1, None, {"angle_unit", "unit"}),
+    "XML": ("<?xml version='1.0'?>\n<data>" + beams(lambda angle, each:
+        f"<row><angle_deg>{angle:.1f}</angle_deg><distance_mm>{each * 1000:.0f}</distance_mm></row>\n") + "</data>",
+        1, None, {"direction"}),
+    "attributes of XML": ("<scan>"
+        + beams(lambda angle, each: f'<p angle="{angle:.1f}" range="{each:.3f}"/>') + "</scan>",
+        1, None, {"direction", "unit"}),
+    "messages printed by Python": ("".join(
+        f"[INFO] [9.1]: sensor_msgs.msg.LaserScan(header=std_msgs.msg.Header(stamp=builtin_interfaces.msg.Time("
+        f"sec={int(stamp)}, nanosec={round(stamp % 1 * 1e9)}), frame_id='laser'), angle_min={BEARINGS[0]}, "
+        f"angle_increment={STEP}, range_min=0.1, ranges=array('f', [{row('inf', between=', ')}]), intensities=[])\n"
+        for stamp in STAMPS), 3, STAMPS, set()),
+    "UrgBenri": ("[appName]\nUrgBenri\n[startStep]\n0\n[frontStep]\n270\n[totalSteps]\n720\n[minDistance]\n23\n"
+        + "".join(f"[timestamp]\n{100 * n}\n[logtime]\n2024-05-20 10:13:20.250\n[scan]\n"
+                  + ";".join("1|0" if np.isnan(each) else f"{each * 1000:.0f}|812&9000|5" for each in ROOM) + "\n"
+                  for n in range(3)), 3, [0, 0.1, 0.2], set()),
     "points": (json.dumps({"points": [[float(r * np.cos(a)), float(r * np.sin(a))]
         for a, r in zip(BEARINGS, ROOM, strict=True) if r > 0]}), 1, None, {"columns"}),
 }  # fmt: skip
@@ -160,6 +182,9 @@ def test_other_forms_of_a_table_are_read_right_and_guesses_are_marked(tmp_path, 
         ("  angle  range\n0  -2.3  2.4\n1  -2.2  2.4\n..  ...  ...\n", "left out"),
         ("$GPGGA,101320.00,4807.038,N,01131.000,E,1,08,0.9,545.4,M,46.9,M,,*47\n", "a log of a GNSS receiver"),
         ("path:        a.bag\nversion:     2.0\nmessages:    830\n", "a bag's summary.*open the bag itself"),
+        ("<?xml version='1.0'?>\n<robot name='r'><link name='base'/></robot>\n", "XML of <robot> without scans"),
+        ("<?xml version='1.0'?>\n<data><row><angle>0.1", "damaged XML"),
+        ("[appName]\nUrgBenri\n[timestamp]\n1\n[scan]\n1;2;3\n", "does not say .*totalSteps.*; give angle_min"),
         ("CREATE TABLE scan (angle real, dist real);\n", "SQL statements; save the table as CSV"),
     ],
 )

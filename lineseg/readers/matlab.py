@@ -1,0 +1,161 @@
+"""Matrices as text: what MATLAB's scripts assign, and what Octave saves."""
+
+from __future__ import annotations
+
+import ast
+import operator
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..scan import Recording
+from .arrays import is_exchange, recording_of_arrays
+from .headers import name_of
+from .json_scans import FIELD
+from .npz import recording_of_exchange
+from .numbers import all_numbers
+from .source import Reader, Source
+
+OCTAVE = b"# Created by Octave"
+MATRIX = re.compile(rb"^[ \t]*[A-Za-z][\w.]*[ \t]*=[ \t]*\(?\[", re.MULTILINE)
+# Lines of Python, TOML and YAML do not end so.
+LINE_END = re.compile(rb"(?:;|\.\.\.)[ \t]*\r?$", re.MULTILINE)
+COMMENT = re.compile(r"[%#].*$", re.MULTILINE)
+CONTINUED = re.compile(r"\.\.\.[^\n]*\n")
+STATEMENT = re.compile(r"([A-Za-z][\w.]*)\s*=(?!=)\s*")
+COLON = re.compile(r"\(?([^:()]+):([^:()]+)(?::([^:()]+))?\)?(\s*[*/].*)?")
+OPERATORS: dict[type, Any] = {
+    ast.Add: operator.add, ast.Sub: operator.sub, ast.Mult: operator.mul, ast.Div: operator.truediv,
+    ast.USub: operator.neg, ast.UAdd: operator.pos,
+}  # fmt: skip
+MOST_VALUES = 1 << 24
+Value = float | NDArray[np.float64]
+
+
+class Matlab(Reader):
+    """Variables with matrices. Scalars, a:b:c, linspace and arithmetic are followed, other statements passed over."""
+
+    format = "MATLAB"
+    suffixes = (".m",)
+    expects = "matrices such as ranges = [1.2 1.3; 1.4 1.5];"
+
+    @staticmethod
+    def recognises(head: bytes) -> bool:
+        if head.startswith(OCTAVE):
+            return True
+        return b"\0" not in head and MATRIX.search(head) is not None and LINE_END.search(head) is not None
+
+    @staticmethod
+    def read(source: Source) -> Recording:
+        text = source.path.read_bytes().decode("utf-8", "replace")
+        pairs = _saved(text) if text.startswith(OCTAVE.decode()) else _assigned(text)
+        arrays: dict[str, NDArray[Any]] = {}
+        for name, value in pairs:
+            plain = name_of(name.split(".")[-1]).plain
+            arrays[FIELD.get(plain, name.split(".")[-1])] = np.squeeze(np.asarray(value))
+        if not arrays:
+            raise ValueError(f"{source.name} has no matrix; it needs {Matlab.expects}")
+        if not {"angle_increment", "angle_max", "bearings"} & arrays.keys() and (low := arrays.pop("angle_min", None)):
+            # The step is that of a common laser, or given.
+            angle_min = float(low) if source.reading.angle_min is None else source.reading.angle_min
+            source = replace(source, reading=source.reading.but(angle_min=angle_min))
+        if not is_exchange(arrays):
+            return recording_of_arrays(source, arrays, Matlab.format)
+        source.notes.unstated |= {"unit", "range_max"} - ({"range_max"} & arrays.keys())
+        return recording_of_exchange(source, arrays, Matlab.format)
+
+
+# MATLAB
+
+
+def _assigned(text: str) -> Iterator[tuple[str, Value]]:
+    """(name, value) of the statements that are understood."""
+    text = COMMENT.sub("", CONTINUED.sub(" ", text))
+    known: dict[str, Value] = {"pi": np.pi}
+    at = 0
+    while found := STATEMENT.search(text, at):
+        at = found.end()
+        matrices: dict[str, Value] = {}
+        expression = ""
+        while at < len(text) and text[at] not in ";\n":
+            if text[at] == "[":
+                end = text.find("]", at)
+                matrix = _matrix(text[at + 1 : end]) if end > 0 else None
+                if matrix is None:
+                    break
+                turned = text[end + 1 : end + 2] == "'"
+                name = f"matrix{len(matrices)}"
+                matrices[name] = matrix.T if turned else matrix
+                expression, at = expression + name, end + 1 + turned
+            else:
+                expression, at = expression + text[at], at + 1
+        value = _value(expression.strip(" ,\t\r"), known | matrices)
+        if value is not None:
+            known[found[1]] = value
+            yield found[1], value
+
+
+def _matrix(text: str) -> NDArray[np.float64] | None:
+    """The rows between two brackets; None if they are not numbers, or vary in length."""
+    rows = [all_numbers(row.encode()) for row in re.split(r"[;\n]", text) if row.strip(" ,\t\r")]
+    if not rows or any(row is None or len(row) != len(rows[0] if rows[0] is not None else ()) for row in rows):
+        return None
+    return np.array(rows, np.float64)
+
+
+def _value(expression: str, known: Mapping[str, Value]) -> Value | None:
+    """The value of an expression; None if it is not understood."""
+    expression = expression.replace(".*", "*").replace("./", "/")
+    try:
+        if found := COLON.fullmatch(expression):
+            first, *middle, last = (float(_of(part, known)) for part in found.groups()[:3] if part)
+            step = middle[0] if middle else 1.0
+            steps = np.floor((last - first) / step + 1e-9)
+            if not 0 <= steps < MOST_VALUES:
+                return None
+            return _of(f"values{found[4] or ''}", {**known, "values": first + step * np.arange(steps + 1)})
+        return _of(expression, known)
+    except (ValueError, TypeError, KeyError, SyntaxError, ZeroDivisionError, OverflowError, RecursionError):
+        return None
+
+
+def _of(expression: str, known: Mapping[str, Value]) -> Value:
+    return _evaluated(ast.parse(expression.strip(), mode="eval").body, known)
+
+
+def _evaluated(node: ast.AST, known: Mapping[str, Value]) -> Value:
+    match node:
+        case ast.Constant(value=int() | float() as value):
+            return float(value)
+        case ast.Name(id=name):
+            return known[name]
+        case ast.UnaryOp(op=op, operand=operand):
+            return OPERATORS[type(op)](_evaluated(operand, known))
+        case ast.BinOp(left=left, op=op, right=right):
+            return OPERATORS[type(op)](_evaluated(left, known), _evaluated(right, known))
+        case ast.Call(func=ast.Name(id="deg2rad"), args=[value]):
+            return np.deg2rad(_evaluated(value, known))
+        case ast.Call(func=ast.Name(id="linspace"), args=[first, last, count]):
+            number = int(_evaluated(count, known))
+            if not 0 < number < MOST_VALUES:
+                raise ValueError
+            return np.linspace(float(_evaluated(first, known)), float(_evaluated(last, known)), number)
+    raise ValueError
+
+
+# Octave
+
+
+def _saved(text: str) -> Iterator[tuple[str, Value]]:
+    """(name, value) of the matrices and scalars of a file that Octave has saved."""
+    for block in re.split(r"^# name: ", text, flags=re.MULTILINE)[1:]:
+        name, _, rest = block.partition("\n")
+        lines = [line for line in rest.splitlines() if line.strip() and not line.startswith("#")]
+        rows = [all_numbers(line.replace("NA", "NaN").encode()) for line in lines]
+        if rows and all(row is not None and len(row) == len(rows[0] if rows[0] is not None else ()) for row in rows):
+            table = np.array(rows, np.float64)
+            yield name.strip(), float(table[0, 0]) if table.size == 1 else table
