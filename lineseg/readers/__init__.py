@@ -148,7 +148,7 @@ def _recognised(head: bytes) -> type[Reader] | None:
 def _has_numbers(head: bytes) -> bool:
     """Whether a line starts like a number, or has numbers with labels, so that a .log may be a table after all."""
     return labels_of(head.splitlines()[:MOST_LINES]) is not None or any(
-        line.lstrip()[:1] in b"+-.0123456789" for line in head.splitlines() if line.strip()
+        line.lstrip(b" \t[(")[:1] in b"+-.0123456789" for line in head.splitlines() if line.strip()
     )
 
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from ..scan import Recording, Scan
 from .account import Account, Findings, Guess, Notes
-from .guessing import guess_least, guess_limit, guess_unit, no_return_codes, sampled
+from .guessing import guess_limit, guess_unit, no_return_codes, sampled
 from .lasers import one_laser
 from .plausible import noticed, oddness, trouble_in, trouble_of
 from .posing import with_poses
@@ -149,11 +149,8 @@ def _with_limits(recording: Recording, reading: Reading, notes: Notes) -> Record
         for low, high in codes:
             ranges[(ranges >= low - SAME) & (ranges <= high + SAME)] = np.nan
         changes["ranges"] = ranges
-    if "range_max" in notes.unstated:
-        if least := guess_least(recording, reading, notes):
-            changes["range_min"] = np.full(frames, least)
-        if not codes:
-            changes["range_max"] = np.full(frames, guess_limit(recording, reading, notes))
+    if "range_max" in notes.unstated and not codes:
+        changes["range_max"] = np.full(frames, guess_limit(recording, reading, notes))
     for name in ("range_min", "range_max"):
         if getattr(reading, name) is not None:
             changes[name] = np.full(frames, float(getattr(reading, name)))

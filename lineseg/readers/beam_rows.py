@@ -29,6 +29,8 @@ LEAST_REGULAR = 0.5
 FEW_ROWS = 8
 LONGEST_NAME = 24
 CLOCKWISE = re.compile(r"(?<!counter_)(?<!anti_)(?:clockwise|(?<![^_])cw(?![^_]))")
+# What poses have beside x and y; the first column of the quaternion in TUM's rows.
+HEADINGS, QUATERNION = {"heading", "yaw"}, 4
 # Points lie on their beams but for rounding [rad].
 AGREE = 0.02
 # What pandas and numpy print where they leave rows out.
@@ -60,6 +62,8 @@ def beams_of(
     guess_direction: bool = True, format: str = "text",
 ) -> Recording:  # fmt: skip
     """The scans of a table (beams, columns)."""
+    if _are_poses(table, names):
+        raise ValueError(f"{source.name} has poses, not scans; open the scans, and give this file as --poses.")
     if names is not None:
         return _with_roles(source, reading, table, names, _named(names), guess_direction, format)
     if table.shape[1] > 2 and alike(table):
@@ -69,6 +73,24 @@ def beams_of(
     if roles.polar and len(others) > 1 and alike(table[:, others]):
         return columns_beside(source, reading, table, roles.first, others, format)
     return _with_roles(source, reading, table, None, roles, guess_direction, format)
+
+
+def _are_poses(table: NDArray[np.float64], names: list[Name] | None) -> bool:
+    """Whether rows hold a position with a heading or a quaternion, as trajectories do."""
+    if names is None:
+        return table.shape[1] == QUATERNION + 4 and np.allclose(
+            np.linalg.norm(table[:, QUATERNION:], axis=1), 1, 0, 0.01
+        )
+    if _named(names).polar:
+        return False
+    words = {name.plain.split("_")[-1] for name in names}
+    if {"qz", "qw"} <= words or words & HEADINGS or any(name.ends("orientation_w") for name in names):
+        return True
+    angle, points = column_of(names, is_angle), _points(names)
+    if angle is None or points is None:
+        return False
+    angles = _radians(table[np.isfinite(table[:, angle]), angle])
+    return len(angles) < len(table) or _sense_of(table[:, points], angles) is None
 
 
 def _with_roles(
@@ -87,7 +109,7 @@ def _with_roles(
     bearings, ranges = _polar(source, reading, first, second) if roles.polar else _from_points(first, second)
     if roles.polar and names is not None and CLOCKWISE.search(names[roles.first].plain):
         notes.found["direction"] = "clockwise"
-    elif roles.polar and names is not None and (points := _points(names)) is not None:
+    elif roles.polar and names is not None and (points := _points(names, table, ranges)) is not None:
         sense = _sense_of(table[:, points], bearings)
         if sense is None:
             # Such as angles from north: what x and y say needs no guess.
@@ -143,10 +165,19 @@ def _named(names: list[Name]) -> Roles:
     return Roles(False, *points, scan, stamp)
 
 
-def _points(names: list[Name]) -> tuple[int, int] | None:
-    """The columns of x and y, if there are both."""
+def _points(
+    names: list[Name], table: NDArray[np.float64] | None = None, ranges: Floats | None = None
+) -> tuple[int, int] | None:
+    """The columns of x and y, if there are both; beside ranges, only if the points are so far away."""
     x, y = (column_of(names, lambda name, axis=axis: name.plain.split("_")[-1] == axis) for axis in "xy")
-    return None if x is None or y is None else (x, y)
+    if x is None or y is None:
+        return None
+    if table is not None and ranges is not None:
+        there = (ranges > 0) & np.isfinite(table[:, x]) & (table[:, [x, y]] != 0).any(axis=1)
+        scales = np.hypot(table[there, x], table[there, y]) / ranges[there]
+        if not len(scales) or np.median(np.abs(scales / np.median(scales) - 1)) > AGREE:
+            return None
+    return x, y
 
 
 def table_of(
@@ -154,16 +185,15 @@ def table_of(
 ) -> NDArray[np.float64]:
     """(rows, columns): the numbers of all rows, NaN for other words in columns that are not needed, None for all."""
     width = 0 if names is None else len(names)
-    rows = list(rows)
+    # Spreadsheets end with rows of empty cells.
+    rows = [row for row in rows if row.text.strip(b" ,;\t|\r")]
     if (whole := _plain_table(rows, dialect, width)) is not None:
-        return whole[~np.isnan(whole).all(axis=1)]
+        return whole
     table: list[list[float]] = []
     for row in rows:
         cells = dialect.cells(row.text)
         if cells and set(cells) <= LEFT_OUT_CELLS:
             raise ValueError(f"{source.name}:{row.number}: {LEFT_OUT}.")
-        if not any(cells):
-            continue
         if len(cells) == width - 1 and row.text.rstrip(b" \r").endswith(dialect.separator):
             cells.append(b"")
         width = width or len(cells)

@@ -7,6 +7,7 @@ import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from datetime import UTC, datetime
+from itertools import zip_longest
 from typing import NamedTuple
 
 import numpy as np
@@ -45,6 +46,8 @@ TIME = re.compile(
 ENGLISH = re.compile(rb"[-+]?[1-9]\d{0,2}(?:,\d{3})+(?:\.\d*)?")
 GERMAN = re.compile(rb"[-+]?[1-9]\d{0,2}(?:\.\d{3})+(?:,\d*)?")
 SPACED = re.compile("[-+]?[1-9]\\d{0,2}(?:['’\u00a0\u202f ]\\d{3})+(?:[.,]\\d*)?".encode())
+HUNDREDS = re.compile(rb"[-+]?[1-9]\d\d")
+MANY_CELLS = 10
 THOUSANDS = re.compile(rb"[^\d.,+-]+")
 LONGEST_ROW = 1 << 24
 FREE_NUMBER = re.compile(rb"(?<![\w.])[-+]?\d+\.?\d*(?:[eE][-+]?\d+)?")
@@ -175,7 +178,7 @@ def dialect_of(lines: list[bytes]) -> Dialect:
     data = (lines[1:] if named else lines) or lines
     for mark in (b";", b"\t", b"|"):
         if sum(mark in line for line in data) > len(data) / 2:
-            return Dialect(mark, _decimal_commas(re.split(re.escape(mark), b"\n".join(data).replace(b"\n", mark))))
+            return Dialect(mark, _decimal_commas([line.split(mark) for line in data]))
     if not any(b"," in line for line in data):
         return Dialect(b" ")
     words = b" ".join(data).split()
@@ -184,16 +187,16 @@ def dialect_of(lines: list[bytes]) -> Dialect:
     if len(words) >= 2 * len(data) and all(ENGLISH.fullmatch(word) or is_number(word) for word in words):
         return Dialect(b" ")
     # In quotes, a comma may be a decimal sign also where commas part the cells.
-    quoted = [cell for line in data if line.count(b'"') > 2 for cell in Dialect(b",").cells(line)]
-    return Dialect(b",", _decimal_commas(quoted))
+    return Dialect(b",", _decimal_commas([Dialect(b",").cells(line) for line in data if line.count(b'"') > 2]))
 
 
-def _decimal_commas(cells: Iterable[bytes]) -> bool:
+def _decimal_commas(rows: list[list[bytes]]) -> bool:
     """Whether numbers have a decimal comma: some cells do, and none has a decimal point.
 
-    A comma or a point before three digits may also stand between thousands, as others beside it show.
+    A comma or a point before three digits may also stand between thousands, as others in its column show.
     """
-    cells = [cell.strip().strip(b'"') for cell in cells]
+    rows = [[cell.strip().strip(b'"') for cell in row] for row in rows]
+    cells = [cell for row in rows for cell in row]
     commas = [cell for cell in cells if DECIMAL_COMMA.fullmatch(cell) or (b"," in cell and GERMAN.fullmatch(cell))]
     decimal = [cell for cell in commas if not ENGLISH.fullmatch(cell)]
     points = [cell for cell in cells if re.fullmatch(rb"[-+]?\d*\.\d+", cell)]
@@ -201,7 +204,11 @@ def _decimal_commas(cells: Iterable[bytes]) -> bool:
         return False
     if decimal:
         return True
-    return not points and not any(re.fullmatch(rb"[-+]?[1-9]\d\d", cell) for cell in cells)
+    columns = [cells] if len(cells) >= MANY_CELLS * len(rows) else list(zip_longest(*rows, fillvalue=b""))
+    return not points and not any(
+        any(ENGLISH.fullmatch(cell) for cell in column) and any(HUNDREDS.fullmatch(cell) for cell in column)
+        for column in columns
+    )
 
 
 def is_list(line: bytes) -> bool:

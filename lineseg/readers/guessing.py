@@ -25,8 +25,6 @@ NEAR, FAR = 0.35, 60.0
 # What drivers write for "no return": the greatest numbers of 16, 15, 14, 13 and 12 bits in millimetres or centimetres.
 CODES = (655.35, 655.34, 655.33, 65.535, 65.534, 65.533, 32.767, 16.383, 8.191, 4.095)
 OFTEN, FEW = 0.002, 3
-# No laser of robots measures so near [m].
-CODES_BELOW = 0.02
 # Two turns, and a little; a turn, and a little.
 MOST_DEGREES, MOST_RADIANS = 725.0, 2 * np.pi + 0.2
 # A greatest value so many times as large as the next is no reading.
@@ -129,20 +127,6 @@ def no_return_codes(recording: Recording, reading: Reading, notes: Notes) -> tup
     why = "it is the greatest number that fits, and recurs" if code in CODES else "it recurs, far beyond all others"
     notes.guess("no_return", f"{code:g} m means no return", why, no_return="none")
     return (code,)
-
-
-def guess_least(recording: Recording, reading: Reading, notes: Notes) -> float:
-    """The range below which numbers are codes of errors, as Hokuyo's 0 to 19 mm [m]; 0 if there are none."""
-    if reading.range_min is not None or recording.range_min.any():
-        return 0.0
-    ranges = recording.ranges[(recording.ranges > 0) & (recording.ranges < 2 * CODES_BELOW)]
-    codes = np.unique(np.round(1000 * ranges, 6))
-    whole = len(codes) and codes[-1] < 1000 * CODES_BELOW and bool((codes == np.round(codes)).all())
-    if not whole or len(ranges) > 0.5 * len(recording.ranges):
-        return 0.0
-    why = f"{len(ranges)} readings are {codes[0]:g} to {codes[-1]:g} mm, as codes of errors are"
-    notes.guess("range_min", f"no return below {100 * CODES_BELOW:g} cm", why, range_min=0.0)
-    return CODES_BELOW
 
 
 def guess_limit(recording: Recording, reading: Reading, notes: Notes) -> float:

@@ -188,7 +188,9 @@ def _is_table(value: Any) -> TypeGuard[Table]:
     rows = value if isinstance(value, list) and len(value) >= LEAST_BEAMS else []
     width = len(rows[0]) if rows and isinstance(rows[0], list) else 0
     return 2 <= width <= 4 and all(
-        isinstance(row, list) and len(row) == width and all(isinstance(each, int | float) for each in row)
+        isinstance(row, list)
+        and len(row) == width
+        and all(each is None or isinstance(each, int | float) for each in row)
         for row in rows
     )
 

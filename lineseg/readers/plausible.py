@@ -14,6 +14,7 @@ from .reading import Reading
 
 MOST_RANGE, LEAST_MEDIAN = 500.0, 0.05
 RECURS = 0.1
+CODES_BELOW = 0.02
 YEAR = 365.25 * 86400
 WRAPS = tuple(2.0**32 * scale for scale in (1.0, 1e-3, 1e-6, 1e-9))
 
@@ -29,6 +30,7 @@ def noticed(recording: Recording, reading: Reading, recorded: bool, odd: Oddness
     yield from size
     if not any("unit" in notice.change for notice in size):
         yield from _about_limits(recording, reading, ranges, inside)
+        yield from _about_codes(recording, reading)
     yield from _about_recurring(recording, ranges[inside])
     yield from _about_stamps(odd, recorded and reading.stamps != "recorded")
 
@@ -118,6 +120,19 @@ def _about_limits(recording: Recording, reading: Reading, ranges: Floats, inside
         f"{max(below, above):.0%} of all beams are {limit} and count as no return. Use {name} = {value:g} m instead?",
         change,
     )
+
+
+def _about_codes(recording: Recording, reading: Reading) -> Iterator[Notice]:
+    """Whole millimetres nearer than any laser of a robot measures, as Hokuyo's codes of errors are."""
+    if reading.range_min is not None or recording.range_min.any():
+        return
+    near = recording.ranges[(recording.ranges > 0) & (recording.ranges < 2 * CODES_BELOW)]
+    codes = np.unique(np.round(1000.0 * near, 3))
+    if 0 < len(codes) < 1000 * CODES_BELOW and codes[-1] < 1000 * CODES_BELOW and (codes == np.floor(codes)).all():
+        read = f"{codes[0]:g} mm" if len(codes) == 1 else f"{codes[0]:g} to {codes[-1]:g} mm"
+        beams = f"{len(near)} beam{' reads' if len(near) == 1 else 's read'}"
+        yield Notice("codes", f"{beams} {read}, as codes of errors do. Use range_min = {CODES_BELOW:g} m?",
+                     {"range_min": CODES_BELOW})  # fmt: skip
 
 
 def _about_recurring(recording: Recording, valid: Floats) -> Iterator[Notice]:

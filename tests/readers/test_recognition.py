@@ -85,7 +85,11 @@ MAGIC = {
     "point cloud": b"# .PCD v.7 - Point Cloud Data file format\nVERSION .7\nFIELDS x y z\n",
     "CARMEN log": b"# " + b"x" * 80 + b"\nODOM 0 0 0 0 0 0 1 h 1\n",
     "Player log": b"## Player version 3.0.2\n",
+    "UrgBenri log": b"[appName]\nUrgBenri\n",
     "JSON": b'{"ranges": [',
+    "XML": b"<?xml version='1.0'?>\n<data>",
+    "printed messages": b"sensor_msgs.msg.LaserScan(header=std_msgs.msg.Header(",
+    "MATLAB": b"% scans\nangle_min = -pi/2;\nranges = [\n",
     "echo": b"header:\n  stamp:\n    sec: 1\nangle_min: -1.5\n",
     "text": b"angle,distance\n",
 }

@@ -185,6 +185,8 @@ def test_other_forms_of_a_table_are_read_right_and_guesses_are_marked(tmp_path, 
         ("<?xml version='1.0'?>\n<robot name='r'><link name='base'/></robot>\n", "XML of <robot> without scans"),
         ("<?xml version='1.0'?>\n<data><row><angle>0.1", "damaged XML"),
         ("[appName]\nUrgBenri\n[timestamp]\n1\n[scan]\n1;2;3\n", "does not say .*totalSteps.*; give angle_min"),
+        ("t,x,y,qx,qy,qz,qw\n" + "".join(f"{n},{n},0,0,0,0,1\n" for n in range(9)), "has poses, not scans"),
+        ("".join(f"{n} {n} 0 0 0 0 0 1\n" for n in range(20)), "has poses, not scans.*--poses"),
         ("CREATE TABLE scan (angle real, dist real);\n", "SQL statements; save the table as CSV"),
     ],
 )
@@ -202,13 +204,21 @@ def test_what_a_power_failure_leaves_at_the_end_is_passed_over(tmp_path):
     assert right(open_recording(path))
 
 
-def test_numbers_below_two_centimetres_are_codes_and_told(tmp_path):
+def test_numbers_below_two_centimetres_are_told_as_codes(tmp_path):
     path = tmp_path / "urg.csv"
     path.write_text(f"{row('7', 0, 1000)}\n" * 3)
     recording = open_recording(path)
-    assert right(recording)
-    assert "range_min" in {guess.field for guess in recording.account.guesses}
-    assert np.isclose(open_recording(path, range_min=0.0)[0].ranges[10:13], 0.007).all()
+    (notice,) = recording.account.notices
+    assert (notice.change, len(recording[0].xy[recording[0].valid])) == ({"range_min": 0.02}, 541)
+    assert right(open_recording(path, Reading(**notice.change)))
+
+
+def test_an_acceleration_beside_an_angle_and_a_distance_is_no_point(tmp_path):
+    path = tmp_path / "imu.csv"
+    path.write_text(
+        "angle_deg,distance_m,ax_x,ax_y\n" + beams(lambda angle, each: f"{angle:.1f},{each:.3f},0.01,0.02\n")
+    )
+    assert right(open_recording(path), scans=1)
 
 
 def test_a_list_of_scans_that_breaks_off_is_read_up_to_there(tmp_path):
