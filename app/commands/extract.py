@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import sys
+from collections import Counter
 from pathlib import Path
 from typing import Annotated
 
@@ -41,6 +42,7 @@ def extract(
         threshold: thresholds of region growing; they override --params.
         reading: how to read the files.
         out: file to write, .jsonl, .csv or .geojson; for several recordings a folder, where each gets a .jsonl file.
+            A folder that is missing is made.
             Without it, JSON lines go to standard output. A .csv file gets a .csv.json beside it, with the reading
             and the thresholds.
         range_noise: standard deviation of a range [m]; adds (rho, theta) and their covariance to each segment.
@@ -64,10 +66,19 @@ def _targets(files: list[Path], out: Path | None) -> dict[Path, Path | None]:
     if out is None:
         return dict.fromkeys(files)
     if out.is_dir():
-        return {file: out / f"{file.name}.jsonl" for file in files}
+        names = Counter(file.name for file in files)
+        # Files of one name come from several folders.
+        return {
+            file: out / f"{f'{file.absolute().parent.name}_' if names[file.name] > 1 else ''}{file.name}.jsonl"
+            for file in files
+        }
+    known = out.suffix.lower().removeprefix(".") in SEGMENT_WRITERS
     if len(files) > 1:
-        raise ValueError(f"{out}: segments of {len(files)} recordings go into a folder; name one that exists.")
-    if out.suffix.lower().removeprefix(".") not in SEGMENT_WRITERS:
+        if known or out.exists():
+            raise ValueError(f"{out}: segments of {len(files)} recordings go into a folder; name a folder.")
+        out.mkdir(parents=True)
+        return _targets(files, out)
+    if not known:
         raise ValueError(f"{out}: use a name that ends in {', '.join(f'.{format}' for format in SEGMENT_WRITERS)}.")
     if not out.absolute().parent.is_dir():
         raise FileNotFoundError(f"{out}: the folder {out.parent} does not exist.")

@@ -70,9 +70,13 @@ def test_extract_writes_how_it_was_made(run, folder):
     assert (code, about["params"]["epsilon"], about["reading"]["range_max"]) == (0, 0.05, 9.0)
     assert Reading(**about["reading"]).unit == "m"
     assert "about" not in json.loads(out.splitlines()[1])
-    (folder / "out").mkdir()
     assert run("extract", folder / "[ab].npz", "--out", folder / "out")[0] == 0
     assert sorted(path.name for path in (folder / "out").iterdir()) == ["a.npz.jsonl", "b.npz.jsonl"]
+    (folder / "more").mkdir()
+    (folder / "more" / "a.npz").write_bytes((folder / "a.npz").read_bytes())
+    assert run("extract", folder / "a.npz", folder / "more" / "a.npz", "--out", folder / "two")[0] == 0
+    assert len(list((folder / "two").iterdir())) == 2
+    assert "name a folder" in run("extract", folder / "[ab].npz", "--out", folder / "lines.csv")[2]
     run("extract", folder / "a.npz", "--out", folder / "lines.csv")
     assert json.loads((folder / "lines.csv.json").read_text())["method"] == "region-growing"
     run("extract", folder / "a.npz", "--out", folder / "lines.geojson")
