@@ -13,7 +13,7 @@ from lineseg_app.server import Settings
 from live import page_of, serving
 from processes import lineseg
 
-from lineseg import Recording, Scan
+from lineseg import FrameLabels, Recording, Scan, read_labels, save_labels
 from lineseg.readers import save_npz
 from lineseg.unfinished import FILES, temporary_folder, whole_file
 
@@ -82,6 +82,17 @@ def test_a_full_disk_is_called_so_and_nothing_is_left_on_it(tiny, capsys, comman
     assert main([command, str(WALLS), "-o", str(tiny / name)]) == 2
     assert capsys.readouterr().err.strip() == f"lineseg: {tiny / name}: No space left on device."
     assert list(tiny.iterdir()) == []
+
+
+def test_labels_for_which_the_disk_has_no_space_name_their_file_and_the_former_ones_stay(tiny):
+    walls = Recording.from_scans([Scan.regular(np.ones(9), 0.0, 0.01)])
+    path = tiny / "walls.npz.lineseg.json"
+    save_labels(path, walls, 0, FrameLabels(None, (), "former", 0))
+    with pytest.raises(OSError, match="No space left on device") as error:
+        save_labels(path, walls, 0, FrameLabels(None, (), "long" * 40_000, 1))
+    assert error.value.filename == str(path)
+    assert list(tiny.iterdir()) == [path]
+    assert read_labels(path, walls)[0].note == "former"
 
 
 def test_a_download_for_which_the_disk_has_no_space_is_refused_with_a_sentence(tiny, tmp_path, monkeypatch):

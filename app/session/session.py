@@ -66,6 +66,13 @@ class Page:
     hang_up: Callable[[], None]
 
 
+async def _unheard(message: BaseModel) -> None:
+    """No page is there."""
+
+
+NOBODY = Page(lambda message: None, _unheard, lambda: None)
+
+
 @dataclass(frozen=True)
 class Request:
     """A View to draw; `number` counts the requests of a session."""
@@ -275,7 +282,7 @@ class Session:
                 if painted is None:
                     return
                 page, messages = self._news(painted)
-                for message in messages if page is not None else ():
+                for message in messages:
                     await page.tell(message)
                 self._afterwards(painted)
         except Exception:
@@ -304,7 +311,11 @@ class Session:
         """Whether drawing the View is short and waits for nothing, unless its file has changed."""
         if self._shown is None or self._page is None or self._closing or self._watch is not None or takes_long(view):
             return False
-        return self._shown.view.place == view.place and quick(self._shown.recording)
+        shown = self._shown.view
+        if view.mode == "learn" and (shown.mode, shown.frame, shown.params) != (view.mode, view.frame, view.params):
+            # To write a trace for the page takes longer than a picture.
+            return False
+        return shown.place == view.place and quick(self._shown.recording)
 
     def _change_from_scene(self, patch: Mapping[str, Any]) -> None:
         if self.following:
@@ -382,7 +393,7 @@ class Session:
         if painted is None:
             return
         page, messages = self._news(painted)
-        for message in messages if page is not None else ():
+        for message in messages:
             page.send(message)
         view = painted.content.view
         self._library.remember(view.recording, view.read_as)
@@ -390,7 +401,7 @@ class Session:
             self._watch(view, recording, self._library.label(view.recording), painted.content.found)
         self._afterwards(painted)
 
-    def _news(self, painted: Painted) -> tuple[Page | None, list[BaseModel]]:
+    def _news(self, painted: Painted) -> tuple[Page, list[BaseModel]]:
         """Note what is on the screen now. Returns the page, and what it does not know yet."""
         request, content, recording = painted.request, painted.content, painted.recording
         view, found = content.view, content.found
@@ -402,13 +413,13 @@ class Session:
             self._done = request.number
             if self._wanted.number == request.number:
                 self._wanted = replace(request, view=view)
-            page, new_trace = self._page, self._told is not found
+            page, new_trace = self._page or NOBODY, self._told is not found
             self._told = found
             # The times of a recording that grows are sent once it is paused.
-            if page is not None and self._timed is not recording and not growing:
+            if page is not NOBODY and self._timed is not recording and not growing:
                 self._timed = recording
                 messages.append(content.times())
-            if page is not None and view.mode == "learn" and self._traced is not found:
+            if page is not NOBODY and view.mode == "learn" and self._traced is not found:
                 self._traced = found
                 messages.append(Traced(trace=columns_of(found)))
         self._library.live.follow(self.id, view.recording, view.method, view.params)

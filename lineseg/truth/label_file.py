@@ -161,8 +161,11 @@ def _replace(path: Path, text: str) -> None:
         # mkstemp creates files that only the owner can read.
         Path(unfinished).chmod(path.stat().st_mode if path.exists() else 0o644)
         os.replace(unfinished, path)  # noqa: PTH105
-    except BaseException:
+    except BaseException as error:
         Path(unfinished).unlink(missing_ok=True)
+        if isinstance(error, OSError) and error.errno is not None:
+            # A full disk names no file, and nobody knows the unfinished one.
+            raise OSError(error.errno, error.strerror, str(path)) from None
         raise
     with suppress(OSError):
         folder = os.open(path.parent, os.O_RDONLY)

@@ -112,6 +112,13 @@ def test_a_first_message_with_any_view_gets_a_picture(page: Page):
     assert page.last["error"]["message"].startswith("mode is 'zz'")
 
 
+def test_halves_of_characters_are_told_and_the_tab_opens(page: Page):
+    page.say(type="hello", view={"recording": "\ud83d", "topic": "\udc00", "params": {"epsilon": 0.05}})
+    assert page.hear()["type"] == "welcome"
+    assert "there is no recording '�'" in page.hear_a("error")["message"]
+    assert page.hear_a("drawn")["state"]["label"]
+
+
 def test_a_link_opened_in_a_tab_is_applied_as_far_as_possible(page: Page):
     page.hello()
     page.say(type="link", rev=1, patch={"frame": 2, "params": {"epsilon": -1, "delta": 0.3}})
