@@ -136,7 +136,7 @@ def create_app(settings: Settings) -> FastAPI:
     app.add_exception_handler(ClientDisconnect, _gone)
     app.add_exception_handler(Exception, _mistake)
     add_api(app, library, sessions)
-    add_export(app, library, sessions)
+    add_export(app, library, sessions, files)
     add_scene(app, sessions)
     add_inspection(app, sessions, files)
     add_labels(app, library, files)

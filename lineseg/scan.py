@@ -124,13 +124,17 @@ class Topic:
 
 @dataclass(frozen=True)
 class PackAbout:
-    """Where the frame of a failure pack came from, how it was extracted, and its labels."""
+    """Where the frame of a failure pack came from, how it was extracted, and its labels.
+
+    labels: as in a label file, see `lineseg.truth.label_file.said_in`; None if nothing was said of the frame.
+    """
 
     recording: str
     frame: int
     method: str
     params: dict[str, int | float]
     note: str
+    labels: dict[str, Any] | None = None
 
 
 @dataclass(frozen=True, eq=False)

@@ -47,6 +47,14 @@ function operates(target, pressed) {
   return Boolean(element?.closest?.("button, summary, a, input[type=checkbox]"));
 }
 
+/** A clicked mode or tab gives the keys back to the page, so that Space plays. @param {Document} page */
+export function giveKeysBack(page) {
+  page.addEventListener("click", ({ target, detail }) => {
+    const clicked = /** @type {Element} */ (target).closest?.(".mode, .tab, .stage-tools button, .divider button");
+    if (detail > 0 && clicked instanceof HTMLElement) clicked.blur();
+  });
+}
+
 /** @param {Binding[]} bindings @param {typeof import("./text/page.js").pageText} words */
 export function showHelp(bindings, words) {
   if (document.querySelector("dialog[open]")) return;

@@ -9,7 +9,7 @@ import { createDraw } from "./draw/draw.js";
 import { createExportMenu } from "./export/menu.js";
 import { createPackCard } from "./export/pack.js";
 import { createInspect } from "./inspect/inspect.js";
-import { keyboard, showHelp } from "./keys.js";
+import { giveKeysBack, keyboard, showHelp } from "./keys.js";
 import { createLabels } from "./label/labels.js";
 import { createLayout } from "./layout/layout.js";
 import { mountLearn } from "./learn/learn.js";
@@ -86,7 +86,10 @@ const learn = mountLearn(
 );
 const pages = { learn: [place("learn"), place("stepper")], usual: [place("panel"), place("replay")] };
 const modes = createModes(words.learn.modes, place("main"), pages, {
-  onMode: page.setMode,
+  onMode(mode) {
+    rerun.close();
+    page.setMode(mode);
+  },
   onEntered: inspect.showScored,
 });
 const panels = [place("panel"), place("learn")];
@@ -95,6 +98,7 @@ const rerun = new RerunTab(place("stage"), words.rerun, {
   session: sessionId,
   dark: () => page.view.dark,
   onFrame: goToFrame,
+  onOpen: modes.cover,
   cancelLabel: text.stage.cancel,
 });
 modes.element.append(rerun.button);
@@ -116,6 +120,7 @@ const reread = createReread(page, words.reading, notices);
 const exports = createExportMenu(page, words, {
   status: () => live.status,
   work,
+  note: labels.note,
   onImport: opening.importParams,
   onFollowLink: address.copyFollowLink,
 });
@@ -139,6 +144,7 @@ const controls = { ...tune, ...scene, layout, learn, timeline, inspect, labels, 
 const bindings = bindingsOf(page, controls, words, () => showHelp(bindings, text));
 const press = keyboard(bindings);
 addEventListener("keydown", press);
+giveKeysBack(document);
 opening.acceptDrops(window);
 
 // Sizes must be set before the camera, and the labels of a frame before the lists that they filter.

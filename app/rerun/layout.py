@@ -24,6 +24,11 @@ FIELD_OF_VIEW = math.radians(55)
 UNITS = {"": "counts", "m": "metres"}
 # Hidden columns of rerun's log: there is only one entity, and the sentence says more than the level.
 SENTENCE = [TextLogColumn("Body")]
+# Colours of the scores in a plot, after Paul Tol's "muted" and "vibrant" schemes.
+SERIES = [
+    (0, 119, 187), (238, 119, 51), (0, 153, 136), (204, 51, 17), (51, 34, 136), (136, 204, 238), (153, 153, 51),
+    (136, 34, 85), (221, 204, 119), (17, 119, 51), (170, 68, 153), (119, 119, 119), (238, 51, 119), (68, 170, 153),
+]  # fmt: skip
 SHARES = ("coverage", "invalid", "change")
 
 
@@ -60,6 +65,15 @@ def announce(
     send_blueprint(stream, blueprint(bounds_of(recording), steps))
 
 
+def plots() -> dict[str, list[str]]:
+    """Scores of one unit are plotted together."""
+    return {
+        "shares": [name for name in SCORES if name in SHARES],
+        "counts": [name for name, score in SCORES.items() if not score.unit and name not in SHARES],
+        "metres": [name for name, score in SCORES.items() if score.unit == "m"],
+    }
+
+
 def properties(
     recording: Recording, label: str, method: str, params: Thresholds, frames: Sequence[int]
 ) -> dict[str, str | int | float]:
@@ -83,14 +97,17 @@ def parameters(label: str, method: str, params: Thresholds) -> rr.TextDocument:
 
 def blueprint(bounds: Bounds, steps: bool = False) -> rrb.Blueprint:
     """The plan above the scores, the log of decisions next to the parameters."""
-    plots = {
-        "shares": [name for name in SCORES if name in SHARES],
-        "counts": [name for name, score in SCORES.items() if not score.unit and name not in SHARES],
-        "metres": [name for name, score in SCORES.items() if score.unit == "m"],
-    }
     tabs = [
-        rrb.TimeSeriesView(origin="scores", contents=[f"$origin/{name}" for name in names], name=title)
-        for title, names in plots.items()
+        rrb.TimeSeriesView(
+            origin="scores",
+            contents=[f"$origin/{name}" for name in names],
+            name=title,
+            overrides={
+                f"scores/{name}": rr.SeriesLines(colors=colour, names=SCORES[name].label)
+                for name, colour in zip(names, SERIES, strict=False)
+            },
+        )
+        for title, names in plots().items()
     ]
     texts = rrb.Vertical(
         rrb.TextLogView(origin="decisions", name="Decisions", columns=rrb.TextLogColumns(text_log_columns=SENTENCE)),

@@ -14,8 +14,10 @@ from lineseg import EXTRACTORS, Extraction, Scan, write_pack
 from lineseg.writers import SEGMENT_WRITERS, figure_svg, figure_title, segment_lines
 
 from ..made import about_of
+from ..scene.drawing import step_marks
 from ..session.session import Shown
 from ..session.sessions import Sessions
+from ..shelf.label_files import LabelFiles
 from ..shelf.library import Library
 from .attachment import attachment
 from .body import body_of
@@ -24,7 +26,7 @@ LONGEST_NOTE = 64 * 1024
 SEGMENT_TYPES = {"jsonl": "application/x-ndjson", "csv": "text/csv", "geojson": "application/geo+json"}
 
 
-def add_export(app: FastAPI, library: Library, sessions: Sessions) -> None:
+def add_export(app: FastAPI, library: Library, sessions: Sessions, files: LabelFiles) -> None:
     """Routes of /api that export what a tab shows."""
 
     def named(shown: Shown, suffix: str) -> dict[str, str]:
@@ -34,8 +36,13 @@ def add_export(app: FastAPI, library: Library, sessions: Sessions) -> None:
     @app.get("/api/figure")
     def figure(session: str = "") -> Response:
         shown = sessions.shown(session)
-        title = figure_title(shown.recording, shown.position, EXTRACTORS[shown.view.method].label)
-        drawing = figure_svg(shown.found.scan, shown.found.extraction, title)
+        view, found = shown.view, shown.found
+        title = figure_title(shown.recording, shown.position, EXTRACTORS[view.method].label)
+        marks = near = None
+        if view.step is not None:
+            title += f", decision {view.step + 1} of {len(found.trace)}"
+            marks, near = step_marks(view, shown.recording, found)
+        drawing = figure_svg(found.scan, found.extraction, title, view.params, marks, near)
         return Response(drawing, media_type="image/svg+xml", headers=named(shown, "svg"))
 
     @app.post("/api/pack")
@@ -46,8 +53,9 @@ def add_export(app: FastAPI, library: Library, sessions: Sessions) -> None:
             note = body.decode()
         except UnicodeDecodeError:
             raise HTTPException(400, "this note is not UTF-8 text; send it as UTF-8") from None
-        made = io.BytesIO()
-        await run_in_threadpool(write_pack, made, shown.recording, shown.position, shown.view.params, note)
+        known, made = files.known(shown.view.recording, shown.recording), io.BytesIO()
+        said = known and known.of(shown.view.frame)
+        await run_in_threadpool(write_pack, made, shown.recording, shown.position, shown.view.params, note, said)
         return Response(made.getvalue(), media_type="application/zip", headers=named(shown, "zip"))
 
     @app.get("/api/segments")
@@ -55,7 +63,9 @@ def add_export(app: FastAPI, library: Library, sessions: Sessions) -> None:
         shown = sessions.shown(session)
         if to not in SEGMENT_WRITERS:
             raise HTTPException(400, f"segments cannot be written as {to!r}; choose from {', '.join(SEGMENT_WRITERS)}")
-        headers = attachment(library.label(shown.view.recording), to)
+        # Readers of GeoJSON expect degrees, so the name says that these are not.
+        suffix = f"metres.{to}" if to == "geojson" else to
+        headers = attachment(library.label(shown.view.recording), suffix)
         about = about_of(shown.recording, shown.view.method, shown.view.params)
         lines = segment_lines(to, _rows(shown), about=about)
         return StreamingResponse(lines, media_type=SEGMENT_TYPES[to], headers=headers)

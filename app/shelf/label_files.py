@@ -6,14 +6,15 @@ import hashlib
 import re
 import threading
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
+from typing import Any
 from weakref import WeakKeyDictionary
 
 from lineseg import FrameLabels, Recording, label_file, read_labels, save_labels
-from lineseg.truth.label_file import users_label_file
-from lineseg.truth.labels import Labels
+from lineseg.truth.label_file import said_in, users_label_file
+from lineseg.truth.labels import Labels, check_labels
 
 from ..live.ring import LiveRecording
 from .library import Library
@@ -91,6 +92,8 @@ class LabelFiles:
             known = self._known.get(recording)
             if known is None or (known.path, known.stamp) != (path, stamp):
                 known = self._known[recording] = _read(path, path.is_relative_to(self._folder), stamp, recording)
+                if not stamp and recording.pack is not None and recording.pack.labels is not None:
+                    known = self._known[recording] = _packed(known, recording, recording.pack.labels)
         return known
 
     def save(self, id: str, recording: Recording, frame: int, labels: FrameLabels) -> FrameLabels:
@@ -108,6 +111,16 @@ def _read(path: Path, apart: bool, stamp: str, recording: Recording) -> Known:
         return Known(path, apart, stamp, {}, str(error))
     except OSError as error:
         return Known(path, apart, stamp, {}, f"{path.name} cannot be read: {error.strerror}.")
+
+
+def _packed(known: Known, recording: Recording, labels: dict[str, Any]) -> Known:
+    """The labels that a failure pack brings; they are saved beside it only once somebody changes them."""
+    try:
+        said = said_in(labels)
+        check_labels(said, recording, recording.number(0))
+    except (KeyError, TypeError, ValueError) as error:
+        return replace(known, trouble=f"{recording.name}: its labels are not valid ({error}).")
+    return replace(known, labels={recording.number(0): said})
 
 
 def _stamp(path: Path) -> str:

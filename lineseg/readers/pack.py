@@ -47,7 +47,7 @@ class FailurePack(Reader):
 def read_pack(path: str | Path) -> PackAbout:
     """The description in a pack; `open_recording` reads its frame. Raises ValueError if it is not a pack."""
     about = _about(Path(path))
-    return PackAbout(**{name: about[name] for name in PackAbout.__dataclass_fields__})
+    return PackAbout(**{name: about.get(name) for name in PackAbout.__dataclass_fields__})
 
 
 def _about(path: Path) -> dict[str, Any]:
@@ -69,6 +69,8 @@ def _about(path: Path) -> dict[str, Any]:
             raise ValueError(
                 f"{path.name}: {name} in {ABOUT} is {about.get(name)!r}; it must have the type {kind.__name__}."
             )
+    if not isinstance(about.get("labels"), dict | None):
+        raise ValueError(f"{path.name}: labels in {ABOUT} is {about['labels']!r}; it must have the type dict.")
     return about
 
 

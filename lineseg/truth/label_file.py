@@ -189,14 +189,7 @@ def _labels_in(tree: Any, recording: Recording) -> Entries:
     found: Entries = {}
     for key, entry in tree["frames"].items():
         frame = int(key)
-        lines = entry.get("lines")
-        labels = FrameLabels(
-            None if lines is None else tuple(_line(line) for line in lines),
-            tuple(str(tag) for tag in entry.get("tags", ())),
-            str(entry.get("note", "")),
-            int(entry["revision"]),
-        )
-        labels, beams = _clean(labels), int(entry["beams"])
+        labels, beams = replace(said_in(entry), revision=int(entry["revision"])), int(entry["beams"])
         if recording.has(frame) or not 0 <= frame < frames:
             _check(labels, beams, recording, frame)
         found[frame] = labels, beams
@@ -214,6 +207,18 @@ def _clean(labels: FrameLabels) -> FrameLabels:
     """The labels without halves of characters, which JSON can express and no file can hold."""
     tags = tuple(tag.encode("utf-8", "replace").decode() for tag in labels.tags)
     return replace(labels, tags=tags, note=labels.note.encode("utf-8", "replace").decode())
+
+
+def said_in(entry: dict[str, Any]) -> FrameLabels:
+    """The labels of a frame in JSON: lines of first, last, start and end, or null; tags; note. Never saved yet."""
+    lines = entry.get("lines")
+    return _clean(
+        FrameLabels(
+            None if lines is None else tuple(_line(line) for line in lines),
+            tuple(str(tag) for tag in entry.get("tags", ())),
+            str(entry.get("note", "")),
+        )
+    )
 
 
 def _line(entry: dict[str, Any]) -> TrueLine:

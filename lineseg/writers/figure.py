@@ -3,37 +3,71 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+import textwrap
+from collections.abc import Iterator, Sequence
 from html import escape
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..colours import segment_colours
+from ..knobs import Thresholds
 from ..scan import Recording, Scan
 from ..segment import Extraction
 
 WIDTH, HEIGHT = 960.0, 720.0
 MARGIN, FOOT = 24.0, 64.0
+# Of the thresholds, under the title.
+SMALL, ROW, LETTERS = 12, 17.0, 145
+# Where the legend begins, right of the scale bar.
+LEGEND_AT = 240.0
 POINT, INK, GROUND = "#8c9198", "#14161a", "#ffffff"
+CROSS = f'<path d="M-6 0h12m-6 -6v12" stroke="{INK}" stroke-width="2"/>'
 STEPS = (1, 2, 5)
 
 
-def figure_svg(scan: Scan, extraction: Extraction, title: str = "") -> str:
+class Mark(NamedTuple):
+    """One kind of thing in a drawing. xy: (n, 2) points or (n, 4) lines [m]; colours: (n, 3) sRGB; width [px]."""
+
+    words: str
+    width: float
+    xy: NDArray[np.floating]
+    colours: NDArray[np.uint8]
+
+
+def figure_svg(
+    scan: Scan,
+    extraction: Extraction,
+    title: str = "",
+    thresholds: Thresholds | None = None,
+    marks: Sequence[Mark] | None = None,
+    near: NDArray[np.floating] | None = None,
+) -> str:
     """The frame as an SVG document of WIDTH × HEIGHT in the frame of the laser, x to the right and y up.
 
     A cross marks the laser. The drawing is scaled to fit all valid points; the scale bar is below it.
+    thresholds: written under it. marks: drawn instead of the segments. near: (n, 2) points to fit instead [m].
     """
-    place = _Place(scan.xy[scan.valid])
+    notes = textwrap.wrap(_told(thresholds), LETTERS) if thresholds is not None else []
+    legend = [*(_segment_legend(scan, extraction) if marks is None else map(_key, marks)), (CROSS, "laser")]
+    rows = _in_rows(legend)
+    foot = FOOT + ROW * (len(notes) + len(rows) - 1)
+    close = near is not None and len(near) > 0
+    place = _Place(near, foot, laser=False) if close else _Place(scan.xy[scan.valid], foot)
+    drawn = _segments(extraction, place) if marks is None else _marks(marks, place)
     parts = [
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{WIDTH:g}" height="{HEIGHT:g}" '
         f'viewBox="0 0 {WIDTH:g} {HEIGHT:g}" font-family="sans-serif" font-size="14" fill="{INK}">',
         f"<title>{escape(title or 'laser scan', quote=False)}</title>",
         f'<rect width="{WIDTH:g}" height="{HEIGHT:g}" fill="{GROUND}"/>',
+        *([f'<clipPath id="room"><rect width="{WIDTH:g}" height="{HEIGHT - foot:g}"/></clipPath>'] if close else []),
+        *(['<g clip-path="url(#room)">'] if close else []),
         *_points(scan, place),
-        *_segments(extraction, place),
+        *drawn,
         *_laser(place),
-        *_foot(scan, extraction, title, place),
+        *(["</g>"] if close else []),
+        *_foot(rows, title, notes, place),
         "</svg>",
     ]
     return "\n".join(parts) + "\n"
@@ -50,10 +84,12 @@ def figure_title(recording: Recording, frame: int, method: str) -> str:
 class _Place:
     """The position in the drawing [px] of a point in the frame [m]."""
 
-    def __init__(self, xy: NDArray[np.float64]) -> None:
-        corners = np.vstack((xy, (0.0, 0.0)))
+    def __init__(self, xy: NDArray[np.floating], foot: float, laser: bool = True) -> None:
+        """foot: height of what stands below [px]; laser: whether it must be seen."""
+        self.foot = foot
+        corners = np.vstack((xy, (0.0, 0.0))) if laser else xy
         low, high = corners.min(axis=0), corners.max(axis=0)
-        room = np.array((WIDTH - 2 * MARGIN, HEIGHT - 2 * MARGIN - FOOT))
+        room = np.array((WIDTH - 2 * MARGIN, HEIGHT - 2 * MARGIN - foot))
         self.scale = float((room / np.maximum(high - low, 1e-3)).min())
         self._middle = (low + high) / 2
         self._centre = np.array((WIDTH / 2, MARGIN + room[1] / 2))
@@ -85,26 +121,81 @@ def _laser(place: _Place) -> Iterator[str]:
     yield f'<path class="laser" d="M{x - 6:.1f} {y:.1f}h12M{x:.1f} {y - 6:.1f}v12" stroke="{INK}" stroke-width="2"/>'
 
 
-def _foot(scan: Scan, extraction: Extraction, title: str, place: _Place) -> Iterator[str]:
-    """Scale bar, legend and title."""
+def _marks(marks: Sequence[Mark], place: _Place) -> Iterator[str]:
+    for mark in marks:
+        yield f'<g class="mark" stroke-width="{mark.width:g}" stroke-linecap="round"><title>{mark.words}</title>'
+        for row, colour in zip(mark.xy.tolist(), mark.colours.tolist(), strict=True):
+            spots = [place(*row[k : k + 2]) for k in range(0, len(row), 2)]
+            (x1, y1), (x2, y2) = spots[0], spots[-1]
+            yield f'<path d="M{x1:.2f} {y1:.2f}L{x2:.2f} {y2:.2f}" stroke="{_rgb(colour)}"/>'
+        yield "</g>"
+
+
+def _rgb(colour: Sequence[int]) -> str:
+    return f"rgb({colour[0]} {colour[1]} {colour[2]})"
+
+
+def _key(mark: Mark) -> tuple[str, str]:
+    """The sign of a mark for the legend, around 0, 0, and its words."""
+    colours = [_rgb(colour) for colour in dict.fromkeys(map(tuple, mark.colours.tolist()))][:4]
+    if mark.xy.shape[1] == 2:
+        sign = f'<circle r="{min(mark.width / 2, 5):g}" fill="{colours[0]}"/>'
+        return sign, mark.words
+    length = 20 / len(colours)
+    strokes = (
+        f'<path d="M{k * length - 10:g} 0h{length:g}" stroke="{colour}" stroke-width="{min(mark.width, 4):g}"/>'
+        for k, colour in enumerate(colours)
+    )
+    return "".join(strokes), mark.words
+
+
+def _segment_legend(scan: Scan, extraction: Extraction) -> list[tuple[str, str]]:
+    segments, valid = extraction.segments, int(np.count_nonzero(scan.valid))
+    counted = f"{len(segments)} segment{'' if len(segments) == 1 else 's'}"
+    point = f'<circle r="3" fill="{POINT}"/>'
+    lines = Mark(counted, 3.0, np.empty((len(segments), 4)), segment_colours(segments))
+    return [(point, f"{valid} points, {extraction.covered} in segments"), _key(lines) if segments else ("", counted)]
+
+
+def _told(thresholds: Thresholds) -> str:
+    """ "ε = 0.03 m, δ = 0.1 m, …" """
+    knobs = ((knob, getattr(thresholds, name)) for name, _, knob in thresholds.knobs())
+    # A value stays with its name where the text is wrapped.
+    return ", ".join(f"{knob.symbol} = {value:g} {knob.unit}".strip().replace(" ", "\u00a0") for knob, value in knobs)
+
+
+def _in_rows(legend: Sequence[tuple[str, str]]) -> list[list[tuple[float, str, str]]]:
+    """The signs and words of the legend with their places [px], in as many rows as they need."""
+    rows: list[list[tuple[float, str, str]]] = [[]]
+    x = LEGEND_AT
+    for sign, words in legend:
+        width = 38 + 6.4 * len(words)
+        if x + width > WIDTH and rows[-1]:
+            x = LEGEND_AT
+            rows.append([])
+        rows[-1].append((x, sign, words))
+        x += width
+    return rows
+
+
+def _foot(
+    legend: Sequence[Sequence[tuple[float, str, str]]], title: str, notes: Sequence[str], place: _Place
+) -> Iterator[str]:
+    """Scale bar, legend, title and notes."""
     metres = bar_length(160 / place.scale)
-    y, width = HEIGHT - 40, metres * place.scale
+    y, width = HEIGHT - place.foot + 24, metres * place.scale
     yield f'<path class="bar" d="M{MARGIN:g} {y - 5:g}v5h{width:.1f}v-5" fill="none" stroke="{INK}" stroke-width="2"/>'
     yield f'<text x="{MARGIN:g}" y="{y + 20:g}">{metres:g} m</text>'
-    x, middle = MARGIN + max(width, 60) + 40, y - 5
-    segments, covered, valid = len(extraction.segments), extraction.covered, int(np.count_nonzero(scan.valid))
-    entries = [
-        (f'<circle cx="{{x}}" cy="{middle:g}" r="3" fill="{POINT}"/>', f"{valid} points, {covered} in segments"),
-        (
-            f'<path d="M{{x}} {middle:g}m-8 0h16" stroke="rgb(0 119 187)" stroke-width="3" stroke-linecap="round"/>',
-            f"{segments} segment{'' if segments == 1 else 's'}",
-        ),
-        (f'<path d="M{{x}} {middle:g}m-6 0h12m-6 -6v12" stroke="{INK}" stroke-width="2"/>', "laser"),
-    ]
-    for sign, words in entries:
-        yield sign.format(x=f"{x:.1f}") + f'<text x="{x + 14:.1f}" y="{middle + 5:g}">{words}</text>'
-        x += 44 + 8 * len(words)
-    yield f'<text x="{MARGIN + max(width, 60) + 32:.1f}" y="{y + 20:g}">{escape(title, quote=False)}</text>'
+    for row, entries in enumerate(legend):
+        middle = y - 5 + ROW * row
+        for x, sign, words in entries:
+            yield f'<g transform="translate({x:.1f} {middle:g})">{sign}</g>'
+            yield f'<text x="{x + 14:.1f}" y="{middle + 5:g}" font-size="{SMALL}">{words}</text>'
+    below = y + 20 + ROW * (len(legend) - 1)
+    yield f'<text x="{LEGEND_AT - 10:g}" y="{below:g}">{escape(title, quote=False)}</text>'
+    for row, note in enumerate(notes):
+        at = below + 2 + ROW * (row + 1)
+        yield f'<text x="{MARGIN:g}" y="{at:g}" font-size="{SMALL}">{escape(note, quote=False)}</text>'
 
 
 def bar_length(most: float) -> float:

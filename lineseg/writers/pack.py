@@ -20,6 +20,7 @@ from ..readers import save_npz
 from ..readers.pack import ABOUT, FORMAT, FRAME, VERSION
 from ..scan import PackAbout, Recording, Scan
 from ..tracing.decisions import Trace
+from ..truth.labels import FrameLabels
 from .figure import figure_svg, figure_title
 from .segments import segment_lines
 
@@ -33,11 +34,13 @@ def write_pack(
     frame: int,
     params: Thresholds | None = None,
     note: str = "",
+    labels: FrameLabels | None = None,
 ) -> None:
     """Write a zip of the frame (frame.npz, frame.csv), its segments, the trace, a drawing, the thresholds and a note.
 
-    Its lineseg.json also says how the file was read. `open_recording` opens it as a recording of one frame,
-    `read_params` reads its lineseg.json. A pack made from a pack keeps the original source.
+    labels: what is said of the frame, which lineseg.json holds beside how the file was read. `open_recording` opens
+    the pack as a recording of one frame, `read_params` reads its lineseg.json. A pack made from a pack keeps the
+    original source.
     """
     need_recording(recording)
     params = Params() if params is None else params
@@ -49,7 +52,7 @@ def write_pack(
     former = recording.pack
     name, number = (former.recording, former.frame) if former is not None else (recording.name, recording.number(frame))
     about = {"format": FORMAT, "version": VERSION} | asdict(
-        PackAbout(name, number, method.name, params.numbers(), note)
+        PackAbout(name, number, method.name, params.numbers(), note, _said(labels))
     )
     if recording.account is not None and former is None:
         about["reading"] = recording.account.used.given()
@@ -61,8 +64,15 @@ def write_pack(
         _add(pack, "frame.csv", "".join(_beams(scan, found.labels)))
         _add(pack, "segments.jsonl", "".join(segment_lines("jsonl", [(number, scan, found)])))
         _add(pack, "trace.jsonl", "".join(_decisions(traced)))
-        _add(pack, "picture.svg", figure_svg(scan, found, title))
+        _add(pack, "picture.svg", figure_svg(scan, found, title, params))
         _add(pack, "note.txt", note + "\n")
+
+
+def _said(labels: FrameLabels | None) -> dict[str, Any] | None:
+    """Labels for JSON; None if they say nothing."""
+    if labels is None or (labels.lines is None and not labels.tags and not labels.note):
+        return None
+    return {name: value for name, value in asdict(labels).items() if name != "revision"}
 
 
 def _add(pack: zipfile.ZipFile, name: str, content: str | bytes) -> None:

@@ -26,6 +26,7 @@ COLUMNS = (
     "frame", "stamp", "frame_id", "start_x", "start_y", "end_x", "end_y", "first", "last", "a", "b", "c", "points",
     "length", "rms",
 )  # fmt: skip
+METRES = "metres in the frame of the laser, x ahead and y to the left; not degrees"
 POLAR_COLUMNS = ("rho", "theta", "var_rho", "cov_rho_theta", "var_theta")
 
 
@@ -47,10 +48,10 @@ def json_lines(rows: Rows, noise: Noise | None = None, about: About = None) -> I
 def geojson(rows: Rows, noise: Noise | None = None, about: About = None) -> Iterator[str]:
     """A FeatureCollection with a LineString for each segment; the other fields of `json_lines` are its properties.
 
-    Coordinates are metres in the frame of the laser, not degrees; GeoJSON has no field to declare this.
+    Coordinates are metres in the frame of the laser, not degrees, as its member `coordinates` says.
     """
     head = f'"about":{_text(about)},' if about else ""
-    yield f'{{"type":"FeatureCollection",{head}"features":['
+    yield f'{{"type":"FeatureCollection","coordinates":"{METRES}",{head}"features":['
     separator = "\n"
     for frame, scan, extraction in rows:
         for number, fields in enumerate(_segments(scan, extraction, noise)):

@@ -19,11 +19,23 @@ export function createModes(text, main, shown, { onMode, onEntered }) {
       text[mode],
     ),
   );
+  let [chosen, covered] = [/** @type {string} */ (""), false];
+  function show() {
+    for (const button of buttons)
+      button.setAttribute("aria-pressed", String(!covered && button.dataset.mode === chosen));
+  }
+
   return {
+    /** Something lies over the scene of the mode, so that the mode is not selected. @param {boolean} is */
+    cover(is) {
+      covered = is;
+      show();
+    },
     element: h("div", { class: "modes", role: "group", "aria-label": text.label }, ...buttons),
     /** @param {Readonly<import("../wire.js").View>} view */
     setView({ mode }) {
-      for (const button of buttons) button.setAttribute("aria-pressed", String(button.dataset.mode === mode));
+      chosen = mode;
+      show();
       const entered = main.dataset.mode !== mode;
       main.dataset.mode = mode;
       if (entered) onEntered();

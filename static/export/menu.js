@@ -12,10 +12,10 @@ import { createTake } from "./take.js";
  * @param {import("../page.js").Page} page
  * @param {typeof import("../text/words.js").words} text
  * @param {{status: () => import("../wire.js").LiveStatus | null, work: ReturnType<typeof import("../open/work.js").createWork>,
- *          onImport: (file: string) => Promise<string | null>, onFollowLink: () => void}} handlers
- *   status: of the live source; onImport: applies the text of a parameter file or says why it cannot
+ *          note: () => string, onImport: (file: string) => Promise<string | null>, onFollowLink: () => void}} handlers
+ *   status: of the live source; note: of the frame; onImport: applies the text of a parameter file or says why it cannot
  */
-export function createExportMenu(page, text, { status, work, onImport, onFollowLink }) {
+export function createExportMenu(page, text, { status, work, note, onImport, onFollowLink }) {
   /** @returns {Group} */
   function robot() {
     const now = status()?.recording === page.drawn?.recording ? status() : null;
@@ -54,7 +54,12 @@ export function createExportMenu(page, text, { status, work, onImport, onFollowL
     return { title, items: [{ label: copy, run: onFollowLink }] };
   }
 
-  const { groups } = createTake(text.export, { session: page.sessionId, state: () => page.drawn, work: work.run });
+  const { groups } = createTake(text.export, {
+    session: page.sessionId,
+    state: () => page.drawn,
+    note,
+    work: work.run,
+  });
   return createExchange(text.page, {
     session: page.sessionId,
     params: () => page.view.params,

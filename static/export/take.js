@@ -11,11 +11,11 @@ import { fetchFile } from "./save.js";
 
 /**
  * @param {typeof import("../text/export.js").exportText} text
- * @param {{session: () => string, state: () => State | null,
+ * @param {{session: () => string, state: () => State | null, note: () => string,
  *          work: (words: string, run: (show: Progress, signal: AbortSignal) => Promise<void>) => void}} handlers
- *   work: runs something long, with progress and a way to cancel it
+ *   note: of the frame; work: runs something long, with progress and a way to cancel it
  */
-export function createTake(text, { session, state, work }) {
+export function createTake(text, { session, state, note, work }) {
   /** @param {string} what @param {Record<string, string>} [more] */
   const address = (what, more) => `/api/${what}?${new URLSearchParams({ session: session(), ...more })}`;
 
@@ -39,10 +39,10 @@ export function createTake(text, { session, state, work }) {
   }
 
   function askNote() {
-    const note = h("textarea", {
+    const words = h("textarea", {
       rows: 5,
       class: "note",
-      value: state()?.pack?.note ?? "",
+      value: note() || (state()?.pack?.note ?? ""),
       placeholder: text.note.placeholder,
     });
     const error = h("p", { class: "panel-error", role: "alert", hidden: true });
@@ -51,7 +51,7 @@ export function createTake(text, { session, state, work }) {
       text.note.title,
       text.note.close,
       h("p", { class: "hint" }, text.note.hint),
-      h("label", { class: "note-label" }, text.note.label, note),
+      h("label", { class: "note-label" }, text.note.label, words),
       error,
       h("div", { class: "dialog-buttons" }, save),
     );
@@ -60,7 +60,7 @@ export function createTake(text, { session, state, work }) {
       try {
         const { name, content } = await fetchFile(address("pack"), text.broken, {
           method: "POST",
-          body: note.value.trim(),
+          body: words.value.trim(),
         });
         download(name, content);
         dialog.close();
@@ -69,7 +69,7 @@ export function createTake(text, { session, state, work }) {
         error.hidden = save.disabled = false;
       }
     });
-    note.focus();
+    words.focus();
   }
 
   return {

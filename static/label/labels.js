@@ -109,6 +109,9 @@ class Labels {
     return this.#dragged ?? this.#keep.of(this.#frame).lines ?? this.#proposal;
   }
 
+  /** What is written of the frame. */
+  note = () => (this.#state ? this.#keep.of(this.#frame).note : "");
+
   /** Whether the tool is in use. */
   get active() {
     return !this.element.hidden && this.#state?.mode === "inspect";

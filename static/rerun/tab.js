@@ -8,7 +8,7 @@ import { addressOf, record } from "./run.js";
 /** @typedef {import("../wire.js").State} State */
 /** @typedef {typeof import("../text/rerun.js").rerunText} Text */
 /** @typedef {{setFrame: (frame: number) => Promise<void>}} Viewer */
-/** @typedef {{session: () => string, dark: () => boolean, onFrame: (frame: number) => void, cancelLabel: string}} Handlers */
+/** @typedef {{session: () => string, dark: () => boolean, onFrame: (frame: number) => void, onOpen: (open: boolean) => void, cancelLabel: string}} Handlers */
 
 const PARTS = /** @type {const} */ (["place", "method", "params"]);
 
@@ -46,7 +46,7 @@ export class RerunTab {
     const repeat = { type: "button", class: "button primary", hidden: true, onclick: () => this.#show() };
     this.#again = h("button", repeat, text.again);
     this.#save = h("a", { class: "button", download: "", hidden: true }, text.download);
-    const close = iconButton("close", text.close, () => this.#close());
+    const close = iconButton("close", text.close, () => this.close());
     const head = [this.#words, this.#bar, this.#cancel, this.#again, this.#save, close];
     this.#box = h(
       "section",
@@ -55,7 +55,7 @@ export class RerunTab {
       this.#place,
     );
     stage.append(this.#box);
-    const toggle = () => (this.#box.hidden ? this.#open() : this.#close());
+    const toggle = () => (this.#box.hidden ? this.#open() : this.close());
     const tab = { type: "button", class: "mode", "aria-pressed": "false", title: text.tabHelp, onclick: toggle };
     this.button = h("button", tab, text.tab);
   }
@@ -63,15 +63,17 @@ export class RerunTab {
   #open() {
     this.#box.hidden = false;
     this.button.setAttribute("aria-pressed", "true");
+    this.#handlers.onOpen(true);
     if (!this.#state) return;
     if (this.#recorded.key !== keyOf(this.#state, ...PARTS)) this.#show();
     else this.#follow();
   }
 
-  #close() {
+  close() {
     this.#work?.abort();
     this.#box.hidden = true;
     this.button.setAttribute("aria-pressed", "false");
+    this.#handlers.onOpen(false);
   }
 
   async #show() {

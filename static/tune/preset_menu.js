@@ -31,7 +31,16 @@ export function createPresetMenu(text, { knobs, onParams }) {
     ];
   }
 
-  return menu.element;
+  return {
+    element: menu.element,
+    /** Names the preset that the thresholds are. @param {Params} params */
+    show(params) {
+      const is = (/** @type {Params} */ preset) =>
+        Object.entries(defaultsOf(knobs())).every(([name, usual]) => params[name] === (preset[name] ?? usual));
+      const laser = PRESETS.find((preset) => is(preset.params))?.laser;
+      menu.setLabel(laser ?? (is({}) ? text.presetPaper : text.presetChoose));
+    },
+  };
 }
 
 /** @param {Knob[]} knobs @returns {Params} */

@@ -59,7 +59,7 @@ export class Thresholds {
     this.element = h(
       "div",
       {},
-      h("div", { class: "panel-toolbar" }, this.#presets, spacer, this.#undo, this.#redo, this.#resetAll),
+      h("div", { class: "panel-toolbar" }, this.#presets.element, spacer, this.#undo, this.#redo, this.#resetAll),
       this.#message,
       ...above,
       this.#main,
@@ -79,7 +79,7 @@ export class Thresholds {
     this.#extensions.hidden = !knobs.some((knob) => knob.extension);
     this.#legend.hidden = !knobs.some(hasHistogram);
     // Presets set ε for a laser; the thresholds of other methods mean something else.
-    this.#presets.hidden = !["epsilon", "delta"].every((name) => knobs.some((knob) => knob.name === name));
+    this.#presets.element.hidden = !["epsilon", "delta"].every((name) => knobs.some((knob) => knob.name === name));
   }
 
   /** @param {Knob} knob */
@@ -97,6 +97,7 @@ export class Thresholds {
       "changed",
       changed.some((knob) => knob.extension),
     );
+    this.#presets.show(params);
     this.#undo.disabled = !canUndo;
     this.#redo.disabled = !canRedo;
     this.#resetAll.disabled = !changed.length;

@@ -126,3 +126,13 @@ def test_the_ruler_measures_between_two_lines(new_tab: Callable[..., Tab]):
     assert "range" in page.locator(".readout").inner_text()
     page.keyboard.press("Escape")
     tab.eventually(lambda: not page.locator(".ruler").is_visible(), "the ruler stays")
+
+
+def test_space_plays_after_a_click_on_a_mode_or_a_tab(new_tab: Callable[..., Tab]):
+    tab = new_tab("#recording=sample:hallway")
+    for button in ".mode[data-mode=inspect]", "#tab-lines":
+        before = tab.state["frame"]
+        tab.page.locator(button).click()
+        tab.page.keyboard.press("Space")
+        tab.until(f"s.frame !== {before}")
+        tab.page.keyboard.press("Space")

@@ -9,7 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scenes import scans, wall_ahead
 
-from lineseg import Scan, extract, figure_svg
+from lineseg import Params, Scan, extract, figure_svg
+from lineseg.colours import segment_colours
 from lineseg.writers.figure import HEIGHT, WIDTH, bar_length
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -62,3 +63,12 @@ def test_the_bar_is_a_round_length_that_fits(most):
     length = bar_length(most)
     assert most / 2.6 < length <= most * (1 + 1e-6)
     assert round(length / 10 ** np.floor(np.log10(length * (1 + 1e-9))), 6) in (1, 2, 5)
+
+
+def test_the_drawing_carries_the_thresholds_and_the_colours_of_its_legend():
+    scan = wall_ahead()
+    drawing = figure_svg(scan, extract(scan), "wall.csv", Params(epsilon=0.042))
+    assert "ε\u00a0=\u00a00.042\u00a0m" in drawing
+    red, green, blue = segment_colours(extract(scan).segments)[0]
+    # Of the segment, and of the legend.
+    assert drawing.count(f"rgb({red} {green} {blue})") == 2

@@ -4,13 +4,15 @@ import csv
 import io
 import json
 import zipfile
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from lineseg import Params, extract, open_recording, read_pack, read_params, trace, write_pack
+from lineseg import FrameLabels, Params, extract, open_recording, read_pack, read_params, trace, write_pack
 from lineseg.readers import save_npz
+from lineseg.truth.label_file import said_in
 
 HALLWAY = Path(__file__).parents[2] / "sample_scans" / "hallway.npz"
 PARAMS = Params(epsilon=0.02)
@@ -102,3 +104,10 @@ def test_a_recording_is_still_saved_to_a_path_or_a_file(tmp_path):
     save_npz(recording, memory)
     save_npz(recording, tmp_path / "path.npz")
     assert np.array_equal(np.load(io.BytesIO(memory.getvalue()))["ranges"], np.load(tmp_path / "path.npz")["ranges"])
+
+
+def test_what_was_said_of_the_frame_travels_with_it(tmp_path):
+    recording = open_recording(HALLWAY)
+    said = replace(FrameLabels.of(extract(recording[17], PARAMS)), tags=("glass",), note="the door is open", revision=3)
+    write_pack(tmp_path / "door.zip", recording, 17, PARAMS, labels=said)
+    assert said_in(open_recording(tmp_path / "door.zip").pack.labels) == replace(said, revision=0)

@@ -26,6 +26,7 @@ from lineseg import (
     open_recording,
     read_labels,
     save_labels,
+    write_pack,
 )
 from lineseg.scan import Topic
 from lineseg.truth.labels import TrueLine
@@ -222,3 +223,13 @@ def test_each_stream_of_a_file_has_its_labels_and_a_live_recording_has_none(file
     assert files.place(id, back).name == "walls.npz.back_scan.lineseg.json"
     live = LiveRecording(**{field.name: getattr(walls, field.name) for field in fields(walls)})
     assert files.known("live:1", live) is None
+
+
+def test_a_failure_pack_brings_the_labels_of_its_frame(file, tmp_path):
+    said = replace(FrameLabels.of(extract(open_recording(file)[2])), tags=("glass",), note="from her")
+    write_pack(tmp_path / "door.zip", open_recording(file), 2, labels=said)
+    library = Library([tmp_path / "door.zip"], Recent(tmp_path), Uploads(1, 1, 1))
+    known = LabelFiles(library, tmp_path / "user").known(library.first(), open_recording(tmp_path / "door.zip"))
+    assert known is not None
+    assert known.of(2) == said
+    assert not known.path.exists()
