@@ -2,6 +2,7 @@
 // Composition only: the parts, their places, and the order in which they are informed.
 import { createModes } from "./bars/modes.js";
 import { mountStatus } from "./bars/status.js";
+import { createPlots } from "./bars/plots.js";
 import { Timeline } from "./bars/timeline.js";
 import { mountTopbar } from "./bars/topbar.js";
 import { bindingsOf } from "./bindings.js";
@@ -93,7 +94,10 @@ const modes = createModes(words.learn.modes, place("main"), pages, {
   onEntered: inspect.showScored,
 });
 const panels = [place("panel"), place("learn")];
-const layout = createLayout({ main: place("main"), panels, timeline: place("timeline") }, text.layout);
+const layout = createLayout(
+  { main: place("main"), panels, plots: place("plots"), timeline: place("timeline") },
+  text.layout,
+);
 const rerun = new RerunTab(place("stage"), words.rerun, {
   session: sessionId,
   dark: () => page.view.dark,
@@ -112,6 +116,11 @@ const timeline = new Timeline(place("timeline"), text.timeline, {
   onFollow: follow,
   settled,
   pill: live.button,
+});
+const plots = createPlots(place("plots"), text.timeline.plots, {
+  scored: () => timeline.scored,
+  track: () => timeline.track,
+  onFrame: goToFrame,
 });
 const status = mountStatus(page, place("status"), text.status, live.element);
 const work = createWork(notices, text.stage, () => page.drawn !== null);
@@ -155,6 +164,7 @@ page.parts = [
   layout,
   topbar,
   timeline,
+  plots,
   live,
   packCard,
   ...tune.parts,

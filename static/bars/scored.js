@@ -47,9 +47,20 @@ export class ScoredFrames {
 
   /** The known values of the selected score; none if there is no survey. */
   get values() {
-    const at = this.scores.findIndex(({ name }) => name === this.#score);
-    if (!this.survey || this.survey.message !== null || at < 0) return new Float32Array(0);
-    return columnOf(this.survey, at);
+    return this.column(this.#score);
+  }
+
+  /** The known values of a score; none if they were not sent. @param {string} name */
+  column(name) {
+    const at = this.scores.findIndex((score) => score.name === name);
+    return this.survey && this.survey.message === null && at >= 0 ? columnOf(this.survey, at) : new Float32Array(0);
+  }
+
+  /** "frame 12: 0.83 m"; of frames that were passed over, nothing. @param {Score} score @param {number} frame */
+  valueWords(score, frame) {
+    const place = this.#place(frame) / (this.survey?.stride ?? 1);
+    const value = this.column(score.name)[place];
+    return value === undefined ? "" : `frame ${frame}: ${format(value, score.unit)}`;
   }
 
   /** Whether the values belong to other thresholds than the drawn ones, or only to some frames. */

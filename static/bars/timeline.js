@@ -49,6 +49,8 @@ export class Timeline {
   #playback;
   #strip;
   #controls;
+  /** The scrubber over the strip. */
+  track;
 
   /** @param {HTMLElement} bar @param {Text} text @param {Handlers} handlers */
   constructor(bar, text, handlers) {
@@ -67,6 +69,7 @@ export class Timeline {
     this.#controls = this.#createControls();
     const { play, speed, number, total, slider, when } = this.#controls;
     const track = h("div", { class: "track" }, ...this.#strip.backdrop, slider.element);
+    this.track = track;
     this.#strip.watch(track);
     const counter = h("span", { class: "counter" }, number.element, total, number.error);
     bar.append(play, handlers.pill, speed, counter, track, this.#strip.chooser, when.element);

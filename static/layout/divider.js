@@ -44,6 +44,7 @@ export function createDivider(text, { upright, size, onSize, onUsual, onToggle }
     /** @param {boolean} hidden */
     show(hidden) {
       element.classList.toggle("closed", hidden);
+      element.classList.toggle("level", !upright());
       grip.setAttribute("aria-orientation", upright() ? "vertical" : "horizontal");
       grip.setAttribute("aria-valuenow", String(Math.round(hidden ? 0 : size())));
       button.show("chevron", hidden ? text.show : text.hide);

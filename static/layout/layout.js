@@ -6,18 +6,21 @@ const KEY = "lineseg.layout";
 const LEAST_PX = 240;
 // Dragged to less than this, a part is hidden.
 const HIDDEN_PX = 120;
+// Plots lower than this are not shown; dragged as far down, the timeline is hidden.
+const SNAP_PX = 24;
+const PLOTS_PX = 200;
 // What remains of the stage.
 const STAGE_PX = 180;
 // In one column the panel lies below the stage. The same condition is in layout.css.
 const ONE_COLUMN = matchMedia("(width <= 720px), (orientation: portrait) and (width <= 1000px)");
 
-/** panel, learn: widths of the panel; below: its height in one column [px]. What is absent has its usual size. @typedef {{panel?: number, learn?: number, below?: number, hidden?: string[]}} Sizes */
+/** panel, learn: widths of the panel; below: its height in one column; plots: height of the plots above the timeline [px]. What is absent has its usual size. @typedef {{panel?: number, learn?: number, below?: number, plots?: number, hidden?: string[]}} Sizes */
 
 /**
- * @param {{main: HTMLElement, panels: HTMLElement[], timeline: HTMLElement}} places
+ * @param {{main: HTMLElement, panels: HTMLElement[], plots: HTMLElement, timeline: HTMLElement}} places
  * @param {typeof import("../text/page.js").pageText.layout} text
  */
-export function createLayout({ main, panels, timeline }, text) {
+export function createLayout({ main, panels, plots, timeline }, text) {
   let sizes = kept();
   const shown = () => panels.find((panel) => !panel.hidden) ?? panels[0];
   const sized = () => (ONE_COLUMN.matches ? "below" : main.dataset.mode === "learn" ? "learn" : "panel");
@@ -29,6 +32,14 @@ export function createLayout({ main, panels, timeline }, text) {
     onToggle: () => toggle("panel"),
   });
   main.append(panelDivider.element);
+  const timelineDivider = createDivider(text.timeline, {
+    upright: () => false,
+    size: () => (isHidden("timeline") ? -HIDDEN_PX / 2 : (sizes.plots ?? 0)),
+    onSize: pullUp,
+    onUsual: () => set({ ...sizes, plots: sizes.plots ? undefined : PLOTS_PX }),
+    onToggle: () => toggle("timeline"),
+  });
+  plots.append(timelineDivider.element);
   ONE_COLUMN.addEventListener("change", show);
 
   /** @param {number} size */
@@ -38,6 +49,14 @@ export function createLayout({ main, panels, timeline }, text) {
     const hides = size < HIDDEN_PX;
     if (hides !== isHidden("panel")) toggle("panel");
     if (!hides) set({ ...sizes, [sized()]: Math.round(Math.min(Math.max(size, least), most)) });
+  }
+
+  /** @param {number} size of the plots */
+  function pullUp(size) {
+    const hides = size < -SNAP_PX;
+    if (hides !== isHidden("timeline")) toggle("timeline");
+    const most = Math.max(0, innerHeight - 2 * STAGE_PX);
+    if (!hides) set({ ...sizes, plots: size < SNAP_PX ? undefined : Math.round(Math.min(size, most)) });
   }
 
   /** @param {string} part */
@@ -58,12 +77,14 @@ export function createLayout({ main, panels, timeline }, text) {
 
   function show() {
     const { style } = document.body;
-    for (const name of /** @type {const} */ (["panel", "learn", "below"])) {
+    for (const name of /** @type {const} */ (["panel", "learn", "below", "plots"])) {
       const size = sizes[name];
       style.setProperty(`--${name}-size`, size ? `${size}px` : "");
     }
     main.classList.toggle("without-panel", isHidden("panel"));
     timeline.hidden = isHidden("timeline");
+    plots.classList.toggle("none", !sizes.plots || isHidden("timeline"));
+    timelineDivider.show(isHidden("timeline"));
     panelDivider.show(isHidden("panel"));
   }
 

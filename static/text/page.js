@@ -158,6 +158,11 @@ export const pageText = {
   },
   layout: {
     panel: { size: "Width of the panel", hide: "Hide the panel (P)", show: "Show the panel (P)" },
+    timeline: {
+      size: "Height of the plots above the timeline",
+      hide: "Hide the timeline (T)",
+      show: "Show the timeline (T)",
+    },
   },
   follow: {
     following: "You are following the presenter.",
@@ -299,6 +304,7 @@ export const pageText = {
     },
     range: (/** @type {number} */ least, /** @type {number} */ most) =>
       `Enter ${least.toLocaleString("en")} to ${most.toLocaleString("en")}.`,
+    plots: { label: "The scores of all frames" },
     strip: {
       label: "Score of the frames",
       pending: "computing scores…",

@@ -47,6 +47,11 @@ def test_the_panel_is_dragged_to_a_width_that_a_new_page_has_too(new_tab: Callab
     tab.eventually(lambda: not tab.page.locator("#panel").is_visible(), "the panel is not hidden")
     tab.page.keyboard.press("p")
     tab.eventually(lambda: tab.page.locator("#panel").is_visible(), "the panel does not come back")
+    # The timeline is pulled up to plots, one for each score that is known.
+    tab.page.locator("#plots .divider-grip").dblclick()
+    tab.eventually(lambda: tab.page.locator(".plot").count() > 5, "no plots")
+    tab.page.keyboard.press("t")
+    tab.eventually(lambda: not tab.page.locator("#timeline, .plot").first.is_visible(), "the timeline is not hidden")
 
 
 def test_at_every_width_nothing_is_cut_off_and_the_view_fits(new_tab: Callable[..., Tab]):
