@@ -82,7 +82,7 @@ const tune = createTune(page, docks, words, {
 });
 const learn = mountLearn(
   { stage: place("stage"), view: stage, dock: place("stepper"), panel: place("learn") },
-  { tune: text.tune, learn: words.learn },
+  { tune: text.tune, learn: words.learn, shown: words.shown },
   { onChange: change, onDraw: page.drawWorld, closeUp: camera.closeUp, settled, session: sessionId },
 );
 const pages = { learn: [place("learn"), place("stepper")], usual: [place("panel"), place("replay")] };

@@ -1051,6 +1051,17 @@ export interface Fitted {
   noise?: Noise | null;
 }
 
+/** How long a method takes for each of some frames [µs]: mean, standard deviation, least and most. */
+export interface MethodTimes {
+  method: string;
+  frames: number[];
+  us: number[];
+  mean: number;
+  std: number;
+  least: number;
+  most: number;
+}
+
 /** Common fields of answers of long work. done: it has ended; stopped: on request; message: why it failed. */
 export interface Worked {
   type: "curves" | "map" | "auto" | "fit";
@@ -1101,10 +1112,14 @@ export interface Named {
 /**
  * What a text looks at: near: beams whose points fill the stage where no decision is shown; none: all of them.
  * names: words for beams, written beside their points.
+ *
+ * show: something to try in the text: points and their fits, the noise of the recording, the times of two methods,
+ * or another method step by step beside the one of the lesson (static/learn/shown.js).
  */
 export interface Looked {
   near: number[];
   names: Record<string, number>;
+  show: "fits" | "noise" | "times" | "beside" | null;
 }
 
 /**
@@ -1116,6 +1131,7 @@ export interface Looked {
 export interface Step {
   near: number[];
   names: Record<string, number>;
+  show: "fits" | "noise" | "times" | "beside" | null;
   text: string;
   method: string | null;
   find: Find | null;
@@ -1129,7 +1145,8 @@ export interface Step {
  * lines: number of lines, [least, most]. together: pairs of beams in one line; either: pairs, one of which must be
  * in one line; apart: pairs in different lines; inside, outside: beams in some line, in no line. changed: the only
  * thresholds that may differ from the lesson's; at least one must. at: kind of the shown decision. selected: beams,
- * one of which must be selected. count: number of such decisions, [least, most].
+ * one of which must be selected. count: number of such decisions, [least, most]. labelled: number of frames of the
+ * recording whose true lines must be labelled.
  */
 export interface Goal {
   lines: [number, number] | null;
@@ -1142,6 +1159,7 @@ export interface Goal {
   at: Find | null;
   selected: number[];
   count: [Find, number, number] | null;
+  labelled: number | null;
 }
 
 /** An answer to choose. why: shown when it was chosen although it is not right. */
@@ -1169,6 +1187,7 @@ export interface Quantity {
 export interface Task {
   near: number[];
   names: Record<string, number>;
+  show: "fits" | "noise" | "times" | "beside" | null;
   text: string;
   hint: string;
   done: string;

@@ -5,21 +5,35 @@ from __future__ import annotations
 import json
 from typing import Annotated, Any
 
+import numpy as np
 from fastapi import FastAPI, Request
 from fastapi.responses import FileResponse, PlainTextResponse
 from pydantic import Field
 from starlette.concurrency import run_in_threadpool
 from starlette.exceptions import HTTPException
 
+from lineseg import EXTRACTORS
+from lineseg.compare.timing import times_of
+
 from ..bounds import Message, Number
+from ..frame.findings import findings_in
+from ..frame.stepping import columns_of
+from ..session.session import Shown
 from ..session.sessions import Sessions
 from ..shelf.lesson import Lessons, NamedLesson
 from ..shelf.lesson_draft import drafted
 from ..shelf.lesson_markup import MEDIA
 from ..shelf.library import Library
 from ..shelf.uploads import TooLargeError, TooManyError, TooSlowError
+from ..told.answers import Fitted, MethodTimes
+from ..told.messages import TraceColumns
+from ..tuning.fit import fit
+from .slow import SlowWork
 
 Short = Annotated[str, Field(min_length=1, max_length=300)]
+# Those of the paper's Fig. 9 and Table 3.
+TIMED = ("region-growing", "split-and-merge")
+TIMED_FRAMES = 100
 HINT = "Go back and look again."
 
 
@@ -38,6 +52,7 @@ class NewLesson(Message):
 def add_lessons(app: FastAPI, library: Library, sessions: Sessions) -> None:
     """Routes of /api/lessons."""
     shelf = library.lessons
+    slow = SlowWork("measurements", 2, 60.0)
 
     @app.get("/api/lessons")
     def lessons() -> Lessons:
@@ -79,6 +94,25 @@ def add_lessons(app: FastAPI, library: Library, sessions: Sessions) -> None:
         except ValueError as error:
             raise HTTPException(400, str(error)) from None
 
+    @app.get("/api/lessons/noise")
+    async def noise(session: str = "") -> Fitted:
+        shown = sessions.shown(session)
+        stop = np.zeros(1, np.bool_)
+        return await slow.run(lambda: next(fit(shown.recording, shown.view.params, shown.view.method, stop)))
+
+    @app.get("/api/lessons/times")
+    async def times(session: str = "") -> list[MethodTimes]:
+        return await slow.run(_times, sessions.shown(session))
+
+    @app.get("/api/lessons/decisions")
+    async def decisions(session: str = "", method: str = "") -> TraceColumns:
+        """The decisions of another method, with its default thresholds, about the frame that a tab shows."""
+        if method not in EXTRACTORS:
+            raise HTTPException(400, f"there is no method {method[:40]!r}; choose from {', '.join(EXTRACTORS)}")
+        scan = sessions.shown(session).found.scan
+        found = await run_in_threadpool(findings_in, scan, method, EXTRACTORS[method].params_type())
+        return columns_of(found)
+
     @app.post("/api/lessons/new")
     async def new(said: NewLesson, session: str = "") -> PlainTextResponse:
         """The file of a lesson of one step with a question, about what this tab shows."""
@@ -88,6 +122,26 @@ def add_lessons(app: FastAPI, library: Library, sessions: Sessions) -> None:
         except ValueError as error:
             raise HTTPException(400, str(error)) from None
         return PlainTextResponse(json.dumps(_with_texts(made, said), indent=2, ensure_ascii=False) + "\n")
+
+
+def _times(shown: Shown) -> list[MethodTimes]:
+    """How long methods take for a frame, on this machine and now [µs]."""
+    recording = shown.recording
+    frames = np.unique(np.linspace(0, len(recording) - 1, TIMED_FRAMES, dtype=int)).tolist()
+    methods = [EXTRACTORS[name] for name in TIMED]
+    taken = np.stack(list(times_of(recording, frames, [(each, each.params_type()) for each in methods])))
+    return [
+        {
+            "method": each.label,
+            "frames": frames,
+            "us": [round(us, 1) for us in of_method.tolist()],
+            "mean": float(of_method.mean()),
+            "std": float(of_method.std()),
+            "least": float(of_method.min()),
+            "most": float(of_method.max()),
+        }
+        for each, of_method in zip(methods, taken.T, strict=True)
+    ]
 
 
 def _with_texts(made: dict[str, Any], said: NewLesson) -> dict[str, Any]:

@@ -56,10 +56,15 @@ class Named(Find):
 
 class Looked(Part):
     """What a text looks at: near: beams whose points fill the stage where no decision is shown; none: all of them.
-    names: words for beams, written beside their points."""
+    names: words for beams, written beside their points.
+
+    show: something to try in the text: points and their fits, the noise of the recording, the times of two methods, or
+    another method step by step beside the one of the lesson (static/learn/shown.js).
+    """
 
     near: tuple[Beam, ...] = ()
     names: dict[Annotated[str, Field(max_length=40)], Beam] = {}
+    show: Literal["fits", "noise", "times", "beside"] | None = None
 
 
 class Step(Looked):
@@ -88,7 +93,8 @@ class Goal(Part):
     lines: number of lines, [least, most]. together: pairs of beams in one line; either: pairs, one of which must be in
     one line; apart: pairs in different lines; inside, outside: beams in some line, in no line. changed: the only
     thresholds that may differ from the lesson's; at least one must. at: kind of the shown decision. selected: beams,
-    one of which must be selected. count: number of such decisions, [least, most].
+    one of which must be selected. count: number of such decisions, [least, most]. labelled: number of frames of the
+    recording whose true lines must be labelled.
     """
 
     lines: tuple[int, int] | None = None
@@ -101,6 +107,7 @@ class Goal(Part):
     at: Find | None = None
     selected: tuple[Beam, ...] = ()
     count: tuple[Find, int, int] | None = None
+    labelled: Annotated[int, Field(ge=1)] | None = None
 
 
 class Option(Part):

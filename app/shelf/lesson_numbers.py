@@ -2,7 +2,8 @@
 
 `{epsilon}`: a threshold, as it is with this text. `{beams}`, `{returns}`: of the scan. `{lines}`, `{shortest}`,
 `{longest}`: of the result. `{beam}`, `{first}`, `{last}`, `{points}`, `{value}`, `{limit}`, `{over}`: of the decision
-that the text shows; `{aside}`: how far its first beam is from its line. `{NAME.beam}` and so on: of a decision that the
+that the text shows; `{aside}`: how far its first beam is from its line; `{joined}`: how far its beam would be from the
+line fitted with it. `{NAME.beam}` and so on: of a decision that the
 lesson names in `decisions`; `{NAME.count}`: how many match it. `:mm`, `:cm`, `:deg` after the name choose the unit.
 """
 
@@ -14,6 +15,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
+
+import numpy as np
 
 from lineseg.extractors import EXTRACTORS
 from lineseg.params import Params
@@ -30,7 +33,7 @@ UNITS: dict[str, Callable[[float], str]] = {
     "cm": lambda value: f"{100 * value:.0f}\u00a0cm",
     "deg": lambda value: f"{math.degrees(value):.1f}°",
 }
-OF_A_DECISION = ("beam", "first", "last", "points", "value", "limit", "over", "aside")
+OF_A_DECISION = ("beam", "first", "last", "points", "value", "limit", "over", "aside", "joined")
 
 
 @dataclass(frozen=True)
@@ -88,9 +91,22 @@ class Numbers:
             a, b, c = decision.line
             x, y = self.scan.xy[decision.first]
             return abs(a * x + b * y + c), _metres
+        if field == "joined":
+            return self._joined(traced, decision), _metres
         value = abs(decision.value - decision.limit) if field == "over" else getattr(decision, field)
         counted = decision.check in ("min_points", "max_dropout")
         return value, _count if counted else UNITS["deg"] if decision.check == "merge_angle" else _metres
+
+    def _joined(self, traced: Trace, decision: Decision) -> float:
+        """The distance of the beam of a decision from the line that is fitted to its points and to this one."""
+        if decision.beam < 0:
+            raise ValueError(f"{{joined}}: “{decision.kind}” is about no single beam")
+        beams = [*traced.beams(decision.first, decision.last), decision.beam]
+        xy = self.scan.xy[[beam for beam in beams if self.scan.valid[beam]]]
+        from_mean = xy - xy.mean(axis=0)
+        # The normal is the direction in which the points scatter least.
+        normal = np.linalg.svd(from_mean)[2][1]
+        return float(abs(from_mean[-1] @ normal))
 
     def shown_decision(self) -> Decision | None:
         """The decision that the text shows. Raises ValueError if there is none such."""

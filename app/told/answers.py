@@ -261,6 +261,18 @@ class Fitted(TypedDict, total=False):
     noise: Noise | None
 
 
+class MethodTimes(TypedDict):
+    """How long a method takes for each of some frames [µs]: mean, standard deviation, least and most."""
+
+    method: str
+    frames: list[int]
+    us: list[float]
+    mean: float
+    std: float
+    least: float
+    most: float
+
+
 class Worked(TypedDict):
     """Common fields of answers of long work. done: it has ended; stopped: on request; message: why it failed."""
 

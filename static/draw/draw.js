@@ -207,8 +207,9 @@ class Draw {
   }
 
   /** @param {Readonly<import("../wire.js").View>} view */
-  setView({ recording }) {
-    const next = worldOf(recording);
+  setView({ recording, lesson }) {
+    // The world of a lesson stays as its texts say.
+    const next = lesson === null ? worldOf(recording) : null;
     if (next && this.#world && idOf(this.#world) === idOf(next)) return;
     if (!next) {
       this.#world = null;

@@ -4,6 +4,7 @@ import { createOverlay } from "../stage/overlay.js";
 import { h, setText } from "../widgets/dom.js";
 import { createCharts } from "./charts.js";
 import { fetchInto } from "./fetched.js";
+import { Diagram } from "./diagram.js";
 import { Glossary } from "./glossary.js";
 import { createFormulas } from "./formulas.js";
 import { termAt } from "./hit.js";
@@ -14,6 +15,7 @@ import { shapeOf } from "./shapes.js";
 import { shapeOfQuestion } from "./question.js";
 import { boxOnStage, openMaking } from "./make_lesson.js";
 import { createPredict } from "./predict.js";
+import { SplitListing } from "./split_listing.js";
 import { Stepper } from "./stepper.js";
 import { Trace } from "./trace.js";
 import { trailOf } from "./trail.js";
@@ -26,7 +28,7 @@ import { compared, variables } from "./values.js";
 /** @typedef {{project: (x: number, y: number) => [number, number] | null, onMove: (listener: () => void) => void,
  *            onHover: (listener: (at: [number, number] | null) => void) => void, fit: (box: import("../wire.js").Box) => void}} PlanView */
 /** @typedef {{stage: HTMLElement, view: PlanView, dock: HTMLElement, panel: HTMLElement}} Places */
-/** @typedef {{tune: typeof import("../text/page.js").pageText.tune, learn: typeof import("../text/learn.js").learnText}} Words */
+/** @typedef {{tune: typeof import("../text/page.js").pageText.tune, learn: typeof import("../text/learn.js").learnText, shown: typeof import("../text/shown.js").shownText}} Words */
 /** @typedef {{onChange: (patch: Patch, gesture?: string | null) => void,
  *            onDraw: () => void, closeUp: {toggle: () => void, ask: (asked: boolean) => void}, settled: () => boolean, session: () => string}} Handlers */
 
@@ -58,6 +60,8 @@ class Learn {
   #glossary;
   /** @type {Listing | null} */ #listing = null;
   #listingPlace = h("div", { class: "listing-place" });
+  #splitting;
+  #diagram;
   #other = h("p", { class: "hint other-method", hidden: true });
 
   /** @param {Places} places @param {Words} words @param {Handlers} handlers */
@@ -68,6 +72,7 @@ class Learn {
     this.#view = view;
     this.#dock = dock;
     this.#handlers = handlers;
+    this.#splitting = new SplitListing(text.listing);
     this.#overlay = createOverlay(stage, view);
     this.#formulas = createFormulas(text.formulas, (term) => this.#showTerm(term));
     view.onHover((at) => this.#lightTerm(at));
@@ -107,10 +112,19 @@ class Learn {
     const project = (/** @type {number} */ x, /** @type {number} */ y) => view.project(x, y);
     const box = () => (this.#event ? null : boxOnStage(project, stage));
     const onMake = () => openMaking(text.making, { session, box, onMade: (lessons) => this.takeLessons(lessons) });
-    this.#lessons = new Lessons(words, this.#glossary, { onChange, onDraw, onGo, onMake });
+    this.#lessons = new Lessons(words, this.#glossary, { onChange, onDraw, onGo, onMake, session });
     panel.setAttribute("aria-label", text.panel);
-    const method = h("div", { class: "method" }, this.#other, this.#listingPlace, this.#formulas.element);
-    panel.append(this.#lessons.element, method);
+    const method = h(
+      "div",
+      { class: "method" },
+      this.#lessons.showing.element,
+      this.#other,
+      this.#splitting.element,
+      this.#listingPlace,
+      this.#formulas.element,
+    );
+    this.#diagram = new Diagram(text.diagram, (id) => this.#lessons.open(id));
+    panel.append(this.#diagram.element, this.#lessons.element, method);
     dock.append(this.#charts.element, this.#ladder.element);
     this.#chooseView("step");
     this.#fetchListing();
@@ -214,6 +228,8 @@ class Learn {
     this.#dock.classList.toggle("asking", this.#predict.asked !== null);
     this.#formulas.set(explained, this.#trace, this.#params);
     this.#charts.set(explained, this.#trace, this.#params);
+    this.#diagram.light(explained);
+    this.#splitting.light(event?.kind ?? "");
     this.#listing?.set(explained, event ? variables(event) : [], event ? compared(event, this.#knobs) : "");
   }
 
@@ -251,8 +267,10 @@ class Learn {
   setMethod(method, [{ knobs }]) {
     this.#knobs = knobs;
     this.#own = method.knobs === knobs;
+    this.#diagram.element.hidden = !this.#own;
     this.#listingPlace.hidden = this.#formulas.element.hidden = !this.#own;
     this.#other.hidden = this.#own;
+    this.#splitting.setMethod(method.name, method.label);
     setText(this.#other, this.#text.otherMethod(method.label, method.citation));
     const { toggle, score } = this.#predict;
     for (const part of [...this.#views.values(), this.#trail, toggle, score]) part.hidden = !this.#own;

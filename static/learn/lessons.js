@@ -8,6 +8,7 @@ import { fetchInto } from "./fetched.js";
 import { find, missing } from "./goals.js";
 import { LessonList } from "./lesson_list.js";
 import { Reader } from "./reader.js";
+import { Showing } from "./shown.js";
 
 /** @typedef {import("../wire.js").State} State */
 /** @typedef {import("../wire.js").View} View */
@@ -19,7 +20,7 @@ import { Reader } from "./reader.js";
 /** @typedef {import("../wire.js").Step} LessonStep */
 /** @typedef {import("../wire.js").NamedLesson} Lesson */
 /** @typedef {import("../wire.js").Lessons} Told */
-/** @typedef {{onChange: (patch: Patch, gesture?: string | null) => void, onGo: (step: number | null) => void, onDraw: () => void, onMake: () => void}} Handlers */
+/** @typedef {{onChange: (patch: Patch, gesture?: string | null) => void, onGo: (step: number | null) => void, onDraw: () => void, onMake: () => void, session: () => string}} Handlers */
 
 // Every lesson is about this method; a step may show another for comparison.
 const METHOD = "region-growing";
@@ -57,6 +58,7 @@ export class Lessons {
       onLesson: (id) => this.open(id),
       onAnswer: (solved, why) => this.#answered(solved, why),
     });
+    this.showing = new Showing(words.shown, { session: handlers.session, knobs: () => this.#knobs });
     this.element = h(
       "section",
       { class: "lesson", "aria-label": text.label },
@@ -159,6 +161,7 @@ export class Lessons {
     this.#pending = null;
     this.#before = null;
     this.#reader.close();
+    this.showing.turn(null);
     this.element.dataset.page = "";
     this.#list.element.hidden = false;
     this.#list.show();
@@ -194,6 +197,7 @@ export class Lessons {
     const { steps, task } = lesson;
     const step = steps.at(this.#at) ?? null;
     this.#solved = false;
+    this.showing.turn((step ?? task).show);
     this.element.dataset.page = step ? "step" : "task";
     this.#reader.show({
       lesson: lesson.id,
@@ -256,7 +260,9 @@ export class Lessons {
   /** @param {State} state drawn, and nothing else under way @param {Trace} trace of it */
   settle(state, trace) {
     const lesson = this.#lesson;
+    if (lesson?.task.goal?.labelled && this.#at === lesson.steps.length) return void this.#checkLabels(lesson);
     if (!lesson || state.recording !== lesson.recording || state.frame !== lesson.frame) return;
+    this.showing.set(state);
     const { method, params } = this.#wanted();
     if (this.#pending && state.method === method && same(params, state.params)) {
       const target = this.#pending.find;
@@ -283,13 +289,26 @@ export class Lessons {
     if (this.#solved) this.#list.markDone(id);
   }
 
+  /** Labels are made in other frames and another mode, so they are counted when someone comes back. @param {Lesson} lesson */
+  async #checkLabels(lesson) {
+    const wanted = lesson.task.goal?.labelled ?? 0;
+    const query = new URLSearchParams({ recording: lesson.recording });
+    const { words, trouble } = await fetchText(`/api/labels?${query}`);
+    if (this.#lesson !== lesson || this.#at !== lesson.steps.length || this.#solved) return;
+    if (trouble !== null) return this.#reader.judge(false, trouble);
+    const told = /** @type {import("../wire.js").LabelsOverview} */ (JSON.parse(words));
+    const done = Object.values(told.frames).filter(({ lines }) => lines !== null).length;
+    if (done < wanted) return this.#reader.judge(false, done ? this.#words.learn.goals.labelled(done, wanted) : "");
+    return this.#answered(true, "");
+  }
+
   /** What was chosen or typed. @param {boolean} solved @param {string} why it is not right, if anyone has said so */
   #answered(solved, why) {
     const text = this.#words.learn.lesson;
     const lesson = this.#lesson;
     if (!lesson) return;
     this.#solved = solved;
-    this.#reader.judge(solved, solved ? `${text.right} ${lesson.task.done}` : `${text.no} ${why}`);
+    this.#reader.judge(solved, solved ? `${text.right} ${lesson.task.done}` : `${text.notYet} ${why}`);
     if (solved) this.#list.markDone(lesson.id);
   }
 }

@@ -119,7 +119,7 @@ function noteMark(k, note, phase, misprint) {
 }
 
 /** Words of a line of code: keywords bold, symbols set as in the paper. @param {string} words */
-function rich(words) {
+export function rich(words) {
   return words.split(/(\s+)/).flatMap((word) => {
     const bare = word.replace(/,$/, "");
     return KEYWORDS.test(bare) ? [h("b", {}, bare), word.slice(bare.length)] : symbols(word);

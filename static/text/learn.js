@@ -16,7 +16,7 @@ export const learnText = {
     answer: "in Learn: answer a prediction",
   },
   otherMethod: (/** @type {string} */ label, /** @type {string} */ citation) =>
-    `${label} (${citation}) is replayed here decision by decision. Pseudocode, formulas, charts and lessons are those of region growing.`,
+    `${label} (${citation}) is replayed here decision by decision. Formulas, charts and most lessons are those of region growing.`,
   whole: (/** @type {number} */ lines, /** @type {number} */ steps) =>
     `The final result: ${lines} ${lines === 1 ? "line" : "lines"}, from ${steps.toLocaleString("en")} decisions. Press → to step through them.`,
   nothing: "This frame has no decisions: too few beams have a return.",
@@ -68,9 +68,23 @@ export const learnText = {
     hint: "Hint",
     place: (/** @type {number} */ n, /** @type {number} */ all) => `${n} of ${all}`,
     right: "Done.",
-    no: "No.",
     notYet: "Not yet.",
     doneMark: "done",
+  },
+  diagram: {
+    label: "The method as blocks (Fig. 3); each leads to its lesson",
+    blocks: {
+      fit: ["Fit", "Orthogonal least squares (Eqs. 1, 2): every block fits its lines in this way"],
+      seed: ["Seed", "A few neighbouring points that lie on one line (Algorithm 1, Eqs. 3–6)"],
+      growth: ["Growth", "The line takes in neighbours forward and backward (Algorithm 2)"],
+      enough: [
+        "Keep?",
+        "Lines with too few points or too short are dropped; then the next seed is sought (Algorithm 2)",
+      ],
+      overlap: ["Overlap", "Lines that share points are merged or cut (Algorithm 3)"],
+      endpoints: ["Ends", "The outermost points are moved onto the line (Eqs. 7, 8)"],
+      segments: ["Result", "The result; how good it is, say TR and FR (Eqs. 9, 10)"],
+    },
   },
   answers: {
     choose: "Choose an answer",
@@ -99,6 +113,8 @@ export const learnText = {
     lesson: (/** @type {number} */ number) => `Lesson ${number}`,
   },
   goals: {
+    labelled: (/** @type {number} */ done, /** @type {number} */ wanted) =>
+      `You have labelled ${done} of ${wanted} frames of this recording.`,
     nothingChanged: "All thresholds still have the values that this lesson gave them.",
     wrongThreshold: "You changed a threshold that this task does not ask for. Undo that (Ctrl+Z).",
     onlyOne: "You changed more than one threshold; change only one.",

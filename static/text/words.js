@@ -11,12 +11,14 @@ import { liveText } from "./live.js";
 import { pageText } from "./page.js";
 import { readingText } from "./reading.js";
 import { rerunText } from "./rerun.js";
+import { shownText } from "./shown.js";
 import { tuningText } from "./tuning.js";
 
 export const words = {
   page: pageText,
   tuning: tuningText,
   learn: learnText,
+  shown: shownText,
   inspect: inspectText,
   label: labelText,
   draw: drawText,

@@ -399,6 +399,18 @@ def press(*keys: str):
     return press_them
 
 
+def choose(words: str):
+    return lambda tab: tab.page.get_by_role("button", name=words).click()
+
+
+def typed(number: str):
+    def type_it(tab) -> None:
+        tab.page.get_by_label("Your answer").fill(number)
+        tab.page.get_by_role("button", name="Check").click()
+
+    return type_it
+
+
 # For each lesson: wrong answers with what is said of them, and a right one.
 TASKS = {
     "01_seed": (
@@ -440,6 +452,11 @@ TASKS = {
         [(lambda tab: run_to(tab, 60), "Beam 60 is not the answer. There are right ones with lower and")],
         lambda tab: run_to(tab, 36),
     ),
+    "13_least_squares": ([(choose("It does not exist"), "Turn the wall until")], choose("It is the same line")),
+    "14_without_it": ([(typed("26"), "It is too small."), (typed("40"), "It is too large.")], typed("28")),
+    "15_laser": ([(value("epsilon", 0.04), "ε is too small.")], value("epsilon", 0.065)),
+    "17_splitting": ([(choose("It fits a line"), "That is how")], choose("It tests each next point")),
+    "18_time": ([(typed("24"), "It is too small."), (typed("26"), "It is too large.")], typed("25")),
 }
 
 
@@ -460,5 +477,25 @@ def test_a_task_says_on_which_side_a_wrong_answer_is_and_takes_the_right_one(new
     says(tab, "Done.")
 
 
+@pytest.mark.own_tab
+def test_frames_that_were_labelled_elsewhere_count_for_a_task(new_tab, address):
+    told = address.get("/api/labels", params={"recording": "sample:hallway"}).json()
+    assert not told["frames"]
+    tab = to_the_task(new_tab, "16_correctness")
+    for frame in range(20, 30):
+        line = {"first": 10, "last": 60}
+        body = {"recording": "sample:hallway", "frame": frame, "revision": 0, "lines": [line], "tags": [], "note": ""}
+        assert address.put("/api/labels", json=body).status_code == 200
+        if frame == 22:
+            tab.page.get_by_role("button", name="Inspect").click()
+            tab.until("s.mode === 'inspect'")
+            tab.page.get_by_role("button", name="Learn").click()
+            says(tab, "You have labelled 3 of 10 frames")
+    tab.page.keyboard.press("End")
+    says(tab, "Done.")
+
+
 def test_every_lesson_has_a_task_in_these_tests():
-    assert set(TASKS) == {path.stem for path in (data_folder("sample_scans") / "lessons").glob("*.json")}
+    assert {*TASKS, "16_correctness"} == {
+        path.stem for path in (data_folder("sample_scans") / "lessons").glob("*.json")
+    }

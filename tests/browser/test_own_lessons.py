@@ -79,6 +79,6 @@ def test_a_lesson_is_made_of_what_is_shown(new_tab):
     assert tab.until("s.view.lesson && s.step === 20")["decision"]["text"] == shown
     tab.page.locator(".lesson-foot .primary").click()
     tab.page.get_by_role("button", name="That one").click()
-    tab.page.locator(".lesson-verdict", has_text="No.").wait_for()
+    tab.page.locator(".lesson-verdict", has_text="Not yet.").wait_for()
     tab.page.get_by_role("button", name="This one").click()
     tab.page.locator(".lesson-verdict.solved").wait_for()

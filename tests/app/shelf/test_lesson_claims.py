@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import re
 from collections.abc import Callable
 from functools import cache
@@ -25,6 +26,8 @@ COUNTED = re.compile(
     r"smaller|larger|last|no (?:line|point))\b",
     re.IGNORECASE,
 )
+# Where the paper has something.
+REFERENCE = re.compile(r" \((?:Eq|Fig|Table)s?\.?[^)]*\)")
 # Rules of the method, advice, and what is asked of the reader: nothing that a scan could contradict.
 RULES = (
     "One line is fitted through all points of both",
@@ -76,6 +79,38 @@ RULES = (
     "Overlapping lines with nearly the same direction are merged into one",
     "Where two walls meet, the points near the corner fit both",
     "the first points of a line limit which later points can join",
+    "the one of most textbooks",
+    "and both lines follow",
+    "“Turn the wall by 30°” again",
+    "the steeper the wall, the farther it turns away",
+    "A laser sees walls of every direction",
+    "Compare both distances in the sentence below",
+    "No line has a smaller rms distance across itself, by definition",
+    "when all points are turned, it turns with them",
+    "How far would beam 512 be",
+    "it must be larger than the noise",
+    "The picture below shows the noise",
+    "stands back by less than ε is the same as the wall",
+    "[Lesson 7](lesson:07_epsilon)",
+    "The sentence below the picture says how many",
+    "You say which lines there are, in ten frames",
+    "if they share more than half of all their points",
+    "found in two pieces is one match and one false line",
+    "The paper did that in ten frames of each recording",
+    "Label ten frames of this recording",
+    "the other begins with *all* points",
+    "draws a line through the two ends of a stretch",
+    "because only the two ends define it",
+    "then fits each stretch to all of its points",
+    "[lesson 12](lesson:12_split_and_merge) looks at it",
+    "with a line fitted to all points so far",
+    "Splitting decides from the two ends",
+    "on two recordings: 0.445 ms against 6.762 ms for a frame, and 0.329 ms against 5.193 ms",
+    "instead of being computed anew from all points",
+    "both methods may be fast enough",
+    "About three times σ is a good beginning",
+    "It tests each next point against the line so far",
+    "Splitting looks at all points of a stretch again",
 )
 
 
@@ -94,7 +129,8 @@ def written(lesson: str) -> str:
     (file,) = (file for file in lesson_files() if file.stem == lesson)
     told = json.loads(file.read_text("utf-8"))
     texts = [told["about"], *(step["text"] for step in told["steps"])]
-    return "\n".join([*texts, *(told["task"][part] for part in ("text", "hint", "done"))])
+    answers = [option[part] for option in told["task"].get("choice", ()) for part in ("text", "why") if part in option]
+    return "\n".join([*texts, *(told["task"][part] for part in ("text", "hint", "done")), *answers])
 
 
 @cache
@@ -593,6 +629,86 @@ def _():
     assert np.flatnonzero(outside).tolist() == [*range(34, 39), *range(102, 107)]
 
 
+@claim(
+    "13_least_squares",
+    "has an upright wall and a level one, and both are found",
+)
+def _():
+    upright, level = (line.line for line in traced("13_least_squares").extraction.segments)
+    assert max(abs(upright[1]), abs(level[0])) < 1e-3
+
+
+@claim(
+    "14_without_it",
+    "more than ε = {limit}, so growth stops",
+    "only {joined} from the line: less than ε",
+    "ε = {epsilon} lies between",
+    "The farther away the candidate is, the more it turns a short line",
+)
+def _():
+    scan, epsilon = at("14_without_it"), params_of("14_without_it").epsilon
+    stops = {d.beam: d for d in decisions("14_without_it", "growth stopped", "epsilon") if d.direction == 1}
+    near, far = stops[512], stops[642]
+    for stop in (near, far):
+        with_it = line_through(scan.xy[[*window(stop), stop.beam]])
+        assert aside(scan, with_it, [stop.beam])[0] < epsilon < stop.value
+        assert aside(scan, stop.line, [stop.beam])[0] == pytest.approx(stop.value)
+    turns = [turned_by(scan, stop) for stop in (near, far)]
+    assert turns[0] < turns[1]
+
+
+def line_through(xy: np.ndarray) -> tuple[float, float, float]:
+    normal = np.linalg.svd(xy - xy.mean(axis=0))[2][1]
+    return float(normal[0]), float(normal[1]), -float(normal @ xy.mean(axis=0))
+
+
+def turned_by(scan: Scan, stop: Decision) -> float:
+    with_it = line_through(scan.xy[[*window(stop), stop.beam]])
+    return abs(stop.line[0] * with_it[1] - stop.line[1] * with_it[0])
+
+
+@claim(
+    "15_laser", "Three walls and a pillar", "Set ε so that each of the three walls is one line", "about three times σ"
+)
+def _():
+    sigma, (low, _) = 0.02, LESSONS["15_laser"].accepted["epsilon"]
+    assert 2 * sigma < low < 3.5 * sigma
+    assert right("15_laser", epsilon=3.2 * sigma)
+
+
+@claim(
+    "15_laser",
+    "about one in three lies farther from its wall than σ, one in twenty farther than 2 σ",
+)
+def _():
+    beyond = [math.erfc(times / math.sqrt(2)) for times in (1, 2, 3)]
+    assert [round(1 / share) for share in beyond] == [3, 22, 370]
+
+
+@claim("16_correctness", "with six true lines in each, a single line changes TR by 1.7 %")
+def _():
+    assert pytest.approx(1.7, abs=0.05) == 100 / (10 * 6)
+
+
+@claim("17_splitting", "Both drop short lines")
+def _():
+    for method in ("iterative-end-point-fit", "split-and-merge"):
+        made = trace_by(at("17_splitting"), method, Params())
+        assert any(d.kind == "line dropped" for d in made)
+
+
+@claim("17_splitting", "Step through both until the end. Why does region growing not lose the end of the niche?")
+def _():
+    wall = at("17_splitting").wall
+    back = np.flatnonzero(wall == 2)
+    assert lines("17_splitting")[1][1] >= back[-1]
+
+
+@claim("18_time", "A second has 1000 ms", "40 scans a second")
+def _():
+    assert LESSONS["18_time"].task.number.answer == f"{1000 / 40:g} ms"
+
+
 @pytest.mark.parametrize(("lesson", "quoted", "check"), CLAIMS, ids=[f"{of}: {quoted[0]}" for of, quoted, _ in CLAIMS])
 def test_what_a_lesson_claims_is_true(lesson: str, quoted: tuple[str, ...], check: Callable[[], object]):
     for each in quoted:
@@ -605,7 +721,7 @@ def test_every_sentence_with_a_number_or_a_comparison_is_filled_or_claimed(lesso
     quotes = [each for of, quoted, _ in CLAIMS if of == lesson for each in quoted] + list(RULES)
     unfounded = [
         sentence
-        for sentence in re.split(r"(?<=[.!?])\s+", written(lesson))
+        for sentence in re.split(r"(?<=[.!?])\s+", REFERENCE.sub("", written(lesson)))
         if COUNTED.search(re.sub(r"\w+_\w+", "", PLACEHOLDER.sub("", sentence)))
         and not any(quoted in sentence for quoted in quotes)
     ]
@@ -613,7 +729,7 @@ def test_every_sentence_with_a_number_or_a_comparison_is_filled_or_claimed(lesso
 
 
 def test_every_rule_is_still_in_a_lesson():
-    assert [rule for rule in RULES if not any(rule in written(lesson) for lesson in LESSONS)] == []
+    assert [rule for rule in RULES if not any(rule in REFERENCE.sub("", written(lesson)) for lesson in LESSONS)] == []
 
 
 @pytest.mark.parametrize("lesson", LESSONS.values(), ids=lambda lesson: lesson.id)
