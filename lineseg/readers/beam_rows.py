@@ -204,7 +204,7 @@ def table_of(
             )
             continue
         values = [dialect.number(cell) for cell in cells[:width]]
-        wrong = next((at for at in (range(2) if needed is None else needed) if values[at] is None), None)
+        wrong = next((at for at in (range(min(2, width)) if needed is None else needed) if values[at] is None), None)
         if wrong is not None:
             shown = cells[wrong][:40].decode("utf-8", "replace")
             source.notes.skip(f"{source.name}:{row.number}", f"{shown!r} is not a number")
@@ -233,6 +233,8 @@ def _plain_table(rows: list[Row], dialect: Dialect, width: int) -> NDArray[np.fl
 
 def _guessed(source: Source, table: NDArray[np.float64]) -> Roles:
     """What columns without names hold: the angle is the one whose steps are about equal; or bearings of x and y are."""
+    if table.shape[1] < 2:
+        raise ValueError(f"{source.name} has {len(table)} rows of one number; is the file complete?")
     columns = [column for column in range(table.shape[1]) if np.isfinite(table[:, column]).mean() > 0.5]
     found: list[tuple[float, Roles]] = []
     for angle in columns:

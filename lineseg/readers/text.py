@@ -29,6 +29,8 @@ TEXT_FORMS = "use one scan per row, or columns of angle and distance, or a table
 ANGLE = re.compile("([-+]?\\d+(?:[.,]\\d+)?)(\\s*(?:deg|rad|°)?)".encode(), re.IGNORECASE)
 MARK = re.compile(rb"[,;\t]")
 MOST_NAMES = 4
+# The column of numbers that a header leaves out.
+UNNAMED = Name("index")
 # With fewer rows, nothing is a title.
 FEW_ROWS = 6
 SAMPLE = 40
@@ -209,7 +211,7 @@ def _names(dialect: Dialect, head: list[Row], cells: list[bytes]) -> list[Name]:
         if len(cells) != width == len(wide):
             cells = wide
     names = [name_of(text_of(cell)) for cell in cells]
-    return [Name("index"), *names] if _are_numbered(dialect, head[1:], len(names)) else names
+    return [UNNAMED, *names] if _are_numbered(dialect, head[1:], len(names)) else names
 
 
 def _are_numbered(dialect: Dialect, rows: list[Row], names: int) -> bool:
@@ -287,7 +289,7 @@ def _read_beams(
             return _read_columns_of_scans(source, reading, rows, dialect, names, angle, columns)
     if any(map(is_distance, names)) and any(map(is_beam, names)):
         return read_numbered(source, reading, rows, dialect, names)
-    shown = " ".join(name.plain for name in names)
+    shown = " ".join(name.plain for name in names[names[0] == UNNAMED :])
     raise ValueError(
         f"{source.name} begins with {shown[:60]!r}, which names no column angle; {TEXT_FORMS} "
         "The flag --columns says what the columns hold."

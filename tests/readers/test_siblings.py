@@ -187,6 +187,7 @@ def test_other_forms_of_a_table_are_read_right_and_guesses_are_marked(tmp_path, 
         ("[appName]\nUrgBenri\n[timestamp]\n1\n[scan]\n1;2;3\n", "does not say .*totalSteps.*; give angle_min"),
         ("t,x,y,qx,qy,qz,qw\n" + "".join(f"{n},{n},0,0,0,0,1\n" for n in range(9)), "has poses, not scans"),
         ("".join(f"{n} {n} 0 0 0 0 0 1\n" for n in range(20)), "has poses, not scans.*--poses"),
+        ("1716200000.250\n181, 0", "2 rows of one number; is the file complete"),
         ("CREATE TABLE scan (angle real, dist real);\n", "SQL statements; save the table as CSV"),
     ],
 )
