@@ -13,6 +13,8 @@ from live import Address, page_of, serving
 from websockets.exceptions import WebSocketException
 from websockets.sync.client import connect
 
+from lineseg import open_recording
+
 CASES = 5000
 
 
@@ -28,6 +30,35 @@ def test_damaged_files_and_messages_open_or_are_refused_with_one_sentence(caplog
     assert (counts["cases"], told) == (CASES, [])
     unexpected = [record.getMessage() for record in caplog.records if record.name == "lineseg.failing"]
     assert unexpected == []
+
+
+MATRIX = "ranges = [1.2 1.3; 1.4 1.5];\n"
+MESSAGE = "angle_min: -1.0\nangle_max: 1.0\nangle_increment: 0.01\nranges: [1.0, 2.0, "
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("word.m", MATRIX + "a" * 300_000),
+        ("dots.m", MATRIX + "." * 300_000),
+        ("brackets.m", MATRIX + "a = [" * 30_000),
+        ("expression.m", MATRIX + "a = " + "(" * 300_000),
+        ("statements.m", MATRIX + "".join(f"a{k} = {k};\n" for k in range(10_000))),
+        ("lines.yaml", MESSAGE + "\n" * 300_000),
+    ],
+)
+def test_a_long_run_is_not_read_again_for_each_of_its_characters(tmp_path: Path, name: str, text: str):
+    # Otherwise this takes minutes, in which a server would answer nobody.
+    (tmp_path / name).write_text(text)
+    with pytest.raises(ValueError, match=name):
+        open_recording(tmp_path / name)
+
+
+def test_what_a_short_file_computes_is_bounded(tmp_path: Path):
+    path = tmp_path / "computed.m"
+    path.write_text(MATRIX + "".join(f"a{k} = linspace(0, 1, 16000000);\n" for k in range(100)))
+    with pytest.raises(ValueError, match=r"computed\.m would have more than 256 MB"):
+        open_recording(path)
 
 
 def test_a_tab_goes_on_whatever_its_page_sends(server: Address, caplog: pytest.LogCaptureFixture):

@@ -5,7 +5,8 @@ from __future__ import annotations
 import ast
 import operator
 import re
-from collections.abc import Iterator, Mapping
+from collections import ChainMap
+from collections.abc import Iterator, Mapping, MutableMapping
 from dataclasses import replace
 from typing import Any
 
@@ -14,6 +15,7 @@ from numpy.typing import NDArray
 
 from ..scan import Recording
 from .arrays import is_exchange, recording_of_arrays
+from .bounded import TooLargeError, limit_of, too_large
 from .headers import name_of
 from .json_scans import FIELD
 from .npz import recording_of_exchange
@@ -25,14 +27,17 @@ MATRIX = re.compile(rb"^[ \t]*[A-Za-z][\w.]*[ \t]*=[ \t]*\(?\[", re.MULTILINE)
 # Lines of Python, TOML and YAML do not end so.
 LINE_END = re.compile(rb"(?:;|\.\.\.)[ \t]*\r?$", re.MULTILINE)
 COMMENT = re.compile(r"[%#].*$", re.MULTILINE)
-CONTINUED = re.compile(r"\.\.\.[^\n]*\n")
-STATEMENT = re.compile(r"([A-Za-z][\w.]*)\s*=(?!=)\s*")
+# None of these may read a long run of characters again for each character of it.
+CONTINUED = re.compile(r"\.\.\.[^\n]*(?:\n|\Z)")
+STATEMENT = re.compile(r"(?<![\w.])([A-Za-z][\w.]*)\s*=(?!=)\s*")
+BRACKETS = re.compile(r"\[([^\[\]]*)\]('?)")
 COLON = re.compile(r"\(?([^:()]+):([^:()]+)(?::([^:()]+))?\)?(\s*[*/].*)?")
 OPERATORS: dict[type, Any] = {
     ast.Add: operator.add, ast.Sub: operator.sub, ast.Mult: operator.mul, ast.Div: operator.truediv,
     ast.USub: operator.neg, ast.UAdd: operator.pos,
 }  # fmt: skip
 MOST_VALUES = 1 << 24
+LONGEST_EXPRESSION = 4000
 Value = float | NDArray[np.float64]
 
 
@@ -54,7 +59,11 @@ class Matlab(Reader):
         text = source.path.read_bytes().decode("utf-8", "replace")
         pairs = _saved(text) if text.startswith(OCTAVE.decode()) else _assigned(text)
         arrays: dict[str, NDArray[Any]] = {}
+        size, limit = 0, limit_of(len(text))
         for name, value in pairs:
+            size += np.asarray(value).nbytes
+            if size > limit:
+                raise TooLargeError(too_large(source.name, limit))
             plain = name_of(name.split(".")[-1]).plain
             arrays[FIELD.get(plain, name.split(".")[-1])] = np.squeeze(np.asarray(value))
         if not arrays:
@@ -80,20 +89,20 @@ def _assigned(text: str) -> Iterator[tuple[str, Value]]:
     while found := STATEMENT.search(text, at):
         at = found.end()
         matrices: dict[str, Value] = {}
-        expression = ""
+        expression = list[str]()
         while at < len(text) and text[at] not in ";\n":
             if text[at] == "[":
-                end = text.find("]", at)
-                matrix = _matrix(text[at + 1 : end]) if end > 0 else None
-                if matrix is None:
+                brackets = BRACKETS.match(text, at)
+                matrix = _matrix(brackets[1]) if brackets else None
+                if brackets is None or matrix is None:
                     break
-                turned = text[end + 1 : end + 2] == "'"
-                name = f"matrix{len(matrices)}"
-                matrices[name] = matrix.T if turned else matrix
-                expression, at = expression + name, end + 1 + turned
+                expression.append(f"matrix{len(matrices)}")
+                matrices[expression[-1]] = matrix.T if brackets[2] else matrix
+                at = brackets.end()
             else:
-                expression, at = expression + text[at], at + 1
-        value = _value(expression.strip(" ,\t\r"), known | matrices)
+                expression.append(text[at])
+                at += 1
+        value = _value("".join(expression).strip(" ,\t\r"), ChainMap(matrices, known))
         if value is not None:
             known[found[1]] = value
             yield found[1], value
@@ -107,8 +116,10 @@ def _matrix(text: str) -> NDArray[np.float64] | None:
     return np.array(rows, np.float64)
 
 
-def _value(expression: str, known: Mapping[str, Value]) -> Value | None:
+def _value(expression: str, known: MutableMapping[str, Value]) -> Value | None:
     """The value of an expression; None if it is not understood."""
+    if len(expression) > LONGEST_EXPRESSION:
+        return None
     expression = expression.replace(".*", "*").replace("./", "/")
     try:
         if found := COLON.fullmatch(expression):
@@ -117,7 +128,7 @@ def _value(expression: str, known: Mapping[str, Value]) -> Value | None:
             steps = np.floor((last - first) / step + 1e-9)
             if not 0 <= steps < MOST_VALUES:
                 return None
-            return _of(f"values{found[4] or ''}", {**known, "values": first + step * np.arange(steps + 1)})
+            return _of(f"values{found[4] or ''}", ChainMap({"values": first + step * np.arange(steps + 1)}, known))
         return _of(expression, known)
     except (ValueError, TypeError, KeyError, SyntaxError, ZeroDivisionError, OverflowError, RecursionError):
         return None

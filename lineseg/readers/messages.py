@@ -225,7 +225,7 @@ def _documents(source: Source) -> Iterator[tuple[int, dict[str, Any]]]:
     """
     message: dict[str, Any] = {}
     header: dict[str, Any] = {}
-    began, key, flow = 1, "", ""
+    began, key, flow = 1, "", list[str]()
     for number, line in chain(source.lines(), [(0, b"---")]):
         text = line.decode("utf-8", "replace").strip()
         if text.startswith("---") or (text == "header {" and "ranges" in message):
@@ -234,10 +234,10 @@ def _documents(source: Source) -> Iterator[tuple[int, dict[str, Any]]]:
                 yield began, message | {"header": {"stamp": stamp, "frame_id": header.get("frame_id", "")}}
             elif "ranges" in message:
                 source.notes.skip(f"{source.name}:{began}", f"it breaks off after {len(message['ranges'])} ranges")
-            message, header, began, key, flow = {}, {}, number + 1, "", ""
+            message, header, began, key, flow = {}, {}, number + 1, "", []
             continue
         if flow:
-            flow += " " + text
+            flow.append(text)
         elif text.startswith("- ") and key == "ranges":
             message["ranges"].append(_scalar(text[2:], source, number))
             continue
@@ -249,7 +249,7 @@ def _documents(source: Source) -> Iterator[tuple[int, dict[str, Any]]]:
             if key == "ranges":
                 message["ranges"] = []
             if value.startswith("["):
-                flow = value
+                flow = [value]
             elif value and key in STAMP_KEYS:
                 header[key] = int(value) if re.fullmatch(r"-?\d+", value) else 0
             elif value and key == "frame_id":
@@ -258,10 +258,11 @@ def _documents(source: Source) -> Iterator[tuple[int, dict[str, Any]]]:
                 message[key] = _scalar(value, source, number)
         elif text.startswith("...") and key == "ranges":
             _scalar("...", source, number)
-        if flow.rstrip().endswith("]"):
+        if flow and flow[-1].rstrip().endswith("]"):
             if key == "ranges":
-                message["ranges"] = [_scalar(word, source, number) for word in re.split(r"[\s,]+", flow.strip("[] ,"))]
-            flow = ""
+                words = re.split(r"[\s,]+", " ".join(flow).strip("[] ,"))
+                message["ranges"] = [_scalar(word, source, number) for word in words]
+            flow = []
 
 
 def _is_cut(message: Mapping[str, Any]) -> bool:
