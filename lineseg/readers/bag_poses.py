@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+import struct
 from array import array
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
 
 from ..poses import Found, Poses, PoseSource
 from .bags import Stream
-from .decoders import MessageBytes
+from .decoders import MessageBytes, unpacked
 from .moving import Array, Motion, Rigid
 
 TREES = ("tf2_msgs/TFMessage", "tf2_msgs/msg/TFMessage", "tf/tfMessage", "tf/msg/tfMessage")
@@ -27,6 +29,8 @@ BODIES = ("base_link", "base_footprint", "base")
 # Numbers kept of one transform; transforms kept of all frames, 64 bytes each.
 ROW, MOST_KEPT = 8, 2_000_000
 LONGEST_CHAIN = 50
+# Of a transform: stamp and length of a name, a length, x, y, z and the quaternion.
+LAYOUTS = {order: tuple(struct.Struct(order + form) for form in ("III", "I", "7d")) for order in "<>"}
 MOST_IN_MESSAGE = 10_000
 LEAST_UP = 0.9
 OTHER_CLOCK = "their stamps go from {:.3f} to {:.3f} s, those of the scans from {:.3f} to {:.3f} s: another clock"
@@ -169,31 +173,53 @@ def found_in(messages: Iterable[Message], wanted: Wanted) -> Found:
     tree, topics = Tree(wanted.frame_ids), dict[str, Topic]()
     for stream, nanoseconds, data in messages:
         try:
-            _take(stream, 1e-9 * nanoseconds, MessageBytes(data, stream.encoding), tree, topics, wanted.recorded)
+            _take(stream, 1e-9 * nanoseconds, data, tree, topics, wanted.recorded)
         except Exception:  # a damaged message may raise anything, and has no pose
             continue
     return _best(tree, topics, wanted)
 
 
-def _take(
-    stream: Stream, recorded: float, data: MessageBytes, tree: Tree, topics: dict[str, Topic], always: bool
-) -> None:
+def _take(stream: Stream, recorded: float, message: bytes, tree: Tree, topics: dict[str, Topic], always: bool) -> None:
     """Add the poses of one message. always: whether the time of recording is to be used."""
     if stream.type in TREES:
-        (count,) = data.numbers("I")
-        for _ in range(min(count, MOST_IN_MESSAGE)):
-            stamp, parent = _header(data)
-            child = _frame(data.text())
-            numbers = data.numbers("7d")
-            time = recorded if always or not stamp else stamp
-            tree.add(child, parent, time, numbers, stream.topic.endswith("tf_static"))
+        fixed = stream.topic.endswith("tf_static")
+        for stamp, parent, child, numbers in transforms_in(message, stream.encoding):
+            tree.add(child, parent, recorded if always or not stamp else stamp, numbers, fixed)
         return
+    data = MessageBytes(message, stream.encoding)
     type = plain(stream.type)
     stamp, frame = _header(data)
     body = _frame(data.text()) if type in WITH_CHILD else ""
     numbers = data.numbers("7d")
     topic = topics.setdefault(stream.topic, Topic(stream.topic, type, frame, body, array("d")))
     topic.rows.extend((recorded if always or not stamp else stamp, *numbers))
+
+
+def transforms_in(message: bytes, encoding: str) -> Iterator[tuple[float, str, str, tuple[float, ...]]]:
+    """(stamp [s], parent, child, x, y, z and quaternion) of a TFMessage; a bag has millions of them."""
+    aligned = encoding == "cdr"
+    data = unpacked(message)[4:] if aligned else message
+    head, size, numbers = LAYOUTS["<" if not aligned or unpacked(message)[1] & 1 else ">"]
+    (count,) = size.unpack_from(data, 0)
+    at = 4
+    for _ in range(min(count, MOST_IN_MESSAGE)):
+        # In ROS 1 a sequence number comes first.
+        at = (at + 3) & ~3 if aligned else at + 4
+        seconds, nanoseconds, length = head.unpack_from(data, at)
+        parent = _frame_of(data[at + 12 : at + 12 + length])
+        at += 12 + length
+        at = (at + 3) & ~3 if aligned else at
+        (length,) = size.unpack_from(data, at)
+        child = _frame_of(data[at + 4 : at + 4 + length])
+        at += 4 + length
+        at = (at + 7) & ~7 if aligned else at
+        yield seconds + 1e-9 * nanoseconds, parent, child, numbers.unpack_from(data, at)
+        at += 56
+
+
+@lru_cache(maxsize=1024)
+def _frame_of(name: bytes) -> str:
+    return _frame(name.rstrip(b"\0").decode("utf-8", "replace"))
 
 
 def _header(data: MessageBytes) -> tuple[float, str]:

@@ -4,7 +4,7 @@ import pickle
 
 import numpy as np
 import pytest
-from bags import ODOMETRY, SCAN, STORES, TREE, encoded, message, odometry, transform
+from bags import ODOMETRY, SCAN, STORES, TREE, encoded, header, message, odometry, transform
 from rosbags.rosbag1 import Writer as Writer1
 from rosbags.rosbag2 import StoragePlugin
 from rosbags.rosbag2 import Writer as Writer2
@@ -114,6 +114,27 @@ def test_odometry_is_taken_where_no_frames_move_and_the_mount_is_applied(tmp_pat
     bare = open_recording(write(tmp_path / "bare", 2, poses, stamps=[100.25]))
     assert bare.poses[0] == pytest.approx([0.25, 2, 0.125])
     assert "mount is not known" in bare.pose_source.missing
+
+
+@pytest.mark.parametrize("version", [1, 2])
+@pytest.mark.parametrize("kind", ["PoseStamped", "PoseWithCovarianceStamped"])
+def test_poses_of_a_localisation_are_those_of_the_robot_if_the_mount_is_known(tmp_path, version, kind):
+    types, name = STORES[version].types, f"geometry_msgs/msg/{kind}"
+
+    def pose_at(time):
+        place, turn = drive(time)
+        pose = types["geometry_msgs/msg/Pose"](
+            types["geometry_msgs/msg/Point"](*place), types["geometry_msgs/msg/Quaternion"](*turn)
+        )
+        covered = types["geometry_msgs/msg/PoseWithCovariance"](pose, np.zeros(36)) if "With" in kind else pose
+        return types[name](header(version, time, "map"), covered)
+
+    poses = [("/amcl_pose", name, time, pose_at(time)) for time in (100.0, 100.5)]
+    goals = [("/goal_pose", name, time, pose_at(50.0)) for time in (100.0, 100.5)]
+    mount = tree_of(version, [transform(version, 99.0, "base_link", "laser", (0.2, 0.0, 0.0))], "/tf_static")
+    recording = open_recording(write(tmp_path / "run.bag", version, [*goals, *poses, *mount], stamps=[100.25]))
+    assert recording.poses[0] == pytest.approx([0.25 + 0.2 * np.cos(0.125), 2 + 0.2 * np.sin(0.125), 0.125])
+    assert recording.pose_source.frames == ("map", "base_link", "laser")
 
 
 def test_a_topic_of_poses_can_be_chosen(tmp_path):
