@@ -17,6 +17,7 @@ MOST_CHARACTERS = 1 << 20
 ALIAS = re.compile(r"(?:^|[\s\[{,:])\*\w", re.MULTILINE)
 CALL = re.compile(r"^[^#\n]*Params\(", re.MULTILINE)
 COMMENT = re.compile(r"(?:^|(?<=\s))#.*")
+NESTED = re.compile(r"(?:[\[{]\s*){50}")
 FLAG = re.compile(r"(?<!\S)(?:--([a-z][a-z0-9_-]*)|([a-z][a-z0-9_]*)(?==))")
 Found = tuple[str, Any, int]  # name as written, value, line (0: unknown)
 Known = Mapping[str, str]  # name or alias → name
@@ -134,6 +135,10 @@ def _in_yaml(text: str, known: Known) -> Iterator[Found]:
         raise ValueError(
             f"line {text.count(chr(10), 0, alias.start()) + 1}: aliases are not allowed; write the value out."
         )
+    if nested := NESTED.search(text):
+        # Its parser takes minutes for thousands of them.
+        line = text.count("\n", 0, nested.start()) + 1
+        raise ValueError(f"line {line}: this is not YAML with thresholds: dozens of brackets are opened in a row.")
     try:
         tree = YAML(typ="safe", pure=True).load(text)
     except MarkedYAMLError as error:
