@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from lineseg_app.shelf.lesson import NamedLesson, Step
 from lineseg_app.shelf.lesson_numbers import METHOD, found, trace_by
-from lineseg_app.shelf.lessons import lesson_files, read_lessons, scan_of
+from lineseg_app.shelf.lessons import scan_of
+from taught import taught
 
 from lineseg import Params
 
@@ -54,7 +55,7 @@ def check_page(tab, place: str) -> None:
 
 def test_every_page_of_every_lesson_shows_what_it_speaks_of(new_tab):
     tab = new_tab("#mode=learn&recording=lesson:1_perfect_corner")
-    for lesson in read_lessons(lesson_files()).lessons:
+    for lesson in taught().lessons:
         tab.page.locator(f"[data-lesson='{lesson.id}']").click()
         for page, step in enumerate([*lesson.steps, None]):
             wanted = "null" if step is None or (at := step_of(lesson, step)) is None else str(at)

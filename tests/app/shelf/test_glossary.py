@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from lineseg_app.shelf.lessons import lesson_files, read_lessons
+from taught import taught
 
 from lineseg import Params
 from lineseg.tracing.glossary import TERMS
@@ -19,12 +19,12 @@ def test_each_form_belongs_to_one_term_and_every_threshold_is_one():
 
 
 def test_every_symbol_in_a_lesson_is_explained():
-    for lesson in read_lessons(lesson_files()).lessons:
+    for lesson in taught().lessons:
         texts = [*(step.text for step in lesson.steps), lesson.task.text, lesson.task.hint, lesson.task.done]
         for symbol in SYMBOL.findall(" ".join(texts)):
             assert symbol in FORMS, f"{lesson.id}: {symbol}"
 
 
 def test_terms_lead_to_lessons_that_exist():
-    known = {lesson.id for lesson in read_lessons(lesson_files()).lessons}
+    known = {lesson.id for lesson in taught().lessons}
     assert {term.lesson for term in TERMS} - {""} <= known

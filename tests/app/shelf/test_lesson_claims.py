@@ -13,12 +13,13 @@ import pytest
 from lineseg_app.shelf.lesson import NamedLesson
 from lineseg_app.shelf.lesson_goals import solves
 from lineseg_app.shelf.lesson_numbers import PLACEHOLDER, trace_by
-from lineseg_app.shelf.lessons import lesson_files, read_lessons, scan_of
+from lineseg_app.shelf.lessons import lesson_files, scan_of
+from taught import taught
 
 from lineseg import Params, Scan, Trace, extract
 from lineseg.tracing.decisions import Decision
 
-LESSONS = {lesson.id: lesson for lesson in read_lessons(lesson_files()).lessons}
+LESSONS = {lesson.id: lesson for lesson in taught().lessons}
 CLAIMS: list[tuple[str, tuple[str, ...], Callable[[], object]]] = []
 COUNTED = re.compile(
     r"\d|\b(two|three|four|five|six|seven|eight|nine|ten|half|twice|none|all|nearly|hardly|most|every|"

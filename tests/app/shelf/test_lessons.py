@@ -12,10 +12,11 @@ from lineseg_app.shelf.lesson_numbers import found
 from lineseg_app.shelf.lesson_shelf import LessonShelf
 from lineseg_app.shelf.lessons import lesson_files, read_lessons, scan_of
 from live import Address
+from taught import taught
 
 from lineseg import Params, trace
 
-LESSONS = read_lessons(lesson_files())
+LESSONS = taught()
 
 
 def test_every_file_is_a_lesson():
