@@ -25,6 +25,7 @@ import { offerToScripts } from "./scripts.js";
 import { mountScene } from "./stage/scene.js";
 import { words } from "./text/words.js";
 import { createTheme } from "./theme.js";
+import { createProfiles } from "./tune/profiles.js";
 import { createTune } from "./tune/tune.js";
 import { createAddress } from "./view/address.js";
 import { createFollow, presenterIn } from "./view/follow.js";
@@ -75,10 +76,17 @@ notices.add(following.element);
 notices.add(cards);
 const labelling = { name: "labels", label: words.label.tab, content: labels.element };
 const docks = { panel: place("panel"), replay: place("replay") };
+const panels = [place("panel"), place("learn")];
+const layout = createLayout(
+  { main: place("main"), panels, plots: place("plots"), timeline: place("timeline") },
+  text.layout,
+);
+const profiles = createProfiles(page, layout, words.tuning.profiles);
 const tune = createTune(page, docks, words, {
   pages: [inspect.pages.frames, labelling, inspect.pages.truth],
   explanation: scene.explanation,
   pointing: scene.pointing,
+  profiles: profiles.group,
 });
 const learn = mountLearn(
   { stage: place("stage"), view: stage, dock: place("stepper"), panel: place("learn") },
@@ -93,11 +101,6 @@ const modes = createModes(words.learn.modes, place("main"), pages, {
   },
   onEntered: inspect.showScored,
 });
-const panels = [place("panel"), place("learn")];
-const layout = createLayout(
-  { main: place("main"), panels, plots: place("plots"), timeline: place("timeline") },
-  text.layout,
-);
 const rerun = new RerunTab(place("stage"), words.rerun, {
   session: sessionId,
   dark: () => page.view.dark,

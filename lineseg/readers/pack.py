@@ -47,7 +47,7 @@ class FailurePack(Reader):
 def read_pack(path: str | Path) -> PackAbout:
     """The description in a pack; `open_recording` reads its frame. Raises ValueError if it is not a pack."""
     about = _about(Path(path))
-    return PackAbout(**{name: about.get(name) for name in PackAbout.__dataclass_fields__})
+    return PackAbout(**{name: about[name] for name in PackAbout.__dataclass_fields__ if name in about})
 
 
 def _about(path: Path) -> dict[str, Any]:

@@ -54,7 +54,7 @@ def figure_svg(
     rows = _in_rows(legend)
     foot = FOOT + ROW * (len(notes) + len(rows) - 1)
     close = near is not None and len(near) > 0
-    place = _Place(near, foot, laser=False) if close else _Place(scan.xy[scan.valid], foot)
+    place = _Place(scan.xy[scan.valid], foot) if near is None or not close else _Place(near, foot, laser=False)
     drawn = _segments(extraction, place) if marks is None else _marks(marks, place)
     parts = [
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{WIDTH:g}" height="{HEIGHT:g}" '

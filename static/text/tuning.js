@@ -3,6 +3,21 @@
 
 export const tuningText = {
   pages: { map: "Map", auto: "Auto" },
+  profiles: {
+    title: "Profiles",
+    hint: "A profile keeps the method, its thresholds, how files are read, the layers and the sizes of the panels. It is chosen for any recording in the menu of presets, and travels to other people as a file.",
+    name: "Name",
+    placeholder: "our RPLIDAR",
+    keep: "Keep what is on the screen",
+    use: "Use",
+    save: "Save file",
+    remove: "Delete",
+    open: "Open a file…",
+    close: "Close",
+    manage: "Keep or open a profile…",
+    used: (/** @type {string} */ name) => `Profile ${name}. Ctrl+Z brings the former thresholds back.`,
+    notOne: (/** @type {string} */ file) => `${file} is not a profile of lineseg. Choose a .lineseg-profile.json file.`,
+  },
   fit: {
     label: "What fits this laser",
     measuring: "Measuring how much the points scatter…",

@@ -10,11 +10,19 @@ import { PRESETS } from "./presets.js";
 /**
  * The menu of the paper's thresholds and of lasers whose ε and κ are known.
  * @param {typeof import("../text/page.js").pageText.tune} text
- * @param {{knobs: () => Knob[], onParams: (params: Params) => void}} handlers
+ * @param {{knobs: () => Knob[], onParams: (params: Params) => void, profiles: () => import("../widgets/menu.js").Group}} handlers
  */
-export function createPresetMenu(text, { knobs, onParams }) {
+export function createPresetMenu(text, { knobs, onParams, profiles }) {
   const menu = createMenu({ label: text.presetChoose, name: text.preset, groups });
   tooltip(menu.button, text.presetHelp, "left");
+
+  // Two presets may have the same values.
+  let chosen = "";
+  /** @param {string} name @param {Params} params */
+  function choose(name, params) {
+    chosen = name;
+    onParams(params);
+  }
 
   function groups() {
     const told = (/** @type {Params} */ params) =>
@@ -22,13 +30,12 @@ export function createPresetMenu(text, { knobs, onParams }) {
     const lasers = PRESETS.map(({ laser, range, params }) => ({
       label: laser,
       note: text.presetHint(range, told(params).join(", ")),
-      run: () => onParams(params),
+      run: () => choose(laser, params),
     }));
-    const paper = { label: text.presetPaper, note: "", run: () => onParams(defaultsOf(knobs())) };
-    return [
-      { title: "", items: [paper] },
-      { title: text.presetHelp, items: lasers },
-    ];
+    const paper = { label: text.presetPaper, note: "", run: () => choose(text.presetPaper, defaultsOf(knobs())) };
+    // Presets set ε for a laser; the thresholds of other methods mean something else.
+    if (!forLasers(knobs())) return [profiles()];
+    return [{ title: "", items: [paper] }, { title: text.presetHelp, items: lasers }, profiles()];
   }
 
   return {
@@ -37,10 +44,17 @@ export function createPresetMenu(text, { knobs, onParams }) {
     show(params) {
       const is = (/** @type {Params} */ preset) =>
         Object.entries(defaultsOf(knobs())).every(([name, usual]) => params[name] === (preset[name] ?? usual));
-      const laser = PRESETS.find((preset) => is(preset.params))?.laser;
-      menu.setLabel(laser ?? (is({}) ? text.presetPaper : text.presetChoose));
+      const names = PRESETS.filter((preset) => is(preset.params)).map(({ laser }) => laser);
+      if (is({})) names.unshift(text.presetPaper);
+      const fitting = forLasers(knobs()) ? names : [];
+      menu.setLabel(fitting.includes(chosen) ? chosen : (fitting[0] ?? text.presetChoose));
     },
   };
+}
+
+/** @param {Knob[]} knobs */
+function forLasers(knobs) {
+  return ["epsilon", "delta"].every((name) => knobs.some((knob) => knob.name === name));
 }
 
 /** @param {Knob[]} knobs @returns {Params} */

@@ -11,7 +11,7 @@ import { hasHistogram, Threshold } from "./threshold.js";
 /** @typedef {import("../wire.js").Knob} Knob */
 /** @typedef {import("../wire.js").Params} Params */
 /** @typedef {typeof import("../text/page.js").pageText.tune} Text */
-/** @typedef {{onParams: (params: Params, gesture: string | null) => void, onUndo: () => void, onRedo: () => void}} Handlers */
+/** @typedef {{onParams: (params: Params, gesture: string | null) => void, onUndo: () => void, onRedo: () => void, profiles: () => import("../widgets/menu.js").Group}} Handlers */
 
 export class Thresholds {
   #text;
@@ -29,7 +29,7 @@ export class Thresholds {
   #message = h("p", { class: "panel-error", role: "alert", hidden: true });
 
   /** @param {Text} text @param {Handlers} handlers @param {HTMLElement[]} above what stands above the rows */
-  constructor(text, { onParams, onUndo, onRedo }, above) {
+  constructor(text, { onParams, onUndo, onRedo, profiles }, above) {
     this.#text = text;
     this.#onParams = onParams;
     this.#undo = iconButton("undo", text.undo, onUndo);
@@ -37,6 +37,7 @@ export class Thresholds {
     this.#presets = createPresetMenu(text, {
       knobs: () => this.#knobs,
       onParams: (params) => onParams(params, null),
+      profiles,
     });
     this.#resetAll = h(
       "button",
@@ -78,8 +79,6 @@ export class Thresholds {
     this.#more.replaceChildren(...rows(true));
     this.#extensions.hidden = !knobs.some((knob) => knob.extension);
     this.#legend.hidden = !knobs.some(hasHistogram);
-    // Presets set ε for a laser; the thresholds of other methods mean something else.
-    this.#presets.element.hidden = !["epsilon", "delta"].every((name) => knobs.some((knob) => knob.name === name));
   }
 
   /** @param {Knob} knob */

@@ -10,10 +10,10 @@ import { createTuner } from "./tuner.js";
  * @param {{panel: HTMLElement, replay: HTMLElement}} places
  * @param {typeof import("../text/words.js").words} text
  * @param {{pages: {name: string, label: string, content: HTMLElement}[], explanation: ReturnType<typeof import("./explanation.js").createExplanation>,
- *          pointing: import("../widgets/words.js").Pointing}} others
+ *          pointing: import("../widgets/words.js").Pointing, profiles: () => import("../widgets/menu.js").Group}} others
  *   pages: further pages of the panel, for the mode Inspect
  */
-export function createTune(page, places, text, { pages, explanation, pointing }) {
+export function createTune(page, places, text, { pages, explanation, pointing, profiles }) {
   const tuner = createTuner(text.tuning, {
     session: () => page.session.id,
     onParams: (params) => page.change({ params }),
@@ -30,6 +30,7 @@ export function createTune(page, places, text, { pages, explanation, pointing })
         page.change(beside && page.view.selected !== null ? { beside: first } : { selected: first, beside: last }),
       onUndo: () => page.store.undo(),
       onRedo: () => page.store.redo(),
+      profiles,
     },
     pages,
     tuner,

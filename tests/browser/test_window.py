@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Callable
 
@@ -141,3 +142,23 @@ def test_space_plays_after_a_click_on_a_mode_or_a_tab(new_tab: Callable[..., Tab
         tab.page.keyboard.press("Space")
         tab.until(f"s.frame !== {before}")
         tab.page.keyboard.press("Space")
+
+
+def test_a_profile_is_kept_under_a_name_and_chosen_like_a_preset(new_tab: Callable[..., Tab]):
+    tab = new_tab("#recording=sample:hallway&epsilon=0.07&layers=normals")
+    page = tab.page
+    menu = page.locator(".panel-toolbar .menu-button").first
+    menu.click()
+    page.get_by_role("menuitem", name="Keep or open a profile").click()
+    page.locator(".profile-name").fill("our RPLIDAR")
+    page.get_by_role("button", name="Keep what is on the screen").click()
+    page.locator(".profiles li").wait_for()
+    with page.expect_download() as saved:
+        page.get_by_role("button", name="Save file").click()
+    assert json.loads(saved.value.path().read_text())["view"]["params"]["epsilon"] == 0.07
+    page.keyboard.press("Escape")
+    tab.type_value("epsilon", "0.02")
+    tab.until("s.params.epsilon === 0.02")
+    menu.click()
+    page.get_by_role("menuitem", name="our RPLIDAR").click()
+    tab.until("s.params.epsilon === 0.07 && s.layers.normals")
