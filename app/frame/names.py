@@ -153,7 +153,7 @@ def _endpoints(found: Findings, decision: Decision) -> Told:
     ends = np.reshape(decision.ends or (0.0,) * 4, (2, 2))
     for beam, end in zip((decision.first, decision.last), ends, strict=True):
         point = found.scan.xy[beam]
-        names += [Name(f"x_0, beam {beam}", point_of(point)), Name("x_s", point_of(end))]
+        names += [Name(f"P_0, beam {beam}", point_of(point)), Name("P_s", point_of(end))]
         measures.append(Measure(f"{1000 * float(np.hypot(*(point - end))):.1f} mm", point_of(point), point_of(end)))
     return tuple(names), tuple(measures)
 

@@ -230,7 +230,12 @@ class Learn {
     this.#charts.set(explained, this.#trace, this.#params);
     this.#diagram.light(explained);
     this.#splitting.light(event?.kind ?? "");
-    this.#listing?.set(explained, event ? variables(event) : [], event ? compared(event, this.#knobs) : "");
+    this.#listing?.set(
+      explained,
+      event ? variables(event) : [],
+      event ? compared(event, this.#knobs) : "",
+      !this.#lessons.showing.active,
+    );
   }
 
   /** Lessons of the user. @param {import("./lessons.js").Lesson[]} lessons */

@@ -84,8 +84,9 @@ export class Listing {
    * @param {Event | null} event
    * @param {[string, string][]} now name and value of each variable
    * @param {string} compared what the lit line compares, with its numbers
+   * @param {boolean} follow whether the lit line is brought into sight
    */
-  set(event, now, compared) {
+  set(event, now, compared, follow) {
     this.#values.replaceChildren(
       ...now.map(([name, value]) => h("div", {}, h("dt", {}, ...symbols(name)), h("dd", {}, value))),
     );
@@ -98,7 +99,7 @@ export class Listing {
     this.#lit.classList.add("lit");
     this.#lit.setAttribute("aria-current", "step");
     // Scrolling forces a layout, so it is not done at every step.
-    if (this.#lit !== before) this.#lit.scrollIntoView({ block: "nearest" });
+    if (follow && this.#lit !== before) this.#lit.scrollIntoView({ block: "nearest" });
     setText(/** @type {Element} */ (this.#lit.querySelector(".code-value")), compared);
   }
 }

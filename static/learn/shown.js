@@ -33,6 +33,11 @@ export class Showing {
     this.#places = places;
   }
 
+  /** Whether there is anything, which then stays in sight. */
+  get active() {
+    return this.#kind !== "";
+  }
+
   /** @param {string | null} kind */
   turn(kind) {
     if ((kind ?? "") === this.#kind) return;
@@ -40,6 +45,7 @@ export class Showing {
     if (kind && !this.#made.has(kind)) this.#made.set(kind, KINDS[kind](this.#text, this.#places));
     const shown = this.#made.get(this.#kind);
     this.element.replaceChildren(...(shown ? [shown.element] : []));
+    this.element.parentElement?.scrollTo(0, 0);
   }
 
   /** @param {State} state */
