@@ -13,7 +13,8 @@ from typing import Any
 
 import pytest
 from live import Address
-from websockets.sync.client import ClientConnection, connect
+from websockets.sync.client import connect
+from websockets.sync.connection import Connection
 
 SECONDS = 60
 FIREFOX = shutil.which("firefox") or shutil.which("firefox-esr")
@@ -22,7 +23,7 @@ FIREFOX = shutil.which("firefox") or shutil.which("firefox-esr")
 class Firefox:
     """One tab, and what its console complained of."""
 
-    def __init__(self, socket: ClientConnection) -> None:
+    def __init__(self, socket: Connection) -> None:
         self._socket = socket
         self._numbers = itertools.count(1)
         self.complaints: list[str] = []
