@@ -52,7 +52,13 @@ class Matlab(Reader):
     def recognises(head: bytes) -> bool:
         if head.startswith(OCTAVE):
             return True
-        return b"\0" not in head and MATRIX.search(head) is not None and LINE_END.search(head) is not None
+        return (
+            b"[" in head
+            and b"=" in head
+            and b"\0" not in head
+            and MATRIX.search(head) is not None
+            and LINE_END.search(head) is not None
+        )
 
     @staticmethod
     def read(source: Source) -> Recording:

@@ -28,7 +28,7 @@ class PrintedMessages(Reader):
 
     @staticmethod
     def recognises(head: bytes) -> bool:
-        return BEGINS.search(head) is not None and b"\0" not in head
+        return b"LaserScan(" in head and BEGINS.search(head) is not None and b"\0" not in head
 
     @staticmethod
     def read(source: Source) -> Recording:
