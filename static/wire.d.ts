@@ -1306,17 +1306,20 @@ export interface Stand {
 /**
  * A page that stands alone: a lesson, or one frame.
  *
- * lesson: its id, or "". pages: the view of each page of the lesson that shows the whole result. x, y: of every
- * beam [m]. answers: what the page would ask the server for. light, dark: the palette. next, index: addresses of
- * other pages, or "".
+ * lesson: its id, or "". step: the decision to begin with, or null. box: what the whole plan shows [m]; square:
+ * side of the grid's squares [m]; unit: of the stored coordinates [m]. x, y: of every beam [m]. light, dark: the
+ * palette. pages: the view of the whole result on each page of the lesson. answers: what the page would ask the
+ * server for, by address. next, index: addresses of other pages, or "".
  */
 export interface Handout {
   title: string;
   recording: string;
   frame: number;
   lesson: string;
-  bounds: [number, number, number, number];
+  step: number | null;
+  box: [number, number, number, number];
   square: number;
+  unit: number;
   x: (number | null)[];
   y: (number | null)[];
   light: string[];

@@ -1,9 +1,10 @@
-"""Downloads: the frame as a drawing or in a failure pack, the segments of the recording."""
+"""Downloads: the frame as a drawing, a page or a failure pack, the lesson as a page, the segments of the recording."""
 
 from __future__ import annotations
 
 import io
 from collections.abc import Iterator
+from typing import Literal
 
 from fastapi import FastAPI, Request
 from fastapi.responses import Response, StreamingResponse
@@ -13,6 +14,7 @@ from starlette.exceptions import HTTPException
 from lineseg import EXTRACTORS, Extraction, Scan, write_pack
 from lineseg.writers import SEGMENT_WRITERS, figure_svg, figure_title, segment_lines
 
+from ..handout.handouts import frame_page, lesson_page
 from ..made import about_of
 from ..scene.drawing import step_marks
 from ..session.session import Shown
@@ -21,13 +23,17 @@ from ..shelf.label_files import LabelFiles
 from ..shelf.library import Library
 from .attachment import attachment
 from .body import body_of
+from .slow import SlowWork
 
 LONGEST_NOTE = 64 * 1024
+# A large frame with all its decisions takes some seconds.
+HANDOUTS_AT_ONCE, HANDOUT_SECONDS = 2, 180.0
 SEGMENT_TYPES = {"jsonl": "application/x-ndjson", "csv": "text/csv", "geojson": "application/geo+json"}
 
 
 def add_export(app: FastAPI, library: Library, sessions: Sessions, files: LabelFiles) -> None:
     """Routes of /api that export what a tab shows."""
+    handouts = SlowWork("interactive pages", HANDOUTS_AT_ONCE, HANDOUT_SECONDS)
 
     def named(shown: Shown, suffix: str) -> dict[str, str]:
         """Headers for a file of one frame, with its number."""
@@ -57,6 +63,24 @@ def add_export(app: FastAPI, library: Library, sessions: Sessions, files: LabelF
         said = known and known.of(shown.view.frame)
         await run_in_threadpool(write_pack, made, shown.recording, shown.position, shown.view.params, note, said)
         return Response(made.getvalue(), media_type="application/zip", headers=named(shown, "zip"))
+
+    @app.get("/api/handout")
+    async def handout(session: str = "", what: Literal["frame", "lesson"] = "frame") -> Response:
+        """The lesson or the frame as a page that stands alone."""
+        shown = sessions.shown(session)
+        view = shown.view
+        if what == "lesson":
+            lesson = await run_in_threadpool(library.lessons.find, view.lesson) if view.lesson else None
+            if lesson is None:
+                raise HTTPException(404, "no lesson is open in this tab; open one in Learn first")
+            page = await handouts.run(lesson_page, library.lessons, lesson)
+            return Response(page, media_type="text/html", headers=attachment(lesson.id, "html"))
+        about = (shown.recording, view.frame, library.label(view.recording), view.method, view.params, view.step)
+        try:
+            page = await handouts.run(frame_page, *about)
+        except ValueError as error:
+            raise HTTPException(400, str(error)) from None
+        return Response(page, media_type="text/html", headers=named(shown, "html"))
 
     @app.get("/api/segments")
     async def segments(session: str = "", to: str = "jsonl") -> StreamingResponse:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from lineseg import extract
 from lineseg.params import Params
 from lineseg.scan import Scan
 from lineseg.segment import Extraction
+
+from ..tuning.sweep import on_slider
 
 if TYPE_CHECKING:
     from .lesson import Goal
@@ -20,8 +20,13 @@ TRIED = 80
 def accepted(goal: Goal, scan: Scan, params: Params) -> dict[str, tuple[float, float]]:
     """For each threshold that may be changed, the least and the largest value on its slider that solves the task."""
     ranges = {}
+    knobs = {name: (kind, knob) for name, kind, knob in Params.knobs()}
     for name in goal.changed:
-        right = [value for value in _on_slider(name) if solves(goal, extract(scan, params.but(**{name: value})))]
+        right = [
+            value
+            for value in on_slider(*knobs[name], TRIED)
+            if solves(goal, extract(scan, params.but(**{name: value})))
+        ]
         if right:
             ranges[name] = (right[0], right[-1])
     return ranges
@@ -39,12 +44,3 @@ def solves(goal: Goal, extraction: Extraction) -> bool:
         and all(line[beam] >= 0 for beam in goal.inside)
         and all(line[beam] < 0 for beam in goal.outside)
     )
-
-
-def _on_slider(name: str) -> list[float]:
-    """Values over the range of the slider, in its steps."""
-    _, kind, knob = next(each for each in Params.knobs() if each[0] == name)
-    spread = np.geomspace if knob.log and knob.low > 0 else np.linspace
-    steps = np.unique(np.round(spread(knob.low, knob.high, TRIED) / knob.step))
-    values = [float(f"{step * knob.step:.6g}") for step in steps]
-    return [value for value in values if knob.least <= value <= knob.most and (kind is float or value.is_integer())]

@@ -7,12 +7,13 @@ import threading
 from collections.abc import AsyncIterator
 from pathlib import Path
 
+from lineseg.scan import Recording
 from lineseg.tracing.glossary import TERMS
 
 from ..told.answers import ExplainedTerm
 from .lesson import Lessons, Looked, NamedLesson
 from .lesson_markup import picture_file
-from .lessons import Home, lesson_files, read_lesson
+from .lessons import Home, lesson_files, read_lesson, recording_of
 from .scratch import Scratch
 from .uploads import Uploads
 
@@ -61,6 +62,10 @@ class LessonShelf:
     def recording(self, id: str) -> Path:
         """The file of a recording that only lessons have. Raises KeyError if there is none."""
         return self._paths[id]
+
+    def scans_of(self, lesson: NamedLesson) -> Recording:
+        """The recording of a lesson. Raises ValueError or OSError if it is gone."""
+        return recording_of(lesson, Home(paths=self._paths).place_of(lesson)[1])
 
     def picture(self, id: str, name: str) -> Path:
         """A picture beside a lesson. Raises ValueError if there is none."""

@@ -123,14 +123,17 @@ def scan_of(lesson: Lesson, home: Home | None = None) -> Scan:
 
 
 def _scan(lesson: Lesson, path: Path | None) -> Scan:
-    recording: Recording
-    if path is None:
-        recording = Drawing.parse(lesson.recording.removeprefix("drawn:")).recording()
-    else:
-        recording = open_recording(path)
+    recording = recording_of(lesson, path)
     if lesson.frame >= len(recording):
         raise ValueError(f"frame is {lesson.frame}, but {lesson.recording or 'scan'} has {len(recording)} frames")
     return recording[lesson.frame]
+
+
+def recording_of(lesson: Lesson, path: Path | None) -> Recording:
+    """The recording of a lesson. path: None for a drawn world."""
+    if path is None:
+        return Drawing.parse(lesson.recording.removeprefix("drawn:")).recording()
+    return open_recording(path)
 
 
 def _filled(home: Home, id: str, lesson: Lesson) -> NamedLesson:

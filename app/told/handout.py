@@ -73,17 +73,20 @@ class Stand(TypedDict):
 class Handout(TypedDict):
     """A page that stands alone: a lesson, or one frame.
 
-    lesson: its id, or "". pages: the view of each page of the lesson that shows the whole result. x, y: of every beam
-    [m]. answers: what the page would ask the server for. light, dark: the palette. next, index: addresses of other
-    pages, or "".
+    lesson: its id, or "". step: the decision to begin with, or null. box: what the whole plan shows [m]; square: side
+    of the grid's squares [m]; unit: of the stored coordinates [m]. x, y: of every beam [m]. light, dark: the palette.
+    pages: the view of the whole result on each page of the lesson. answers: what the page would ask the server for, by
+    address. next, index: addresses of other pages, or "".
     """
 
     title: str
     recording: str
     frame: int
     lesson: str
-    bounds: Box
+    step: int | None
+    box: Box
     square: float
+    unit: float
     x: list[float | None]
     y: list[float | None]
     light: list[str]

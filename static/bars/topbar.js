@@ -1,16 +1,16 @@
 // @ts-check
 import { h } from "../widgets/dom.js";
-import { icon, iconButton } from "../widgets/icon.js";
+import { icon } from "../widgets/icon.js";
 import { createMenu } from "../widgets/menu.js";
 import { tooltip } from "../widgets/tooltip.js";
+import { createThemeButton } from "./theme_button.js";
 
 /** @typedef {import("../wire.js").RecordingEntry} RecordingEntry */
 /** @typedef {import("../wire.js").Method} Method */
 /** @typedef {import("../wire.js").State} State */
 /** @typedef {typeof import("../text/words.js").words} Words */
 
-const THEMES = /** @type {const} */ (["auto", "light", "dark"]);
-/** @typedef {(typeof THEMES)[number]} Theme */
+/** @typedef {import("../theme.js").Theme} Theme */
 
 /**
  * The menu of recordings that can be opened.
@@ -72,24 +72,6 @@ function createRecordings(words, { onOpen, onRecording, onReread }) {
       menu.setLabel(label);
     },
   };
-}
-
-/**
- * The button that switches to the next theme.
- * @param {typeof import("../text/page.js").pageText.top} text
- * @param {Theme} theme
- * @param {(theme: Theme) => void} onTheme
- */
-function createThemeButton(text, theme, onTheme) {
-  /** @type {Record<Theme, [import("../widgets/icon.js").IconName, string]>} */
-  const shown = { auto: ["auto", text.themeAuto], light: ["sun", text.themeLight], dark: ["moon", text.themeDark] };
-  const button = iconButton("auto", text.themeAuto, () => {
-    theme = THEMES[(THEMES.indexOf(theme) + 1) % THEMES.length];
-    button.show(...shown[theme]);
-    onTheme(theme);
-  });
-  button.show(...shown[theme]);
-  return button;
 }
 
 /**

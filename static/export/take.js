@@ -1,5 +1,5 @@
 // @ts-check
-// Exports of the frame and of the recording: pictures, failure packs, segments.
+// Exports of the frame, the lesson and the recording: pictures, pages, failure packs, segments.
 import { download } from "../widgets/clipboard.js";
 import { openDialog } from "../widgets/dialog.js";
 import { h } from "../widgets/dom.js";
@@ -8,11 +8,11 @@ import { fetchFile } from "./save.js";
 
 /** @typedef {import("../wire.js").State} State */
 /** @typedef {(done: number, total: number) => void} Progress */
+/** @typedef {(words: string, run: (show: Progress, signal: AbortSignal) => Promise<void>) => void} Work */
 
 /**
  * @param {typeof import("../text/export.js").exportText} text
- * @param {{session: () => string, state: () => State | null, note: () => string,
- *          work: (words: string, run: (show: Progress, signal: AbortSignal) => Promise<void>) => void}} handlers
+ * @param {{session: () => string, state: () => State | null, note: () => string, work: Work}} handlers
  *   note: of the frame; work: runs something long, with progress and a way to cancel it
  */
 export function createTake(text, { session, state, note, work }) {
@@ -80,6 +80,7 @@ export function createTake(text, { session, state, note, work }) {
         items: [
           { label: text.png, run: () => savePicture("png") },
           { label: text.svg, run: () => savePicture("svg") },
+          ...pages(text, state()?.view.lesson ?? null, (what) => savePage(work, text, address("handout", { what }))),
           { label: text.pack, run: askNote },
         ],
       },
@@ -89,4 +90,22 @@ export function createTake(text, { session, state, note, work }) {
       },
     ],
   };
+}
+
+/**
+ * Pages that stand alone: of the frame, and of the lesson, if one is open.
+ * @param {typeof import("../text/export.js").exportText} text @param {string | null} lesson @param {(what: "frame" | "lesson") => void} save
+ * @returns {import("../widgets/menu.js").Item[]}
+ */
+function pages(text, lesson, save) {
+  const frame = { label: text.page, run: () => save("frame") };
+  return lesson ? [frame, { label: text.lessonPage, run: () => save("lesson") }] : [frame];
+}
+
+/** @param {Work} work @param {typeof import("../text/export.js").exportText} text @param {string} url */
+function savePage(work, text, url) {
+  work(text.storing, async (_show, signal) => {
+    const { name, content } = await fetchFile(url, text.broken, { signal });
+    download(name, content);
+  });
 }

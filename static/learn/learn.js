@@ -30,7 +30,7 @@ import { compared, variables } from "./values.js";
 /** @typedef {{stage: HTMLElement, view: PlanView, dock: HTMLElement, panel: HTMLElement}} Places */
 /** @typedef {{tune: typeof import("../text/page.js").pageText.tune, learn: typeof import("../text/learn.js").learnText, shown: typeof import("../text/shown.js").shownText}} Words */
 /** @typedef {{onChange: (patch: Patch, gesture?: string | null) => void,
- *            onDraw: () => void, closeUp: {toggle: () => void, ask: (asked: boolean) => void}, settled: () => boolean, session: () => string}} Handlers */
+ *            onDraw: () => void, onMissing?: (id: string) => void, closeUp: {toggle: () => void, ask: (asked: boolean) => void}, settled: () => boolean, session: () => string}} Handlers */
 
 const VIEWS = /** @type {const} */ (["step", "all"]);
 
@@ -112,7 +112,8 @@ class Learn {
     const project = (/** @type {number} */ x, /** @type {number} */ y) => view.project(x, y);
     const box = () => (this.#event ? null : boxOnStage(project, stage));
     const onMake = () => openMaking(text.making, { session, box, onMade: (lessons) => this.takeLessons(lessons) });
-    this.#lessons = new Lessons(words, this.#glossary, { onChange, onDraw, onGo, onMake, session });
+    const { onMissing } = handlers;
+    this.#lessons = new Lessons(words, this.#glossary, { onChange, onDraw, onGo, onMake, onMissing, session });
     panel.setAttribute("aria-label", text.panel);
     const method = h(
       "div",
@@ -241,6 +242,11 @@ class Learn {
   /** Lessons of the user. @param {import("./lessons.js").Lesson[]} lessons */
   takeLessons(lessons) {
     this.#lessons.take(lessons);
+  }
+
+  /** Opens a lesson at its first page. @param {string} id */
+  openLesson(id) {
+    this.#lessons.open(id);
   }
 
   /** @param {boolean} yes */

@@ -1,5 +1,6 @@
 // @ts-check
 // The list of lessons, with a mark at completed ones.
+import { keep, recall } from "../kept.js";
 import { drawText } from "../text/draw.js";
 import { h } from "../widgets/dom.js";
 import { icon } from "../widgets/icon.js";
@@ -66,6 +67,10 @@ export class LessonList {
     return this.#lessons.find((each) => each.id === id);
   }
 
+  get count() {
+    return this.#lessons.length;
+  }
+
   /** @param {Lesson} lesson */
   numberOf(lesson) {
     return this.#lessons.indexOf(lesson) + 1;
@@ -102,14 +107,14 @@ export class LessonList {
   /** @param {string} id */
   markDone(id) {
     this.#done.add(id);
-    localStorage.setItem(DONE_KEY, JSON.stringify([...this.#done]));
+    keep(DONE_KEY, JSON.stringify([...this.#done]));
   }
 }
 
 /** @returns {string[]} */
 function load() {
   try {
-    return JSON.parse(localStorage.getItem(DONE_KEY) ?? "[]");
+    return JSON.parse(recall(DONE_KEY) ?? "[]");
   } catch {
     return [];
   }

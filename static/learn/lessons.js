@@ -20,7 +20,7 @@ import { Showing } from "./shown.js";
 /** @typedef {import("../wire.js").Step} LessonStep */
 /** @typedef {import("../wire.js").NamedLesson} Lesson */
 /** @typedef {import("../wire.js").Lessons} Told */
-/** @typedef {{onChange: (patch: Patch, gesture?: string | null) => void, onGo: (step: number | null) => void, onDraw: () => void, onMake: () => void, session: () => string}} Handlers */
+/** @typedef {{onChange: (patch: Patch, gesture?: string | null) => void, onGo: (step: number | null) => void, onDraw: () => void, onMake: () => void, onMissing?: (id: string) => void, session: () => string}} Handlers */
 
 // Every lesson is about this method; a step may show another for comparison.
 const METHOD = "region-growing";
@@ -88,11 +88,17 @@ export class Lessons {
   /** Opens a lesson at its first page. @param {string} id */
   open(id) {
     const chosen = this.#list.find(id);
-    if (!chosen) return this.#list.complain(this.#words.learn.lesson.unknown(id));
+    if (!chosen) return this.#miss(id);
     if (!this.#lesson && this.#view) this.#before = settingsOf(this.#view);
     this.#show(chosen);
     this.#turn(0);
     return this.#reader.focus();
+  }
+
+  /** A lesson that is not in the list. @param {string} id */
+  #miss(id) {
+    if (this.#handlers.onMissing) this.#handlers.onMissing(id);
+    else this.#list.complain(this.#words.learn.lesson.unknown(id));
   }
 
   /** @param {Lesson} chosen */
@@ -105,7 +111,7 @@ export class Lessons {
         .map((knob) => [knob.name, this.#createSlider(knob)]),
     );
     this.#reader.open(
-      `${this.#list.numberOf(chosen)} · ${chosen.title}`,
+      this.#list.count > 1 ? `${this.#list.numberOf(chosen)} · ${chosen.title}` : chosen.title,
       [...this.#sliders.values()].map((slider) => slider.element),
     );
   }

@@ -1,6 +1,7 @@
 // @ts-check
 // Texts of lessons: paragraphs, emphasis, links and pictures (app/shelf/lesson_markup.py). None of it is read as HTML.
 import { h } from "../widgets/dom.js";
+import { addressOfPicture } from "./picture.js";
 
 /** @typedef {import("./glossary.js").Mark} Mark */
 /** Of which lesson a text is, and what happens when a link to another lesson is chosen. @typedef {{id: string, onLesson: (id: string) => void}} Of */
@@ -20,8 +21,7 @@ export function paragraphs(words, mark, of) {
 
 /** @param {string} name @param {string} words what it shows @param {string} id */
 function pictureOf(name, words, id) {
-  const src = `/api/lessons/picture?${new URLSearchParams({ id, name })}`;
-  return h("figure", { class: "lesson-picture" }, h("img", { src, alt: words }));
+  return h("figure", { class: "lesson-picture" }, h("img", { src: addressOfPicture(id, name), alt: words }));
 }
 
 /** One line of a text. @param {string} words @param {Mark} mark @param {Of} of @returns {(Node | string)[]} */

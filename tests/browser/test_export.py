@@ -49,6 +49,15 @@ def test_the_frame_is_taken_along_as_a_picture_and_all_segments_as_files(new_tab
     assert len(rows) == 1 + len(features)
 
 
+def test_the_frame_and_the_lesson_are_taken_home_as_pages(new_tab, tmp_path):
+    tab = new_tab("#mode=learn&lesson=01_seed")
+    tab.until("s.view.lesson === '01_seed' && s.recording === 'lesson:8_noise_burst'")
+    page = saved(tab, "This lesson as an interactive page (HTML)", tmp_path)
+    assert page.name == "01_seed.html" and "<title>What a seed is</title>" in page.read_text("utf-8")
+    page = saved(tab, "Interactive page (HTML)", tmp_path)
+    assert page.name.endswith("_0.html") and "frame 0</title>" in page.read_text("utf-8")
+
+
 def test_a_failed_export_is_reported_and_a_long_one_can_be_cancelled(new_tab):
     tab = new_tab()
     tab.page.route("**/api/segments?*", lambda route: route.abort())

@@ -1,0 +1,21 @@
+// @ts-check
+// What this browser keeps from one visit to the next. It keeps nothing for a page in a closed frame, or if told so.
+
+/** @param {string} key @returns {string | null} */
+export function recall(key) {
+  try {
+    return localStorage.getItem(key);
+  } catch {
+    return null;
+  }
+}
+
+/** @param {string} key @param {string | null} value null: forgets it */
+export function keep(key, value) {
+  try {
+    if (value === null) localStorage.removeItem(key);
+    else localStorage.setItem(key, value);
+  } catch {
+    // The choice holds until the page is left.
+  }
+}
