@@ -5,7 +5,7 @@ from __future__ import annotations
 import ipaddress
 import re
 import socket
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
 from http.cookies import CookieError, SimpleCookie
 from typing import NamedTuple
 from urllib.parse import parse_qsl
@@ -55,8 +55,12 @@ class Guard:
     the same name and port: behind a proxy, the page may be https.
     """
 
-    def __init__(self, app: ASGIApp, host: str, token: str | None, names: Iterable[str] = ()) -> None:
+    def __init__(
+        self, app: ASGIApp, host: str, token: str | None, names: Iterable[str] = (), embedders: Iterable[str] = ()
+    ) -> None:
+        """embedders: origins whose pages may show this one in a frame."""
         self._app = app
+        self._policies = policies(tuple(embedders))
         self._keys = Keys(token) if token else None
         self._any_address = is_any(host)
         self._names = LOOPBACK_NAMES | {host.lower().strip("[]")} | {name.lower() for name in names}
@@ -69,9 +73,9 @@ class Guard:
             return
         refusal = self._refusal(scope)
         if refusal is None:
-            await self._app(scope, receive, _with_headers(scope, send))
+            await self._app(scope, receive, _with_headers(scope, send, self._policies))
         elif scope["type"] == "http":
-            await refusal(scope, receive, _with_headers(scope, send))
+            await refusal(scope, receive, _with_headers(scope, send, self._policies))
         else:
             await _refuse_socket(scope, receive, send, refusal)
 
@@ -187,9 +191,31 @@ def _refused(sentence: str, status: int = 403) -> Response:
     return JSONResponse({"message": sentence}, status_code=status)
 
 
-def _with_headers(scope: Scope, send: Send) -> Send:
-    policies = {"/s/": VISER_POLICY, "/rerun/": RERUN_POLICY}
-    policy = next((policies[start] for start in policies if scope["path"].startswith(start)), PAGE_POLICY)
+def policies(embedders: Sequence[str]) -> dict[str, str]:
+    """The policy for each beginning of a path; the first that fits counts.
+
+    A frame in the page is also in whatever the page is in.
+    """
+    found = {"/s/": VISER_POLICY, "/rerun/": RERUN_POLICY, "": PAGE_POLICY}
+    if not embedders:
+        return found
+    allowed = f"frame-ancestors 'self' {' '.join(checked_origin(each) for each in embedders)}"
+    return {start: re.sub(r"frame-ancestors '\w+'", allowed, policy) for start, policy in found.items()}
+
+
+def checked_origin(origin: str) -> str:
+    """The origin in lower case. Raises ValueError if it is none."""
+    parts = ORIGIN.fullmatch(origin)
+    if parts is None or place_of(parts["place"]) is None:
+        raise ValueError(
+            f"--allow-embedding is {origin[:80]!r}; give scheme and name of the other site, with its port if it has "
+            "one, and without a path: https://course.example.org"
+        )
+    return origin.lower()
+
+
+def _with_headers(scope: Scope, send: Send, policies: Mapping[str, str]) -> Send:
+    policy = next(policies[start] for start in policies if scope["path"].startswith(start))
 
     async def sending(message: Message) -> None:
         if message["type"] == "http.response.start":

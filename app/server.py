@@ -71,9 +71,9 @@ class Settings:
     files: recordings to offer, the first is shown; reading: how they are read. robots: sources of live scans; the
     newest `keep` scans of each are kept. may_send: addresses of other robots to which the page may send. lessons: a
     folder of lessons that are offered besides the program's. host: any address but the loopback needs a token; one is
-    made if none is given. names: other host names of this machine. upload_limit, upload_total: [bytes]. data_folder:
-    for the list of recent files and for labels that cannot be next to their recording (default: the user's data
-    folder). watch: gets whatever is drawn in any tab.
+    made if none is given. names: other host names of this machine. embedders: origins whose pages may show this one in
+    a frame. upload_limit, upload_total: [bytes]. data_folder: for the list of recent files and for labels that cannot
+    be next to their recording (default: the user's data folder). watch: gets whatever is drawn in any tab.
     """
 
     files: tuple[Path, ...] = ()
@@ -87,6 +87,7 @@ class Settings:
     token: str | None = None
     open_browser: bool = True
     names: tuple[str, ...] = ()
+    embedders: tuple[str, ...] = ()
     upload_limit: int = 2_000_000_000
     upload_total: int = 8_000_000_000
     upload_number: int = 20
@@ -130,7 +131,9 @@ def create_app(settings: Settings) -> FastAPI:
 
     app = FastAPI(lifespan=lifespan, openapi_url=None, docs_url=None, redoc_url=None)
     app.add_middleware(BodyLimit)
-    app.add_middleware(Guard, host=settings.host, token=settings.token, names=settings.names)
+    app.add_middleware(
+        Guard, host=settings.host, token=settings.token, names=settings.names, embedders=settings.embedders
+    )
     app.add_exception_handler(HTTPException, _sentence)
     app.add_exception_handler(RequestValidationError, _complaint)
     app.add_exception_handler(ClientDisconnect, _gone)

@@ -33,6 +33,7 @@ def view(
     token_file: Unset[Path] = None,
     no_browser: Switch = False,
     robot: Annotated[Several[str], arg(metavar="ADDRESS ...")] = (),
+    allow_embedding: Annotated[Several[str], arg(metavar="ORIGIN ...")] = (),
     rerun: Switch = False,
 ) -> None:
     """Show the page in the browser.
@@ -54,8 +55,11 @@ def view(
         no_browser: do not open a browser.
         robot: addresses to which the page may send parameters, besides the robot that is watched and the nodes of this
             machine: of rosbridge, or of a `lineseg node`, as it prints it, whose token is in LINESEG_NODE_TOKEN.
+        allow_embedding: sites whose pages may show this page in a frame, such as https://course.example.org. Where the
+            page needs a token, these must be of the same site, or the browser keeps the token back.
         rerun: also stream the view to rerun's viewer on port 9876; starts the viewer if none is running.
     """
+    from ..guard import checked_origin
     from ..server import Settings, serve
 
     how = reading_of(reading)
@@ -89,6 +93,7 @@ def view(
             host=host,
             port=port,
             token=token_of(token, token_file),
+            embedders=tuple(checked_origin(origin) for origin in allow_embedding),
             open_browser=not no_browser,
             watch=watch,
         )

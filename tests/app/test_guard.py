@@ -12,6 +12,7 @@ from urllib.parse import urlsplit
 from urllib.request import url2pathname
 
 import pytest
+from lineseg_app.guard import policies
 from lineseg_app.keys import COOKIE_SECONDS, GUESSES, Keys, TooManyGuessesError
 from lineseg_app.listening import listen, server_of
 from lineseg_app.routes.page import state_of
@@ -100,6 +101,20 @@ def test_the_scene_may_be_framed_by_the_page_only(server: Address, page: Page):
     policy = server.get(page.welcome["viser"]).headers["content-security-policy"]
     assert "frame-ancestors 'self'" in policy
     assert "connect-src 'self' data: blob:" in policy
+
+
+def test_a_site_may_show_the_page_in_a_frame_only_if_it_is_named():
+    named = policies(("https://Course.example.org", "http://10.0.0.7:8080"))
+    ancestors = "frame-ancestors 'self' https://course.example.org http://10.0.0.7:8080"
+    assert all(policy.split("; ").count(ancestors) == 1 for policy in named.values())
+    assert [policy.count("frame-ancestors") for policy in named.values()] == [1, 1, 1]
+    assert policies(())[""].endswith("frame-ancestors 'none'")
+
+
+@pytest.mark.parametrize("origin", ["*", "null", "course.example.org", "https://a.b/x", "https://a; script-src *", ""])
+def test_an_embedding_site_is_named_by_its_origin(origin: str):
+    with pytest.raises(ValueError, match=r"--allow-embedding is .* give scheme and name of the other site"):
+        policies((origin,))
 
 
 PATHS = [
