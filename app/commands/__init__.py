@@ -9,6 +9,7 @@ from .compare import compare
 from .explain import explain
 from .extract import extract
 from .info import info
+from .lessons import lessons
 from .node import node
 from .params import params
 from .record import record
@@ -19,6 +20,7 @@ from .view import view
 
 COMMANDS: dict[str, Callable[..., None]] = {
     "view": view,
+    "lessons": lessons,
     "node": node,
     "extract": extract,
     "explain": explain,

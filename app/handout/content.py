@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
-from lineseg import Recording, Scan, Thresholds
+from lineseg import EXTRACTORS, Recording, Scan, Thresholds
 
 from ..frame.findings import Findings, findings_in
 from ..frame.framing import framing_of
@@ -46,8 +46,8 @@ class Content:
         self._of_result: dict[tuple[int, tuple[int, ...]], int] = {}
         self._of_segment: dict[str, int] = {}
 
-    def stand(self, method: str, params: Thresholds, named: Sequence[str] = ()) -> tuple[Stand, Findings]:
-        """The frame under these thresholds, with the ranges of the method's first thresholds and of those named."""
+    def stand(self, method: str, params: Thresholds, ranged: Sequence[str]) -> tuple[Stand, Findings]:
+        """The frame under these thresholds, with the ranges of some."""
         found = findings_in(self.scan, method, params)
         columns = columns_of(found)
         steps = min(len(columns["kind"]), self.most_steps)
@@ -62,7 +62,7 @@ class Content:
         view = replace(self._view, method=method, params=params)
         # The first run of a method also loads its kernels.
         elapsed_us = min(found.extraction_us, findings_in(self.scan, method, params).extraction_us)
-        ranged = _ranged(params, named) if elapsed_us < 1e6 * SLOWEST else []
+        ranged = ranged if elapsed_us < 1e6 * SLOWEST else []
         first = len(self.pool.moments)
         for step in range(steps):
             self.pool.add(self._picture(replace(view, step=step), found))
@@ -85,7 +85,9 @@ class Content:
         results = []
         for value in values:
             params = view.params.but(**{name: kind(value)})
-            found = findings_in(self.scan, view.method, params)
+            # Timed findings run the method twice.
+            traced = EXTRACTORS[view.method].trace(self.scan, params)
+            found = Findings(self.scan, traced.extraction, traced, 0.0)
             results.append(self._result(replace(view, params=params), found))
         return {"values": values, "results": results}
 
@@ -114,11 +116,9 @@ class Content:
         return {"framing": rounded(framing_told(framing)), "tells": tells}
 
 
-def _ranged(params: Thresholds, named: Sequence[str]) -> list[str]:
-    """The thresholds that have ranges: those of the paper, of others the first ones."""
-    numbers = [(name, knob) for name, kind, knob in params.knobs() if kind is not bool]
-    first = [name for name, knob in numbers if not knob.extension][:RANGES]
-    return first + [name for name, _ in numbers if name in named and name not in first]
+def usual_ranges(params: Thresholds) -> list[str]:
+    """The five thresholds of the paper; of another method, the first ones."""
+    return [name for name, kind, knob in params.knobs() if kind is not bool and not knob.extension][:RANGES]
 
 
 def rounded(told: Any) -> Any:

@@ -23,7 +23,7 @@ from ..told.answers import ExplainedTerm
 from ..told.drawn import Framing
 from ..told.handout import Handout, Stand
 from ..told.messages import MethodEntry
-from .content import Content, rounded
+from .content import Content, rounded, usual_ranges
 from .packing import packed
 from .page import page_of
 from .pool import SCALE
@@ -47,7 +47,7 @@ def frame_page(
 
     def made(most_steps: int) -> str:
         content = Content(recording, frame, most_steps)
-        stand, _ = content.stand(method, params)
+        stand, _ = content.stand(method, params, usual_ranges(params))
         head = {"title": title, "recording": label, "frame": frame, "step": step, "pages": [], "next": "", "index": ""}
         return _page(content, [stand], Lessons(lessons=[], terms=_terms()), head)
 
@@ -64,10 +64,14 @@ def _lesson_page(shelf: LessonShelf, lesson: NamedLesson, next: str, index: str,
     content = Content(shelf.scans_of(lesson), lesson.frame, most_steps)
     stands: dict[tuple[str, Thresholds], tuple[Stand, Any]] = {}
     pages: list[Framing | None] = []
+    # A page that changes thresholds shows the sliders of the lesson; the task is where all of them are tried.
+    ranged = {_thresholds(lesson, page): dict.fromkeys(lesson.knobs) for page in lesson.steps if page.params}
+    last = _thresholds(lesson, lesson.task)
+    ranged[last] = dict.fromkeys((*usual_ranges(last[1]), *lesson.knobs))
     for page in (*lesson.steps, lesson.task):
         key = _thresholds(lesson, page)
         if key not in stands:
-            stands[key] = content.stand(*key, lesson.knobs)
+            stands[key] = content.stand(*key, list(ranged.get(key, ())))
         framing = framing_near(stands[key][1], page.near, page.names)
         pages.append(framing and rounded(framing_told(framing)))
     told = Lessons(lessons=[lesson], terms=_terms())

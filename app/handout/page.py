@@ -9,6 +9,8 @@ from functools import cache
 from string import Template
 from urllib.parse import quote
 
+from lineseg import __version__
+
 from ..places import data_folder
 from .bundle import script_of, style_of
 
@@ -18,6 +20,9 @@ SHEETS = (
     "tune/explanation.css", "tune/replay.css", "tune/panel.css", "tune/sliders.css", "learn/learn.css",
     "handout/handout.css",
 )  # fmt: skip
+LIST_SHEETS = ("base.css", "learn/learn.css", "handout/list.css")
+# Tells our pages from other files.
+GENERATOR = f'<meta name="generator" content="lineseg {__version__}">'
 # What asks the server, and what takes its place.
 INSTEAD = {"fetch.js": "handout/answers.js", "learn/picture.js": "handout/picture.js"}
 PAGE = Template("""<!doctype html>
@@ -25,6 +30,7 @@ PAGE = Template("""<!doctype html>
 <head>
 <meta charset="utf-8">
 <meta http-equiv="Content-Security-Policy" content="$policy">
+$generator
 <meta name="viewport" content="width=device-width, initial-scale=1">
 <meta name="color-scheme" content="light dark">
 <title>$title</title>
@@ -51,8 +57,9 @@ def page_of(title: str, data: str) -> str:
     style, script = _style(), _script()
     return PAGE.substitute(
         policy=policy_of(style, script),
+        generator=GENERATOR,
         title=html.escape(title),
-        icon=_icon(),
+        icon=icon(),
         style=style,
         data=data,
         script=script,
@@ -83,5 +90,12 @@ def _script() -> str:
 
 
 @cache
-def _icon() -> str:
+def list_style() -> str:
+    """The style of a list of lessons."""
+    return style_of(data_folder("static"), list(LIST_SHEETS))
+
+
+@cache
+def icon() -> str:
+    """The icon as the address of an image."""
     return "data:image/svg+xml," + quote((data_folder("static") / "icon.svg").read_text("utf-8"))

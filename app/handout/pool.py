@@ -44,6 +44,7 @@ class Pool:
         self._colours = Rows()
         self._shapes = {"points": Rows(), "lines": Rows()}
         self._lists: dict[bytes, int] = {}
+        self._last: dict[str, tuple[NDArray[np.float32], NDArray[np.uint32]]] = {}
         self._members: list[NDArray[np.uint32]] = []
         self._moments: dict[tuple[int, ...], int] = {}
         self.moments: list[tuple[int, ...]] = []
@@ -52,7 +53,7 @@ class Pool:
         """The number of its moment, which is a new one."""
         row: dict[str, int] = dict.fromkeys(ORDER, NOTHING)
         for name, xy, colours in shapes_of(picture):
-            row[name] = self._list_of(look_of(name)["kind"], xy, colours)
+            row[name] = self._list_of(name, xy, colours)
         self.moments.append(tuple(row.values()))
         return len(self.moments) - 1
 
@@ -64,14 +65,27 @@ class Pool:
             self.moments.pop()
         return known
 
-    def _list_of(self, kind: str, xy: NDArray[np.float32], colours: NDArray[np.uint8]) -> int:
+    def _list_of(self, name: str, xy: NDArray[np.float32], colours: NDArray[np.uint8]) -> int:
+        kind = look_of(name)["kind"]
         key = kind.encode() + xy.tobytes() + colours.tobytes()
         if key not in self._lists:
             self._lists[key] = len(self._members)
-            tones = self._colours.numbers_of(colours.astype(np.int64))
-            places = np.round(xy.astype(float) * SCALE).astype(np.int64)
-            self._members.append(self._shapes[kind].numbers_of(np.column_stack((tones.astype(np.int64), places))))
+            self._members.append(self._numbered(name, kind, np.column_stack((colours, xy))))
         return self._lists[key]
+
+    def _numbered(self, name: str, kind: str, shapes: NDArray[np.float32]) -> NDArray[np.uint32]:
+        """The number of each shape (n, colour and coordinates); most are those of the last list of this name."""
+        last, known = self._last.get(name, (shapes[:0], np.empty(0, np.uint32)))
+        both = min(len(last), len(shapes))
+        new = np.ones(len(shapes), np.bool_)
+        new[:both] = (last[:both] != shapes[:both]).any(axis=1)
+        numbers = np.empty(len(shapes), np.uint32)
+        numbers[:both] = known[:both]
+        tones = self._colours.numbers_of(shapes[new, :3].astype(np.int64)).astype(np.int64)
+        places = np.round(shapes[new, 3:].astype(float) * SCALE).astype(np.int64)
+        numbers[new] = self._shapes[kind].numbers_of(np.column_stack((tones, places)))
+        self._last[name] = shapes, numbers
+        return numbers
 
     @property
     def looks(self) -> list[Look]:

@@ -140,7 +140,7 @@ def test_it_works_in_a_closed_frame_and_a_damaged_file_is_told(open_file, html):
     file.page.locator("iframe").evaluate("(frame, html) => { frame.srcdoc = html; }", html)
     inner = file.page.frame_locator("iframe")
     inner.locator(".code-line.lit").wait_for()
-    inner.locator("body").press("ArrowRight")
+    inner.locator("canvas.scene").press("ArrowRight")
     number = inner.get_by_role("textbox", name="Number of the decision")
     file.eventually(lambda: number.input_value() == "5")
     broken = open_file(html[: html.index('id="data">') + 400] + html[html.index("</script>") :])
