@@ -70,7 +70,7 @@ class Pool:
         key = kind.encode() + xy.tobytes() + colours.tobytes()
         if key not in self._lists:
             self._lists[key] = len(self._members)
-            self._members.append(self._numbered(name, kind, np.column_stack((colours, xy))))
+            self._members.append(self._numbered(name, kind, np.column_stack((colours.astype(np.float32), xy))))
         return self._lists[key]
 
     def _numbered(self, name: str, kind: str, shapes: NDArray[np.float32]) -> NDArray[np.uint32]:
