@@ -1,9 +1,13 @@
 """Proposes thresholds that fit a laser, from its scans alone.
 
-The noise of the recording bounds ε from both sides. Between these bounds the search looks for steadiness. If ε is too
-small, walls break at noisy points, and a larger ε gives other lines. If it is too large, a wall takes in what stands
-before it, and again a larger ε gives other lines. In between, the lines stay the same. So the lines at ε are scored
-as if the lines at a larger ε were the truth. The best ε is proposed; among nearly equal ones, what the noise suggests.
+If ε is too small, walls break wherever a point deviates more, and the points of what is left deviate by all that ε
+allows. If it is large enough, they deviate by what they do anyway, which is the smaller a share of ε the larger ε is.
+So the smallest ε at which the lines of region growing scatter by no more than a third of it suits the noise of the
+laser and walls that bend, without a model of either.
+
+From there the search looks for steadiness. Where walls still break, as those do that are rough in some places only, a
+larger ε gives other lines, so the lines at ε are scored as if those at a larger ε were the truth. The best ε is
+proposed; a larger one must be the steadier the nearer it is to the depth of doors and of what stands before walls.
 """
 
 from __future__ import annotations
@@ -18,30 +22,40 @@ import numpy as np
 from ..extractors import EXTRACTORS
 from ..knobs import Knob, Thresholds
 from ..noise import RangeNoise, noise
+from ..params import Params
 from ..readers import Cancelled
 from ..scan import Floats, Recording, Scan
 from ..segment import Extraction
-from ..truth import Agreement, match
+from ..truth import Agreement, demands_of, match
 from .objective import Objective
 
 T = TypeVar("T", bound=Thresholds)
 TRUTH = Objective("truth")
+GROWING = EXTRACTORS["region-growing"]
 FRAMES = 24
 LEAST_FRAMES = 4
 # The factor from one value of ε to the next; lines are compared APART values apart.
-STEP, APART = 1.6**0.25, 2
-# Bounds of ε: this many times the white noise, and this many times the total scatter.
-LOWEST, HIGHEST = 2.5, 4.2
-# The choice from noise alone: this many times the white noise, and so many times the deviation of walls from straight.
-# Clutter looks like the latter where the noise is large, so that it counts only beyond SURE times the white noise.
-WHITE, ROUGH, SURE = 2.8, 3.5, 1.5
-# At a value that differs from this choice by a factor of e, lines must be so much steadier.
-PULL = 0.15
+STEP, APART = 1.6**0.25, 4
+# The search begins at this many times the white noise, and ends so many steps above the ε that suits the scatter.
+LOWEST, STEPS = 2.3, 6
+# Walls that beams graze scatter by less than others, for which ε is a little larger than what suits them all.
+MORE = 1.15
+# The share of ε by which points may scatter about their lines: for white noise, ε is then about three times as large.
+# At a coarse laser more is allowed, because there a larger ε takes in doors: the share grows with this power of ε.
+SHARE, SHARE_AT, POWER = 0.32, 0.05, 0.25
+# At an ε of SHARE_AT, lines must be so much steadier at a value that is larger by a factor of e; at other values,
+# in proportion to the square of ε.
+PULL = 0.2
+# Where lines are less steady by this than at a smaller ε, doors and what stands before walls become part of them: the
+# search ends.
+FALLS = 0.02
+# Multiples of what is proposed whose lines judge it and the present values. Values that differ by more are told.
+MUCH = 1.25
+BESIDE = (1 / MUCH, MUCH)
 # Agreement with the lines at a smaller and a larger ε that the present values may lack before others are proposed.
-AS_GOOD = 0.005
-# Below the first ε [m] walls break, however good the laser: plaster, skirting boards and doors are no straighter. For
-# such a laser the second is usual, and the third is tried at least.
-LEAST_EPSILON, FINE_EPSILON, TRIED_EPSILON = 0.02, 0.025, 0.04
+AS_GOOD = 0.002
+# Below this ε [m] walls break, however good the laser: plaster, skirting boards and doors are no straighter.
+LEAST_EPSILON = 0.02
 # The growing part of the noise counts if it is this many times as large at the farthest points as the constant part of
 # the scatter: an ε that grows where noise does not makes walls swallow doors.
 COUNTS = 0.7
@@ -57,7 +71,7 @@ class Proposal:
     they differ. fitting: those that fit best, also if the present ones are as good; None if nothing can be proposed.
     scatter: standard deviation of points from their walls [m]. pieces: number of segments into which a wall breaks at
     the present values, on average. tried: (k,) values of ε, or of the method's counterpart [m]; steady: (k,) score of
-    the lines there, with the lines at 1.26 times that value as the truth, 0 to 1.
+    the lines there, with the lines at 1.6 times that value as the truth, 0 to 1.
     text: what is proposed, or why nothing can be; "" if the present values are as good.
     """
 
@@ -88,18 +102,12 @@ def propose(
     """
     extractor = EXTRACTORS[method]
     present, found = params if params is not None else extractor.params_type(), known or noise(recording)
-    search = _Search(recording, found, present, extractor.extract)
+    search = _Search(recording, found, present, extractor.extract, wanted)
     why = search.why_not()
-    if why:
-        return search.nothing(why)
-    for scale in search.scales:
-        if not wanted():
-            raise Cancelled
-        search.try_scale(scale)
-    return search.judged()
+    return search.nothing(why) if why else search.judged()
 
 
-def scaled(params: Thresholds, scale: float) -> Thresholds:
+def scaled(params: T, scale: float) -> T:
     """`params` with every threshold that depends on the noise set for an ε of `scale` [m]."""
     values = {}
     for name, _, knob in params.knobs():
@@ -125,25 +133,21 @@ class _Search:
     """One method on some scans of a recording, at a series of values of ε."""
 
     def __init__(
-        self, recording: Recording, known: RangeNoise, present: Thresholds, extract: Callable[[Scan, Any], Extraction]
+        self,
+        recording: Recording,
+        known: RangeNoise,
+        present: Thresholds,
+        extract: Callable[[Scan, Any], Extraction],
+        wanted: Callable[[], bool],
     ) -> None:
-        self.noise, self.present, self._extract = known, present, extract
+        self.noise, self.present, self._extract, self._wanted = known, present, extract, wanted
         frames = np.flatnonzero(np.diff(recording.offsets) > 0)
         spread = np.linspace(0, len(frames) - 1, min(len(frames), FRAMES)).round().astype(int) if len(frames) else []
         self._scans = [scan for scan in (recording[int(frames[k])] for k in spread) if scan.valid.any()]
-        self._lines: list[list[Extraction]] = []
         ranges = np.concatenate([scan.ranges[scan.valid] for scan in self._scans]) if self._scans else np.empty(0)
-        self._middle, far = np.percentile(ranges, (50, 95)).tolist() if len(ranges) else (math.nan, math.nan)
-        self._white = float(self.noise.at(self._middle))
+        self._middle, self._far = np.percentile(ranges, (50, 95)).tolist() if len(ranges) else (math.nan, math.nan)
+        self._white, self._growth = float(self.noise.at(self._middle)), 0.0
         self.scatter = math.hypot(self._white, self.noise.roughness)
-        constant = math.hypot(self.noise.base, self.noise.roughness)
-        self._growth = self.noise.growth if self.noise.growth * far >= COUNTS * constant else 0.0
-        self.scales = np.empty(0)
-        if math.isfinite(self._white) and self._white > 0:
-            lowest = max(LOWEST * self._white, LEAST_EPSILON)
-            highest = max(HIGHEST * self.scatter, TRIED_EPSILON)
-            steps = math.floor(math.log(highest / lowest) / math.log(STEP))
-            self.scales = lowest * STEP ** np.arange(-APART, max(steps, APART) + 1 + APART)
 
     def why_not(self) -> str:
         """Why nothing can be proposed, in a sentence; "" if something can."""
@@ -153,57 +157,82 @@ class _Search:
             few = len(self._scans)
             have = "has" if few == 1 else "have"
             return f"Estimating noise needs at least {LEAST_FRAMES} scans with a return; {few} {have} one."
-        if not len(self.scales):
+        if not self._white > 0:
             return "No straight wall was found, so the noise of the laser is unknown."
         return ""
 
-    def fitting(self, scale: float) -> Thresholds:
+    def fitting(self, scale: float, present: T) -> T:
         """The present thresholds for an ε of `scale` [m] at the median range; it grows only if the noise does."""
-        params, rises = self.present, {}
-        for name, _, knob in params.knobs():
-            if knob.growth and getattr(params, name):
+        rises = {}
+        for name, _, knob in present.knobs():
+            if knob.growth and getattr(present, name):
                 rise = knob.growth * scale * self._growth / self.scatter
                 scale = math.sqrt(scale**2 - (rise * self._middle) ** 2)
-                rises[name] = min(max(_rounded(rise), getattr(type(params)(), name)), knob.most) if rise else 0.0
-        return scaled(params, scale).but(**rises)
-
-    def try_scale(self, scale: float) -> None:
-        self._lines.append(self._extracted(self.fitting(scale)))
+                rises[name] = min(max(_rounded(rise), getattr(type(present)(), name)), knob.most) if rise else 0.0
+        return scaled(present, scale).but(**rises)
 
     def nothing(self, why: str) -> Proposal:
         return Proposal(self.present, False, None, self.noise, self.scatter, math.nan, np.empty(0), np.empty(0), why)
 
     def judged(self) -> Proposal:
-        places = range(APART, len(self.scales) - APART)
-        tried = self.scales[APART:-APART]
-        steady = np.array([self._agrees(self._lines[k], k + APART) for k in places])
-        if not steady.max() > 0.0:
-            return self.nothing("No ε that fits this noise gives steady lines.")
-        sure = math.sqrt(max(self.noise.roughness**2 - (SURE * self._white) ** 2, 0.0))
-        usual = max(math.hypot(WHITE * self._white, ROUGH * sure), FINE_EPSILON)
-        best = int(np.argmax(steady - PULL * np.abs(np.log(tried / usual))))
-        if tried[best] > MOST_EPSILON:
+        suits = self._suiting()
+        if math.isnan(suits):
             return self.nothing(
                 f"Points scatter by {1e3 * self.scatter:.0f} mm here. That is too much: lines would have to take in "
                 f"points more than {MOST_EPSILON:g} m away."
             )
-        # Half-way to the next value: the lines are as steady from this one on.
-        proposed = self.fitting(tried[best] * math.sqrt(STEP))
+        scales = suits * STEP ** np.arange(STEPS + APART + 1)
+        lines = [self._extracted(self.fitting(scale, self.present)) for scale in scales.tolist()]
+        tried = scales[: STEPS + 1]
+        steady = np.array([_agreement(lines[k], lines[k + APART]) for k in range(len(tried))])
+        if not steady.max() > 0.0:
+            return self.nothing("No ε that fits this noise gives steady lines.")
+        best = int(np.argmax((steady - PULL * (suits / SHARE_AT) ** 2 * np.log(tried / suits))[: _rising(steady)]))
+        proposed = self.fitting(MORE * tried[best], self.present)
         found, present = self._extracted(proposed), self._extracted(self.present)
-        around = (places[best] - APART, places[best] + APART)
-        lacking = np.mean([self._agrees(found, k) - self._agrees(present, k) for k in around])
+        around = [self._extracted(rescaled(proposed, factor)) for factor in BESIDE]
+        lacking = np.mean([_agreement(found, other) - _agreement(present, other) for other in around])
         pieces = _pieces(present, found)
         answer = replace(self.nothing(""), fitting=proposed, pieces=pieces, tried=tried, steady=steady)
         if lacking <= AS_GOOD:
             return answer
         return replace(answer, params=proposed, changed=True, text=self._text(proposed, pieces))
 
-    def _extracted(self, params: Thresholds) -> list[Extraction]:
-        return [self._extract(scan, params) for scan in self._scans]
+    def _suiting(self) -> float:
+        """The ε [m] that suits the scatter, which also tells whether ε grows with the range; NaN if it is too large."""
+        suits = self._least_suiting()
+        if math.isfinite(suits):
+            # By what lines scatter beyond the white noise, walls bend.
+            self.scatter = max(suits * _allowed(suits), self._white)
+            constant = math.sqrt(self.scatter**2 - self._white**2 + self.noise.base**2)
+            if self.noise.growth * self._far >= COUNTS * constant:
+                self._growth = self.noise.growth
+                return self._least_suiting()
+        return suits
 
-    def _agrees(self, found: list[Extraction], k: int) -> float:
-        """Agreement of lines with those at one of the scales."""
-        return _agreement(found, self._lines[k])
+    def _least_suiting(self) -> float:
+        """The smallest ε [m] at which the lines of region growing scatter by no more than they may.
+
+        Between the values that are tried, the logarithm is interpolated.
+        """
+        demands = self.present if isinstance(self.present, Params) else demands_of(self.present)
+        scale, before = max(LOWEST * self._white, LEAST_EPSILON), 0.0
+        while scale <= MOST_EPSILON:
+            params = self.fitting(scale, demands)
+            share = _share(self._extracted_by(GROWING.extract, params), params)
+            over = math.log(max(share, 1e-9) / _allowed(scale))
+            if over <= 0.0:
+                return scale * STEP ** (over / (before - over)) if before else scale
+            scale, before = scale * STEP, over
+        return math.nan
+
+    def _extracted(self, params: Thresholds) -> list[Extraction]:
+        return self._extracted_by(self._extract, params)
+
+    def _extracted_by(self, extractor: Callable[[Scan, Any], Extraction], params: Thresholds) -> list[Extraction]:
+        if not self._wanted():
+            raise Cancelled
+        return [extractor(scan, params) for scan in self._scans]
 
     def _text(self, proposed: Thresholds, pieces: float) -> str:
         name, knob = _leading(proposed)
@@ -212,10 +241,32 @@ class _Search:
         if value > before and pieces >= 1.1:
             broken = f"at {before:g} a wall breaks into {pieces:.1f} pieces on average"
             return f"{told} {knob.symbol} = {value:g} fits; {broken}."
-        if abs(math.log(value / before)) > APART * math.log(STEP):
+        if not 1 / MUCH <= value / before <= MUCH:
             return f"{told} {knob.symbol} = {value:g} fits better than {before:g}."
         new = [f"{knob.symbol} = {value:g}" for knob, value in _changes(self.present, proposed)]
         return f"{told} {', '.join(new)} {'fits' if len(new) == 1 else 'fit'} a little better than the present values."
+
+
+def _rising(steady: Floats) -> int:
+    """The number of values before steadiness first falls."""
+    falls = steady < np.maximum.accumulate(steady) - FALLS
+    return int(np.argmax(falls)) if falls.any() else len(steady)
+
+
+def _allowed(scale: float) -> float:
+    """The share of an ε of `scale` [m] by which points may scatter about their lines."""
+    return SHARE * (scale / SHARE_AT) ** POWER
+
+
+def _share(found: list[Extraction], params: Params) -> float:
+    """The rms of lines, each as a share of the ε at its middle: their root mean square by length; inf without lines."""
+    lines = [line for one in found for line in one.segments]
+    if not lines:
+        return math.inf
+    length, rms = np.array([(line.length, line.rms) for line in lines]).T
+    middles = np.array([(line.start, line.end) for line in lines]).mean(axis=1)
+    shares = rms / params.epsilon_at(np.hypot(*middles.T))
+    return math.sqrt(float(length @ shares**2 / length.sum()))
 
 
 def _changes(present: Thresholds, proposed: Thresholds) -> list[tuple[Knob, float]]:

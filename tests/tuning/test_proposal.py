@@ -9,7 +9,7 @@ import pytest
 
 from lineseg import EXTRACTORS, Cancelled, Params, extract, open_recording
 from lineseg.scan import Recording, Scan
-from lineseg.simulate.laser import RPLIDAR_A2, UTM_30LX
+from lineseg.simulate.laser import LMS_200, RPLIDAR_A2, UTM_30LX
 from lineseg.simulate.worlds import WORLDS
 from lineseg.truth import Agreement, agreement, true_lines
 from lineseg.tuning import Objective
@@ -65,6 +65,7 @@ def test_in_a_room_of_boards_the_proposal_is_as_good_as_any_epsilon(board_room):
         ("office", 0.03, UTM_30LX),
         ("warehouse", 0.02, UTM_30LX),
         ("warehouse", 0.002, RPLIDAR_A2),
+        ("boards", 0.005, LMS_200),
     ],
 )
 def test_for_a_coarse_or_fine_laser_the_proposal_is_as_good_as_any_epsilon(name, sigma, laser):
