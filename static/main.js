@@ -1,9 +1,6 @@
 // @ts-check
 // Composition only: the parts, their places, and the order in which they are informed.
-import { createModes } from "./bars/modes.js";
-import { mountStatus } from "./bars/status.js";
-import { createPlots } from "./bars/plots.js";
-import { Timeline } from "./bars/timeline.js";
+import { mountBars } from "./bars/bars.js";
 import { mountTopbar } from "./bars/topbar.js";
 import { bindingsOf } from "./bindings.js";
 import { createDraw } from "./draw/draw.js";
@@ -12,28 +9,23 @@ import { createPackCard } from "./export/pack.js";
 import { createInspect } from "./inspect/inspect.js";
 import { giveKeysBack, keyboard, showHelp } from "./keys.js";
 import { createLabels } from "./label/labels.js";
-import { createLayout } from "./layout/layout.js";
-import { mountLearn } from "./learn/learn.js";
-import { createLive } from "./live/pill.js";
 import { createOpening } from "./open/open.js";
 import { createReread } from "./open/reread.js";
 import { createWork } from "./open/work.js";
 import { Page } from "./page.js";
+import { mountPanels } from "./panels.js";
 import { createReceiver } from "./receive.js";
-import { RerunTab } from "./rerun/tab.js";
 import { offerToScripts } from "./scripts.js";
 import { mountScene } from "./stage/scene.js";
 import { words } from "./text/words.js";
 import { createTheme } from "./theme.js";
-import { createProfiles } from "./tune/profiles.js";
-import { createTune } from "./tune/tune.js";
 import { createAddress } from "./view/address.js";
 import { createFollow, presenterIn } from "./view/follow.js";
 import { h } from "./widgets/dom.js";
 
 const text = words.page;
 const page = new Page();
-const { store, session, change, settled, sessionId, goToFrame, follow } = page;
+const { store, session, change, sessionId, goToFrame } = page;
 
 /** @param {string} id */
 const place = (id) => /** @type {HTMLElement} */ (document.getElementById(id));
@@ -75,57 +67,8 @@ const cards = h("div", { class: "stage-cards" }, packCard.element, inspect.ab.el
 notices.add(following.element);
 notices.add(cards);
 const labelling = { name: "labels", label: words.label.tab, content: labels.element };
-const docks = { panel: place("panel"), replay: place("replay") };
-const panels = [place("panel"), place("learn")];
-const layout = createLayout(
-  { main: place("main"), panels, plots: place("plots"), timeline: place("timeline") },
-  text.layout,
-);
-const profiles = createProfiles(page, layout, words.tuning.profiles);
-const tune = createTune(page, docks, words, {
-  pages: [inspect.pages.frames, labelling, inspect.pages.truth],
-  explanation: scene.explanation,
-  pointing: scene.pointing,
-  profiles: profiles.group,
-});
-const learn = mountLearn(
-  { stage: place("stage"), view: stage, dock: place("stepper"), panel: place("learn") },
-  { tune: text.tune, learn: words.learn, shown: words.shown },
-  { onChange: change, onDraw: page.drawWorld, closeUp: camera.closeUp, settled, session: sessionId },
-);
-const pages = { learn: [place("learn"), place("stepper")], usual: [place("panel"), place("replay")] };
-const modes = createModes(words.learn.modes, place("main"), pages, {
-  onMode(mode) {
-    rerun.close();
-    page.setMode(mode);
-  },
-  onEntered: inspect.showScored,
-});
-const rerun = new RerunTab(place("stage"), words.rerun, {
-  session: sessionId,
-  dark: () => page.view.dark,
-  onFrame: goToFrame,
-  onOpen: modes.cover,
-  cancelLabel: text.stage.cancel,
-});
-modes.element.append(rerun.button);
-
-const live = createLive(words.live, { onFollow: follow });
-const timeline = new Timeline(place("timeline"), text.timeline, {
-  onFrame: goToFrame,
-  onSpeed: (speed) => change({ speed }),
-  onScore: (score) => change({ score }),
-  onScores: inspect.showScored,
-  onFollow: follow,
-  settled,
-  pill: live.button,
-});
-const plots = createPlots(place("plots"), text.timeline.plots, {
-  scored: () => timeline.scored,
-  track: () => timeline.track,
-  onFrame: goToFrame,
-});
-const status = mountStatus(page, place("status"), text.status, live.element);
+const { layout, tune, learn, modes, rerun } = mountPanels(page, place, words, { scene, inspect, labelling });
+const { live, timeline, plots, status } = mountBars(page, place, words, { onScores: inspect.showScored });
 const work = createWork(notices, text.stage, () => page.drawn !== null);
 const opening = createOpening(page, { work, notices, tune, learn }, text, address.linked);
 const reread = createReread(page, words.reading, notices);

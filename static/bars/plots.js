@@ -67,62 +67,8 @@ export function createPlots(holder, text, { scored, track, onFrame }) {
     while (rows.childElementCount > shown.length) rows.lastElementChild?.remove();
     while (rows.childElementCount < shown.length) rows.append(h("canvas", { class: "plot" }));
     for (const [k, score] of shown.entries())
-      paintPlot(/** @type {HTMLCanvasElement} */ (rows.children[k]), score, frames);
-    paintAxis(frames);
-  }
-
-  /** Where a frame is. @param {ScoredFrames} frames @param {number} frame @param {number} width */
-  const across = ({ survey }, frame, width) =>
-    survey ? (((frame - survey.first) / survey.every) * width) / Math.max(1, survey.frames - 1) : 0;
-
-  /** @param {HTMLCanvasElement} canvas @param {Score} score @param {ScoredFrames} frames */
-  function paintPlot(canvas, score, frames) {
-    const { pen, width, height } = freshCanvas(canvas);
-    const known = frames.column(score.name);
-    const [low, high] = rangeOf(known);
-    const at = (/** @type {number} */ value) =>
-      height - INSET.bottom - ((value - low) / (high - low || 1)) * (height - INSET.top - INSET.bottom);
-    pen.strokeStyle = colour("--line");
-    for (const value of [low, high]) line(pen, [0, at(value)], [width, at(value)]);
-    pen.strokeStyle = colour("--accent");
-    pen.beginPath();
-    for (const [k, value] of known.entries()) pen.lineTo((k * width) / Math.max(1, known.length - 1), at(value));
-    pen.stroke();
-    pen.font = "11.5px system-ui, sans-serif";
-    pen.fillStyle = colour("--ink");
-    pen.fillText(score.label, 2, 11);
-    const wide = pen.measureText(score.label).width;
-    pen.fillStyle = colour("--muted");
-    pen.fillText(`${format(low, score.unit)} to ${format(high, score.unit)}`, wide + 12, 11);
-    for (const [frame, tone] of /** @type {[number | null | undefined, string][]} */ ([
-      [state?.frame, "--muted"],
-      [pointed, "--ink"],
-    ])) {
-      if (frame === null || frame === undefined) continue;
-      pen.strokeStyle = colour(tone);
-      line(pen, [across(frames, frame, width), INSET.top], [across(frames, frame, width), height]);
-    }
-    pen.fillStyle = colour("--ink");
-    pen.textAlign = "right";
-    pen.fillText(frames.valueWords(score, pointed ?? state?.frame ?? 0), width - 2, 11);
-    pen.textAlign = "left";
-  }
-
-  /** Numbers of frames below the plots. @param {ScoredFrames} frames */
-  function paintAxis(frames) {
-    const { pen, width } = freshCanvas(axis);
-    const { survey } = frames;
-    if (!survey) return;
-    pen.font = "11px system-ui, sans-serif";
-    pen.fillStyle = pen.strokeStyle = colour("--muted");
-    const every = roundUp((survey.frames * survey.every * TICK_PX) / Math.max(1, width));
-    const last = frames.number(survey.frames - 1);
-    for (let frame = Math.ceil(survey.first / every) * every; frame <= last; frame += every) {
-      const x = across(frames, frame, width);
-      line(pen, [x, 0], [x, 3]);
-      pen.textAlign = x < 12 ? "left" : x > width - 12 ? "right" : "center";
-      pen.fillText(String(frame), x, AXIS_PX - 3);
-    }
+      paintPlot(/** @type {HTMLCanvasElement} */ (rows.children[k]), score, frames, state?.frame ?? null, pointed);
+    paintAxis(axis, frames);
   }
 
   return {
@@ -134,6 +80,65 @@ export function createPlots(holder, text, { scored, track, onFrame }) {
     setSurvey: paintSoon,
     setView: paintSoon,
   };
+}
+
+/**
+ * One score over the frames.
+ * @param {HTMLCanvasElement} canvas @param {Score} score @param {ScoredFrames} frames
+ * @param {number | null} present the frame that is shown @param {number | null} pointed the frame under the pointer
+ */
+function paintPlot(canvas, score, frames, present, pointed) {
+  const { pen, width, height } = freshCanvas(canvas);
+  const known = frames.column(score.name);
+  const [low, high] = rangeOf(known);
+  const at = (/** @type {number} */ value) =>
+    height - INSET.bottom - ((value - low) / (high - low || 1)) * (height - INSET.top - INSET.bottom);
+  pen.strokeStyle = colour("--line");
+  for (const value of [low, high]) line(pen, [0, at(value)], [width, at(value)]);
+  pen.strokeStyle = colour("--accent");
+  pen.beginPath();
+  for (const [k, value] of known.entries()) pen.lineTo((k * width) / Math.max(1, known.length - 1), at(value));
+  pen.stroke();
+  pen.font = "11.5px system-ui, sans-serif";
+  pen.fillStyle = colour("--ink");
+  pen.fillText(score.label, 2, 11);
+  const wide = pen.measureText(score.label).width;
+  pen.fillStyle = colour("--muted");
+  pen.fillText(`${format(low, score.unit)} to ${format(high, score.unit)}`, wide + 12, 11);
+  for (const [frame, tone] of /** @type {[number | null, string][]} */ ([
+    [present, "--muted"],
+    [pointed, "--ink"],
+  ])) {
+    if (frame === null) continue;
+    pen.strokeStyle = colour(tone);
+    line(pen, [across(frames, frame, width), INSET.top], [across(frames, frame, width), height]);
+  }
+  pen.fillStyle = colour("--ink");
+  pen.textAlign = "right";
+  pen.fillText(frames.valueWords(score, pointed ?? present ?? 0), width - 2, 11);
+  pen.textAlign = "left";
+}
+
+/** Numbers of frames below the plots. @param {HTMLCanvasElement} axis @param {ScoredFrames} frames */
+function paintAxis(axis, frames) {
+  const { pen, width } = freshCanvas(axis);
+  const { survey } = frames;
+  if (!survey) return;
+  pen.font = "11px system-ui, sans-serif";
+  pen.fillStyle = pen.strokeStyle = colour("--muted");
+  const every = roundUp((survey.frames * survey.every * TICK_PX) / Math.max(1, width));
+  const last = frames.number(survey.frames - 1);
+  for (let frame = Math.ceil(survey.first / every) * every; frame <= last; frame += every) {
+    const x = across(frames, frame, width);
+    line(pen, [x, 0], [x, 3]);
+    pen.textAlign = x < 12 ? "left" : x > width - 12 ? "right" : "center";
+    pen.fillText(String(frame), x, AXIS_PX - 3);
+  }
+}
+
+/** Where a frame is. @param {ScoredFrames} frames @param {number} frame @param {number} width */
+function across({ survey }, frame, width) {
+  return survey ? (((frame - survey.first) / survey.every) * width) / Math.max(1, survey.frames - 1) : 0;
 }
 
 /** @param {CanvasRenderingContext2D} pen @param {[number, number]} from @param {[number, number]} to */

@@ -35,8 +35,6 @@ export function createRuler(holder, stage, text, { sweep, onHover, plan }) {
   let anchors = [];
   /** @type {State | null} */
   let state = null;
-  /** Where the pointer was pressed and where it is now. @type {{start: Point, last: Point} | null} */
-  let pressed = null;
 
   function toggle() {
     surface.hidden = card.hidden = !surface.hidden;
@@ -46,21 +44,8 @@ export function createRuler(holder, stage, text, { sweep, onHover, plan }) {
     show(null);
   }
 
-  /** What lies at a place of the stage: an end of a line, a line, a point, or the place itself. @param {Point} at @param {boolean} exact the nearest point, or else the place @returns {Anchor | null} */
-  function anchorAt(at, exact) {
-    const here = stage.unproject(...at);
-    if (!here) return null;
-    const seen = (/** @type {Point} */ place) => /** @type {Point} */ (stage.project(...place) ?? [Infinity, Infinity]);
-    const near = (/** @type {Point} */ place) => Math.hypot(seen(place)[0] - at[0], seen(place)[1] - at[1]);
-    const lines = exact ? [] : (state?.segments ?? []);
-    const end = lines.flatMap((line) => [line.start, line.end]).find((place) => near(place) < REACH_PX);
-    if (end) return { at: end };
-    const line = lines.find((each) => fromPart(at, [seen(each.start), seen(each.end)]) < REACH_PX);
-    if (line) return { at: here, ends: [line.start, line.end], line: line.line };
-    const points = sweep();
-    const beam = points && nearestBeam(points, at, stage.project, REACH_PX);
-    return { at: (beam !== null && points?.points[beam]) || here };
-  }
+  /** @param {Point} at @param {boolean} exact */
+  const anchorAt = (at, exact) => anchorOf(stage, exact ? [] : (state?.segments ?? []), sweep(), at);
 
   /** @param {Anchor | null} hovered */
   function show(hovered) {
@@ -84,34 +69,18 @@ export function createRuler(holder, stage, text, { sweep, onHover, plan }) {
     setText(words, text.said(found));
   }
 
-  const placeOf = (/** @type {PointerEvent} */ { offsetX, offsetY }) => /** @type {Point} */ ([offsetX, offsetY]);
-  surface.addEventListener("pointerdown", (event) => {
-    surface.setPointerCapture(event.pointerId);
-    pressed = { start: placeOf(event), last: placeOf(event) };
-  });
-  surface.addEventListener("pointermove", (event) => {
-    const at = placeOf(event);
-    if (!pressed) {
+  listen(surface, stage, {
+    onHover(at, exact) {
       onHover(at);
-      return show(anchorAt(at, event.shiftKey));
-    }
-    const [was, is] = [stage.unproject(...pressed.last), stage.unproject(...at)];
-    if (was && is) stage.pan(was[0] - is[0], was[1] - is[1]);
-    pressed.last = at;
-    return undefined;
+      show(at && anchorAt(at, exact));
+    },
+    onPlace(at, exact) {
+      const anchor = anchorAt(at, exact);
+      if (!anchor) return;
+      anchors = anchors.length < 2 ? [...anchors, anchor] : [anchor];
+      show(null);
+    },
   });
-  surface.addEventListener("pointerup", (event) => {
-    const at = placeOf(event);
-    const still = pressed && Math.hypot(at[0] - pressed.start[0], at[1] - pressed.start[1]) <= CLICK_PX;
-    pressed = null;
-    const anchor = still ? anchorAt(at, event.shiftKey) : null;
-    if (!anchor) return;
-    anchors = anchors.length < 2 ? [...anchors, anchor] : [anchor];
-    show(null);
-  });
-  surface.addEventListener("pointercancel", () => (pressed = null));
-  surface.addEventListener("pointerleave", () => (onHover(null), show(null)));
-  surface.addEventListener("wheel", (event) => (event.preventDefault(), stage.pass(event)), { passive: false });
 
   return {
     button,
@@ -130,4 +99,56 @@ export function createRuler(holder, stage, text, { sweep, onHover, plan }) {
       }
     },
   };
+}
+
+/**
+ * What lies at a place of the stage: an end of a line, a line, a point, or the place itself.
+ * @param {import("./kinds.js").AnyStage} stage @param {State["segments"]} lines @param {import("../wire.js").Sweep | null} points
+ * @param {Point} at @returns {Anchor | null}
+ */
+function anchorOf(stage, lines, points, at) {
+  const here = stage.unproject(...at);
+  if (!here) return null;
+  const seen = (/** @type {Point} */ place) => /** @type {Point} */ (stage.project(...place) ?? [Infinity, Infinity]);
+  const near = (/** @type {Point} */ place) => Math.hypot(seen(place)[0] - at[0], seen(place)[1] - at[1]);
+  const end = lines.flatMap((line) => [line.start, line.end]).find((place) => near(place) < REACH_PX);
+  if (end) return { at: end };
+  const line = lines.find((each) => fromPart(at, [seen(each.start), seen(each.end)]) < REACH_PX);
+  if (line) return { at: here, ends: [line.start, line.end], line: line.line };
+  const beam = points && nearestBeam(points, at, stage.project, REACH_PX);
+  return { at: (beam !== null && points?.points[beam]) || here };
+}
+
+/**
+ * The pointer over the surface of the ruler: a press that moves drags the plan, and another names a place.
+ * @param {HTMLElement} surface
+ * @param {import("./kinds.js").AnyStage} stage
+ * @param {{onHover: (at: Point | null, exact: boolean) => void, onPlace: (at: Point, exact: boolean) => void}} handlers
+ *   exact: Shift is held, which passes over lines
+ */
+function listen(surface, stage, { onHover, onPlace }) {
+  /** Where the pointer was pressed and where it is now. @type {{start: Point, last: Point} | null} */
+  let pressed = null;
+  const placeOf = (/** @type {PointerEvent} */ { offsetX, offsetY }) => /** @type {Point} */ ([offsetX, offsetY]);
+  surface.addEventListener("pointerdown", (event) => {
+    surface.setPointerCapture(event.pointerId);
+    pressed = { start: placeOf(event), last: placeOf(event) };
+  });
+  surface.addEventListener("pointermove", (event) => {
+    const at = placeOf(event);
+    if (!pressed) return onHover(at, event.shiftKey);
+    const [was, is] = [stage.unproject(...pressed.last), stage.unproject(...at)];
+    if (was && is) stage.pan(was[0] - is[0], was[1] - is[1]);
+    pressed.last = at;
+    return undefined;
+  });
+  surface.addEventListener("pointerup", (event) => {
+    const at = placeOf(event);
+    const still = pressed && Math.hypot(at[0] - pressed.start[0], at[1] - pressed.start[1]) <= CLICK_PX;
+    pressed = null;
+    if (still) onPlace(at, event.shiftKey);
+  });
+  surface.addEventListener("pointercancel", () => (pressed = null));
+  surface.addEventListener("pointerleave", () => onHover(null, false));
+  surface.addEventListener("wheel", (event) => (event.preventDefault(), stage.pass(event)), { passive: false });
 }

@@ -31,73 +31,78 @@ export function createProfiles(page, layout, text) {
     return { format: FORMAT, name, view: { method, params, reading, layers }, layout: layout.get() };
   }
 
-  function show() {
-    const name = h("input", { class: "profile-name", maxLength: LONGEST_NAME, placeholder: text.placeholder });
-    const trouble = h("p", { class: "panel-error", role: "alert", hidden: true });
-    const list = h("ul", { class: "profiles" });
-    const button = (/** @type {string} */ label, /** @type {() => void} */ onclick) =>
-      h("button", { type: "button", class: "button", onclick }, label);
-
-    function refresh() {
-      list.replaceChildren(
-        ...Object.values(kept()).map((profile) =>
-          h(
-            "li",
-            {},
-            h("span", {}, profile.name),
-            button(text.use, () => (dialog.close(), use(profile))),
-            button(text.save, () => download(`${profile.name}.lineseg-profile.json`, JSON.stringify(profile, null, 2))),
-            button(text.remove, () => (keep(profile.name, null), refresh())),
-          ),
-        ),
-      );
-    }
-
-    function add() {
-      const words = name.value.trim();
-      if (!words) return name.focus();
-      keep(words, taken(words));
-      name.value = "";
-      return refresh();
-    }
-
-    /** @param {File[]} files */
-    async function read(files) {
-      const found = profileIn(await files[0].text());
-      trouble.hidden = found !== null;
-      if (!found) return setText(trouble, text.notOne(files[0].name));
-      keep(found.name, found);
-      return refresh();
-    }
-
-    const dialog = openDialog(
-      text.title,
-      text.close,
-      h("p", { class: "hint" }, text.hint),
-      h("div", { class: "profile-new" }, h("label", {}, text.name, name), button(text.keep, add)),
-      list,
-      trouble,
-      h(
-        "div",
-        { class: "dialog-buttons" },
-        button(text.open, () => chooseFile(read)),
-      ),
-    );
-    name.addEventListener("keydown", ({ key }) => key === "Enter" && add());
-    refresh();
-    name.focus();
-  }
-
   return {
     /** For the menu of presets. @returns {import("../widgets/menu.js").Group} */
     group: () => ({
       title: text.title,
       items: [
         ...Object.values(kept()).map((profile) => ({ label: profile.name, run: () => use(profile) })),
-        { label: text.manage, run: show },
+        { label: text.manage, run: () => showProfiles(text, { use, taken }) },
       ],
     }),
   };
+}
+
+/**
+ * The dialog in which profiles are kept, used, saved, removed and opened.
+ * @param {typeof import("../text/tuning.js").tuningText.profiles} text
+ * @param {{use: (profile: Profile) => void, taken: (name: string) => Profile}} handlers taken: what is on the screen, as a profile
+ */
+function showProfiles(text, { use, taken }) {
+  const name = h("input", { class: "profile-name", maxLength: LONGEST_NAME, placeholder: text.placeholder });
+  const trouble = h("p", { class: "panel-error", role: "alert", hidden: true });
+  const list = h("ul", { class: "profiles" });
+  const button = (/** @type {string} */ label, /** @type {() => void} */ onclick) =>
+    h("button", { type: "button", class: "button", onclick }, label);
+
+  function refresh() {
+    list.replaceChildren(
+      ...Object.values(kept()).map((profile) =>
+        h(
+          "li",
+          {},
+          h("span", {}, profile.name),
+          button(text.use, () => (dialog.close(), use(profile))),
+          button(text.save, () => download(`${profile.name}.lineseg-profile.json`, JSON.stringify(profile, null, 2))),
+          button(text.remove, () => (keep(profile.name, null), refresh())),
+        ),
+      ),
+    );
+  }
+
+  function add() {
+    const words = name.value.trim();
+    if (!words) return name.focus();
+    keep(words, taken(words));
+    name.value = "";
+    return refresh();
+  }
+
+  /** @param {File[]} files */
+  async function read(files) {
+    const found = profileIn(await files[0].text());
+    trouble.hidden = found !== null;
+    if (!found) return setText(trouble, text.notOne(files[0].name));
+    keep(found.name, found);
+    return refresh();
+  }
+
+  const dialog = openDialog(
+    text.title,
+    text.close,
+    h("p", { class: "hint" }, text.hint),
+    h("div", { class: "profile-new" }, h("label", {}, text.name, name), button(text.keep, add)),
+    list,
+    trouble,
+    h(
+      "div",
+      { class: "dialog-buttons" },
+      button(text.open, () => chooseFile(read)),
+    ),
+  );
+  name.addEventListener("keydown", ({ key }) => key === "Enter" && add());
+  refresh();
+  name.focus();
 }
 
 /** @param {string} name @param {Profile | null} profile null: no longer */
