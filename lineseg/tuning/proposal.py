@@ -43,8 +43,8 @@ MORE = 1.15
 # The share of ε by which points may scatter about their lines: for white noise, ε is then about three times as large.
 # At a coarse laser more is allowed, because there a larger ε takes in doors: the share grows with this power of ε.
 SHARE, SHARE_AT, POWER = 0.32, 0.05, 0.25
-# At an ε of SHARE_AT, lines must be so much steadier at a value that is larger by a factor of e; at other values,
-# in proportion to the square of ε.
+# At an ε of SHARE_AT or less, lines must be so much steadier at a value that is larger by a factor of e; above it, in
+# proportion to the square of ε.
 PULL = 0.2
 # Where lines are less steady by this than at a smaller ε, doors and what stands before walls become part of them: the
 # search ends.
@@ -187,7 +187,8 @@ class _Search:
         steady = np.array([_agreement(lines[k], lines[k + APART]) for k in range(len(tried))])
         if not steady.max() > 0.0:
             return self.nothing("No ε that fits this noise gives steady lines.")
-        best = int(np.argmax((steady - PULL * (suits / SHARE_AT) ** 2 * np.log(tried / suits))[: _rising(steady)]))
+        pull = PULL * max(suits / SHARE_AT, 1.0) ** 2
+        best = int(np.argmax((steady - pull * np.log(tried / suits))[: _rising(steady)]))
         proposed = self.fitting(MORE * tried[best], self.present)
         found, present = self._extracted(proposed), self._extracted(self.present)
         around = [self._extracted(rescaled(proposed, factor)) for factor in BESIDE]
