@@ -2,7 +2,7 @@
 // Words of the pages that stand alone.
 
 export const handoutText = {
-  notHere: "This page does not hold it.",
+  notHere: "This needs the running program: open the lesson in lineseg.",
   opening: "Opening…",
   tooOld: "This browser is too old to open this page. It needs Chrome 80, Firefox 113, Safari 16.4 or newer.",
   broken: "This file is damaged: a part of it is missing. Save or download it again.",
