@@ -12,7 +12,7 @@ from .progress import progress_bar
 
 
 def lessons(
-    lesson: Positional[Several[str]] = (),
+    lesson: Positional[Annotated[Several[str], arg(metavar="[LESSON ...]")]] = (),
     *,
     out: Annotated[Path, arg(aliases=["-o"])],
     lessons: Unset[Path] = None,

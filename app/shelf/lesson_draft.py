@@ -11,9 +11,8 @@ from lineseg.tracing.decisions import Decision
 
 from ..frame.geometry import Bounds
 from ..view import View
-from .lesson import Find
+from .lesson import USUAL, Find
 from .lesson_numbers import METHOD, found
-from .lessons import USUAL
 
 # Scans of which a lesson can only know the name; those of others it contains.
 LASTING = ("lesson:", "sample:", "drawn:")

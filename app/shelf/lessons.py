@@ -16,15 +16,13 @@ from lineseg.scan import Recording, Scan
 from lineseg.simulate.drawing import Drawing
 
 from ..places import data_folder
-from .lesson import Lesson, Looked, NamedLesson, Task
+from .lesson import USUAL, Lesson, Looked, NamedLesson, Task
 from .lesson_goals import accepted
 from .lesson_markup import beside, check_text
 from .lesson_mistakes import MistakeError, Place, told
 from .lesson_numbers import METHOD, Numbers
 from .scratch import Scratch
 
-# Lessons teach the method of the paper.
-USUAL = {"max_occluder": 0.0, "merge_rms": 0.0, "max_void": 0.0, "epsilon_growth": 0.0}
 LARGEST = 1_000_000
 T = TypeVar("T")
 QUANTITY = re.compile(r"[-−]?\d+(\.\d+)?(\s*\D.*)?")

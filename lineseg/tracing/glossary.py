@@ -142,7 +142,7 @@ TERMS = (
     Term("endpoint",
          "An end of a segment: its outermost point, moved across the line onto it: P_0 = (x_0, y_0) becomes "
          "P_s = (x_s, y_s).",
-         ("endpoint", "endpoints", "x_0", "x_s", "P_0", "P_s"), "Eqs. 7, 8", "06_endpoints"),
+         ("endpoint", "endpoints", "x_0", "y_0", "x_s", "y_s", "P_0", "P_s"), "Eqs. 7, 8", "06_endpoints"),
     Term("segment", "A line that was kept, between its two endpoints.", ("segment", "segments"), lesson="06_endpoints"),
     Term("noise", "How much ranges scatter when the same wall is measured again, σ.", ("noise", "σ"),
          lesson="07_epsilon"),

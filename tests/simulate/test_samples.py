@@ -13,8 +13,8 @@ from lineseg.simulate.samples import write_samples
 
 SAMPLES = Path(__file__).parents[2] / "sample_scans"
 LONG = ("hallway", "laboratory")
-# The texts of the lessons (.json) are written by hand.
-FILES = [path for path in SAMPLES.rglob("*") if path.is_file() and path.suffix != ".json"]
+# The texts of the lessons, and about them, are written by hand.
+FILES = [path for path in SAMPLES.rglob("*") if path.is_file() and path.suffix not in (".json", ".md")]
 NAMES = sorted(str(path.relative_to(SAMPLES)) for path in FILES)
 
 

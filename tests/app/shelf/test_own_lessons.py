@@ -146,7 +146,7 @@ def test_a_lesson_is_about_a_recording_beside_it(tmp_path: Path):
 
 
 def method_of_lessons():
-    from lineseg_app.shelf.lessons import USUAL
+    from lineseg_app.shelf.lesson import USUAL
 
     from lineseg import Params
 
