@@ -190,7 +190,7 @@ def test_the_lines_that_a_sentence_says_are_missed_are_ghosts_in_the_scene(new_t
     ends = np.array(ghosts).reshape(-1, 2)
     tab = new_tab("#mode=inspect&score=suspicion&recording=sample:room_of_boards&frame=5")
     drawn = """() => {
-        const node = window.__viserMutable.nodeRefFromName["/ghosts"];
+        const node = window.__viserMutable.nodeRefFromName["/seen/ghosts"];
         let found = null;
         if (node?.visible) node.traverse((part) => (found = part.geometry?.attributes.instanceStart ?? found));
         return found ? [...found.data.array] : [];

@@ -17,7 +17,7 @@ WALK = """async ([from, to, expected]) => {
     // What viser has not made yet is equal to nothing, so that the walk waits for it.
     const notYet = [NaN];
     const drawn = (name) => {
-        const node = nodes[`/${name}`];
+        const node = nodes[`/seen/${name}`];
         if (!node) return notYet;
         if (!node.visible) return [];
         let found = null;
