@@ -227,7 +227,7 @@ def test_what_fits_the_laser_is_offered_taken_over_and_undone(tab, coarse: Path)
     tab.until("s.params.epsilon === 0.03 && s.params.delta === 0.1")
     tuner(tab, "fit", "s.better")
 
-    tab.page.get_by_label("Method").select_option("hough")
+    tab.page.get_by_label("Method", exact=True).select_option("hough")
     assert set(tuner(tab, "fit", "s.fits && s.fits.rho_step")["fits"]) == {"epsilon", "rho_step"}
     tab.choose_recording("1 perfect corner")
     tuner(tab, "fit", "s.text.includes('at least 4 scans')")
