@@ -141,7 +141,8 @@ def test_an_odd_message_gets_one_line_and_the_tab_goes_on(page: Page, text: str,
     page._socket.send(text)
     message = page.heard("error", lambda error: sentence in error["message"])["message"]
     assert "\n" not in message
-    assert page.drawn_or_told(page.ask(frame=1))["frame"] == 1
+    page.ask(frame=1)
+    page.until(lambda state: state["frame"] == 1)
 
 
 TOPICS = "CREATE TABLE topics(id INTEGER, name TEXT, type TEXT, serialization_format TEXT)"
