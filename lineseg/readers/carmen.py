@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import math
 import re
-from dataclasses import replace
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ..poses import PoseSource, Track
+from ..poses import Found, PoseSource, Track
 from ..scan import Floats, Recording, Topic
 from .numbers import leading_numbers
 from .range_limits import longest_return
@@ -33,14 +32,15 @@ HALF_TURN = (180, 181, 360, 361)
 
 
 class Line(NamedTuple):
-    """One decoded laser line; range_max: as stated in the line, None if not stated. pose: x, y, θ of the laser."""
+    """One decoded laser line; range_max: as stated in the line, None if not stated. pose: the words
+    that begin with x, y, θ of the laser."""
 
     ranges: Floats
     angle_min: float
     angle_increment: float
     range_max: float | None
     stamp: float
-    pose: tuple[float, float, float]
+    pose: list[bytes]
 
 
 class CarmenLog(Reader):
@@ -96,18 +96,21 @@ def _recording(
     sweeps = Sweeps()
     for line in lines:
         sweeps.add(line.ranges, line.angle_min, line.angle_increment, stamp=line.stamp, frame_id=topic.lower())
-    recording = sweeps.recording(source, topic=topic, topics=topics, format=CarmenLog.format)
+    track = Track(partial(_found, [line.pose for line in lines], topic))
+    recording = sweeps.recording(source, topic=topic, topics=topics, format=CarmenLog.format, track=track)
     announced = max((line.range_max for line in lines if line.range_max), default=setting)
     recording.range_max[:] = longest_return(recording.ranges, announced)
-    return replace(recording, track=_track(np.array([line.pose for line in lines]), topic))
+    return recording
 
 
-def _track(poses: NDArray[np.float64], topic: str) -> Track:
+def _found(words: list[list[bytes]], topic: str) -> Found:
+    """The poses of the lines, from the words that begin with them."""
+    poses = np.array([_pose(each) for each in words])
     known = np.isfinite(poses).all(axis=1)
     if not known.any():
-        return Track.of(poses, PoseSource(missing=f"{topic} lines have none"))
+        return Found(poses, PoseSource(missing=f"{topic} lines have none"))
     missing = "" if known.all() else "other lines break off before it"
-    return Track.of(poses, PoseSource(f"{topic} lines", missing=missing))
+    return Found(poses, PoseSource(f"{topic} lines", missing=missing))
 
 
 def _with_view(source: Source, lines: list[Line], settings: dict[bytes, bytes], topic: str) -> list[Line]:
@@ -140,7 +143,7 @@ def _decode_flaser(text: bytes, tail: int) -> Line:
     message, count, values = _words(text, 3)
     ranges, rest = _ranges(message, count, values)
     angle_min, angle_increment = flaser_angles(len(ranges))
-    return Line(ranges, angle_min, angle_increment, None, _stamp(rest, tail), _pose(rest))
+    return Line(ranges, angle_min, angle_increment, None, _stamp(rest, tail), rest[:3])
 
 
 def _decode_robotlaser(text: bytes, tail: int) -> Line:
@@ -154,7 +157,7 @@ def _decode_robotlaser(text: bytes, tail: int) -> Line:
     if step == 0 and len(ranges) > 1:
         step = _float(view, message) / (len(ranges) - 1)
     remissions = int(rest[0]) if rest and rest[0].isdigit() else 0
-    pose = _pose(rest[1 + remissions :] if tail else [])
+    pose = rest[1 + remissions : 4 + remissions] if tail else []
     return Line(ranges, angle_min, step, range_max, _stamp(rest, 1 + remissions + tail), pose)
 
 
