@@ -48,7 +48,7 @@ def applied(recording: Recording, reading: Reading, notes: Notes, file: Path) ->
         find=partial(_findings, whole, shown, used, guesses, notes),
     )
     # A copy does not keep the scans and beams that were left out.
-    return replace(shown, account=account if shown is whole else copy(account))
+    return replace(shown, account=account if shown.ranges is whole.ranges else copy(account))
 
 
 def _findings(whole: Recording, shown: Recording, used: Reading, guesses: tuple[Guess, ...], notes: Notes) -> Findings:

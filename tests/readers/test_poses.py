@@ -1,6 +1,7 @@
 """Poses of the laser, from what each format has; the bags are written by `rosbags`."""
 
 import pickle
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -273,3 +274,10 @@ def test_motion_that_cannot_be_removed_is_told(tmp_path):
         open_recording(tmp_path / "run.npz", motion="removed")
     with pytest.raises(ValueError, match="the scans have no poses: the file has none"):
         open_recording(tmp_path / "run.npz", motion="removed", time_increment=1e-4)
+
+
+@pytest.mark.parametrize("name", ["hallway.log", "hallway.mcap", "hallway.csv", "hallway.npz"])
+def test_opening_a_file_finds_neither_its_poses_nor_what_it_was_taken_for(name: str):
+    recording = open_recording(Path(__file__).parents[2] / "sample_scans" / name)
+    assert "findings" not in vars(recording.account)
+    assert recording.track is None or "found" not in vars(recording.track)
