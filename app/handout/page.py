@@ -25,7 +25,7 @@ LIST_SHEETS = ("base.css", "learn/learn.css", "handout/list.css")
 GENERATOR = f'<meta name="generator" content="lineseg {__version__}">'
 # What asks the server, and what takes its place.
 INSTEAD = {"fetch.js": "handout/answers.js", "learn/picture.js": "handout/picture.js"}
-PAGE = Template("""<!doctype html>
+DOCUMENT = Template("""<!doctype html>
 <html lang="en">
 <head>
 <meta charset="utf-8">
@@ -37,7 +37,10 @@ $generator
 <link rel="icon" href="$icon">
 <style>$style</style>
 </head>
-<body class="handout">
+$body
+</html>
+""")
+BODY = Template("""<body class="handout">
 <header id="topbar" class="topbar"></header>
 <main id="main" class="main" data-mode="learn">
 <section id="stage" class="stage"><p id="opening" class="handout-opening">Opening…</p></section>
@@ -47,26 +50,28 @@ $generator
 <noscript>This page needs JavaScript. Turn it on and reload it.</noscript>
 <script type="application/octet-stream" id="data">$data</script>
 <script type="module">$script</script>
-</body>
-</html>
-""")
+</body>""")
 
 
 def page_of(title: str, data: str) -> str:
     """The page. title: any text; data: base64."""
-    style, script = _style(), _script()
-    return PAGE.substitute(
+    script = _script()
+    return document(title, BODY.substitute(data=data, script=script), _style(), script)
+
+
+def document(title: str, body: str, style: str, script: str = "") -> str:
+    """A page that loads nothing. title: any text; body: HTML, with the script if there is one."""
+    return DOCUMENT.substitute(
         policy=policy_of(style, script),
         generator=GENERATOR,
         title=html.escape(title),
         icon=icon(),
         style=style,
-        data=data,
-        script=script,
+        body=body,
     )
 
 
-def policy_of(style: str, script: str = "") -> str:
+def policy_of(style: str, script: str) -> str:
     """Nothing may be loaded, and nothing may run but this script."""
     scripts = f"script-src {_hash(script)}; " if script else ""
     return f"default-src 'none'; {scripts}style-src {_hash(style)}; img-src data:; base-uri 'none'; form-action 'none'"

@@ -13,33 +13,20 @@ from lineseg.unfinished import whole_file
 from ..shelf.lesson import NamedLesson
 from ..shelf.lesson_shelf import LessonShelf
 from .handouts import lesson_page
-from .page import GENERATOR, icon, list_style, policy_of
+from .page import GENERATOR, document, list_style
 
 INDEX = "index.html"
-LIST = Template("""<!doctype html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta http-equiv="Content-Security-Policy" content="$policy">
-$generator
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<meta name="color-scheme" content="light dark">
-<title>Lessons on line extraction</title>
-<link rel="icon" href="$icon">
-<style>$style</style>
-</head>
-<body class="handout-list">
+TITLE = "Lessons on line extraction"
+LIST = Template("""<body class="handout-list">
 <main class="lesson">
-<h1>Lessons on line extraction</h1>
+<h1>$title</h1>
 <p class="hint">How line segments are found in a laser scan by seeded region growing (Gao et al. 2018). Each lesson
 takes a few minutes and ends with a task.</p>
 <ol class="lesson-list">
 $items
 </ol>
 </main>
-</body>
-</html>
-""")
+</body>""")
 ITEM = Template(
     '<li><a class="lesson-item" href="$address"><span class="lesson-item-title">$title</span>'
     '<span class="muted">$about</span></a></li>'
@@ -87,12 +74,10 @@ def _is_ours(path: Path) -> bool:
 
 def index_page(lessons: Sequence[NamedLesson], names: dict[str, str]) -> str:
     """The list of lessons. names: of their files, by id."""
-    style = list_style()
     items = [
         ITEM.substitute(
             address=quote(names[lesson.id]), title=html.escape(lesson.title), about=html.escape(lesson.about)
         )
         for lesson in lessons
     ]
-    policy = policy_of(style)
-    return LIST.substitute(policy=policy, generator=GENERATOR, icon=icon(), style=style, items="\n".join(items))
+    return document(TITLE, LIST.substitute(title=TITLE, items="\n".join(items)), list_style())
