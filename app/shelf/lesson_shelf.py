@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 import threading
 from collections.abc import AsyncIterator
+from functools import partial
 from pathlib import Path
 
 from lineseg.scan import Recording
@@ -19,6 +20,8 @@ from .uploads import Uploads
 
 # For what is dropped on all pages together [bytes].
 LARGEST_DROPPED, MOST_DROPPED, ALL_DROPPED = 50_000_000, 40, 400_000_000
+# No dropped file has this name.
+INSIDE = ".scans"
 Stamp = tuple[tuple[int, int], ...]
 
 log = logging.getLogger(__name__)
@@ -95,11 +98,18 @@ class LessonShelf:
         with self._lock:
             kept = {known: each for known, each in self._homes.items() if each.folder and each.folder.is_dir()}
             self._homes = {**kept, id: home}
+            self._forget_removed()
         return lessons
 
     def close(self) -> None:
         self._dropped.close()
         self._scratch.close()
+
+    def _forget_removed(self) -> None:
+        """Forget lessons and recordings of dropped files that newer ones have replaced."""
+        self._known = {file: known for file, known in self._known.items() if file.is_file()}
+        for id in [id for id, path in self._paths.items() if not path.is_file()]:
+            del self._paths[id]
 
     def _files(self, id: str) -> list[Path]:
         """The files among which the lesson with this id is."""
@@ -118,7 +128,15 @@ class LessonShelf:
         return next((home for home in self._homes.values() if home.folder == file.parent), Home())
 
     def _home(self, folder: Path, prefix: str = "") -> Home:
-        return Home(folder, prefix, self._scratch, self._paths)
+        return Home(folder, prefix, partial(self._scans_of, folder), self._paths)
+
+    def _scans_of(self, folder: Path) -> Path:
+        """Where scans of lessons in a folder are kept: inside of it if it was dropped, so that they go with it."""
+        if folder == self._folder:
+            return self._scratch.folder
+        inside = folder / INSIDE
+        inside.mkdir(exist_ok=True)
+        return inside
 
     def _lesson(self, file: Path) -> NamedLesson | None:
         """The lesson in a file, read again if the file or its recording has changed; None if it has a mistake."""

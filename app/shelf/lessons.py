@@ -21,7 +21,6 @@ from .lesson_goals import accepted
 from .lesson_markup import beside, check_text
 from .lesson_mistakes import MistakeError, Place, told
 from .lesson_numbers import METHOD, Numbers
-from .scratch import Scratch
 
 LARGEST = 1_000_000
 T = TypeVar("T")
@@ -32,12 +31,12 @@ QUANTITY = re.compile(r"[-−]?\d+(\.\d+)?(\s*\D.*)?")
 class Home:
     """Where lessons come from: the program, or a folder.
 
-    prefix: of their ids. scans: where scans that they contain are kept. paths: their recordings, by id.
+    prefix: of their ids. scans: gives the folder for scans that they contain. paths: their recordings, by id.
     """
 
     folder: Path | None = None
     prefix: str = ""
-    scans: Scratch | None = None
+    scans: Callable[[], Path] | None = None
     paths: dict[str, Path] = field(default_factory=dict)
 
     def place_of(self, lesson: Lesson) -> tuple[str, Path | None]:
@@ -68,7 +67,7 @@ class Home:
         text = json.dumps(scan)
         if self.scans is None:
             raise ValueError("this lesson cannot contain its scan; name a recording")
-        path = self.scans.folder / f"{hashlib.sha256(text.encode()).hexdigest()[:12]}.json"
+        path = self.scans() / f"{hashlib.sha256(text.encode()).hexdigest()[:12]}.json"
         if not path.is_file():
             path.write_text(text, encoding="utf-8")
         return path

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
 import logging
 from pathlib import Path
@@ -10,10 +11,10 @@ from typing import Any
 import numpy as np
 import pytest
 from lineseg_app.places import data_folder
+from lineseg_app.shelf import lesson_shelf
 from lineseg_app.shelf.lesson_draft import drafted
 from lineseg_app.shelf.lesson_shelf import LessonShelf
 from lineseg_app.shelf.lessons import Home, read_lesson, scan_of
-from lineseg_app.shelf.scratch import Scratch
 from lineseg_app.view import View
 from live import Address
 
@@ -156,19 +157,17 @@ def method_of_lessons():
 def test_a_lesson_made_of_what_a_tab_shows_contains_its_scan_and_finds_its_decision(tmp_path: Path):
     scan = open_recording(data_folder("sample_scans") / "hallway.npz")[7]
     traced = trace(scan)
-    scratch = Scratch()
     for index in (3, len(traced) // 2, len(traced) - 1):
         for id in ("upload:x", "sample:hallway"):
             view = View().patched({"recording": id, "frame": 7, "step": index})
             made = drafted(view, scan, traced, None)
             told = lesson(**{"params": {}, "recording": "", **made})
             told["steps"][0]["text"] = "It is beam {first}."
-            home = Home(tmp_path, scans=scratch)
+            home = Home(tmp_path, scans=lambda: tmp_path)
             read = read_lesson(written(tmp_path, told), home)
             again = trace(scan_of(read, home), type(traced.params)().but(**read.params))
             assert [each.text for each in again] == [each.text for each in traced]
             assert read.steps[0].text == f"It is beam {traced[index].first}."
-    scratch.close()
 
 
 def test_the_part_of_the_plan_that_was_looked_at_is_kept():
@@ -198,3 +197,27 @@ def test_dropped_files_are_a_lesson_with_its_pictures_until_one_has_a_mistake(se
     answer = server.post(f"/api/lessons/open?folder={wrong}")
     assert answer.status_code == 400
     assert answer.json()["message"].startswith("mine.json:1: title is ''")
+
+
+def test_of_dropped_lessons_that_others_have_replaced_nothing_is_kept(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(lesson_shelf, "MOST_DROPPED", 2)
+    scan = {"angle_min": -0.5, "angle_increment": 0.01, "range_min": 0.0, "range_max": 30.0}
+    shelf, files = LessonShelf(), []
+
+    async def drop(number: int) -> None:
+        async def content():
+            ranges = (2.0 / np.cos(np.arange(-0.5, 0.5, 0.01)) + number).tolist()
+            told = lesson(scan=scan | {"ranges": ranges})
+            del told["recording"]
+            yield json.dumps(told).encode()
+
+        (opened,) = shelf.open_dropped(await shelf.receive("mine.json", None, content(), ""))
+        assert shelf.find(opened.id) == opened
+        files.append(shelf.recording(opened.recording))
+
+    for number in range(4):
+        asyncio.run(drop(number))
+    assert [file.exists() for file in files] == [False, False, True, True]
+    assert len(shelf._paths) == 2
+    assert len(shelf._known) <= 2
+    shelf.close()
