@@ -78,8 +78,8 @@ class Scan:
 
     @cached_property
     def valid(self) -> NDArray[np.bool_]:
-        """(n,) bool: the beams that returned something. NaN compares false."""
-        return (self.ranges > 0) & (self.ranges >= self.range_min) & (self.ranges < self.range_max)
+        """(n,) bool: the beams that returned something."""
+        return are_valid(self.ranges, self.range_min, self.range_max)
 
     @cached_property
     def fan(self) -> Fan:
@@ -293,6 +293,11 @@ class Recording:
         """The least and the greatest number of beams in a scan."""
         lengths = np.diff(self.offsets)
         return (int(lengths.min()), int(lengths.max())) if len(lengths) else (0, 0)
+
+
+def are_valid(ranges: Floats, range_min: Floats | float, range_max: Floats | float) -> NDArray[np.bool_]:
+    """Which ranges are returns; the limits are numbers, or one for each range. NaN compares false."""
+    return (ranges > 0) & (ranges >= range_min) & (ranges < range_max)
 
 
 @lru_cache(maxsize=64)

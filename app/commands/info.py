@@ -10,7 +10,7 @@ from tyro.conf import OmitArgPrefixes, Positional
 
 from lineseg.noise import RangeNoise
 from lineseg.poses import said_of
-from lineseg.scan import Recording
+from lineseg.scan import Recording, are_valid
 from lineseg.tuning.proposal import propose
 
 from .flag_types import Files
@@ -102,7 +102,7 @@ def _returns(recording: Recording) -> tuple[int, list[float]]:
         least, most = (
             np.repeat(limit[frames].astype(ranges.dtype), beams) for limit in (recording.range_min, recording.range_max)
         )
-        valid = (ranges > 0) & (ranges >= least) & (ranges < most)
+        valid = are_valid(ranges, least, most)
         number += int(np.count_nonzero(valid))
         starts = (offsets[:-1] - offsets[0])[beams > 0]
         farthest = np.maximum.reduceat(np.where(valid, ranges, 0), starts) if len(starts) else np.empty(0)

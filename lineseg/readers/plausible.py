@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..scan import Floats, Recording
+from ..scan import Floats, Recording, are_valid
 from .account import Notice
 from .guessing import UNIT_NAMES, middle_of, rising, sampled_at, unit_of
 from .reading import Reading
@@ -45,7 +45,7 @@ def _sample(recording: Recording) -> tuple[Floats, Any]:
     else:
         frame = np.searchsorted(recording.offsets, beams, side="right") - 1
         low, high = low[frame], high[frame]
-    return ranges, (ranges > 0) & (ranges >= low) & (ranges < high) & (ranges < np.inf)
+    return ranges, are_valid(ranges, low, high)
 
 
 def _about_angles(recording: Recording, reading: Reading) -> Iterator[Notice]:

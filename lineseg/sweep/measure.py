@@ -13,7 +13,7 @@ from ..extractors import extract
 from ..kernel import entry_kernel
 from ..params import Params
 from ..readers.source import Cancelled
-from ..scan import Recording
+from ..scan import Recording, are_valid
 from ..survey.stretch import Stretch, Workspace, flattened
 from ..truth import true_lines
 from .totals import COLUMNS, COUNTS, MEAN_COLUMNS, Totals
@@ -77,8 +77,7 @@ class Batch:
             np.repeat(limit[self._first :], np.diff(self._flat.offsets)[self._first :])
             for limit in (self._flat.range_min, self._flat.range_max)
         )
-        ranges = self._flat.ranges[counted]
-        self._valid = int(np.count_nonzero((ranges > 0) & (ranges >= near) & (ranges < far)))
+        self._valid = int(np.count_nonzero(are_valid(self._flat.ranges[counted], near, far)))
 
     def measure(self, settings: Sequence[Params], cancelled: NDArray[np.bool_] | None = None) -> Totals:
         """The totals of each setting; cancelled: (1,) bool, set it in another thread to stop with `Cancelled`."""
