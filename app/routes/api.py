@@ -14,11 +14,10 @@ from lineseg.writers import PARAMS_WRITERS, params_text, read_params
 
 from ..session.sessions import Sessions
 from ..shelf.library import Library
-from ..shelf.uploads import TooLargeError, TooManyError, TooSlowError
 from ..told.answers import ThresholdSweep
 from ..tuning.sweep import sweep
 from .attachment import attachment
-from .body import body_of
+from .body import announced_size, body_of, storing
 
 LONGEST_PARAMS = 256 * 1024
 
@@ -29,21 +28,9 @@ def add_api(app: FastAPI, library: Library, sessions: Sessions) -> None:
     @app.post("/api/upload")
     async def upload(request: Request, name: str = "recording", bundle: str = "", into: str = "") -> dict[str, str]:
         """bundle: the name of a recording of several files, with its first; into: its id, with each of the others."""
-        try:
-            size = _announced_size(request)
-            kept = await library.uploads.receive(
-                name, size, request.stream(), bundle[:200], into.removeprefix("upload:")
-            )
-        except TooLargeError as error:
-            raise HTTPException(413, str(error)) from None
-        except TooManyError as error:
-            raise HTTPException(429, str(error)) from None
-        except TooSlowError as error:
-            raise HTTPException(408, str(error)) from None
-        except ValueError as error:
-            raise HTTPException(400, str(error)) from None
-        except OSError as error:
-            raise HTTPException(507, f"{name[:80]} could not be stored: {error.strerror}") from None
+        with storing(name):
+            size, into = announced_size(request), into.removeprefix("upload:")
+            kept = await library.uploads.receive(name, size, request.stream(), bundle[:200], into)
         library.changed()
         return {"recording": f"upload:{kept.id}"}
 
@@ -95,11 +82,6 @@ def _thresholds(method: str) -> Thresholds:
     if method not in EXTRACTORS:
         raise ValueError(f"there is no method {method[:40]!r}; choose from {', '.join(EXTRACTORS)}")
     return EXTRACTORS[method].params_type()
-
-
-def _announced_size(request: Request) -> int | None:
-    length = request.headers.get("content-length", "")
-    return int(length) if length.isascii() and length.isdigit() else None
 
 
 def _number(name: str, text: str) -> float:

@@ -24,10 +24,10 @@ from ..shelf.lesson import Lessons, NamedLesson
 from ..shelf.lesson_draft import drafted
 from ..shelf.lesson_markup import MEDIA
 from ..shelf.library import Library
-from ..shelf.uploads import TooLargeError, TooManyError, TooSlowError
 from ..told.answers import Fitted, MethodTimes
 from ..told.messages import TraceColumns
 from ..tuning.fit import fit
+from .body import announced_size, storing
 from .slow import SlowWork
 
 Short = Annotated[str, Field(min_length=1, max_length=300)]
@@ -76,16 +76,8 @@ def add_lessons(app: FastAPI, library: Library, sessions: Sessions) -> None:
     @app.post("/api/lessons/file")
     async def file(request: Request, name: str = "lesson.json", into: str = "") -> dict[str, str]:
         """into: the id of the folder of a lesson, for all of its files but the first."""
-        length = request.headers.get("content-length", "")
-        size = int(length) if length.isascii() and length.isdigit() else None
-        try:
-            return {"folder": await shelf.receive(name, size, request.stream(), into)}
-        except (TooLargeError, TooManyError, TooSlowError) as error:
-            raise HTTPException(413 if isinstance(error, TooLargeError) else 429, str(error)) from None
-        except ValueError as error:
-            raise HTTPException(400, str(error)) from None
-        except OSError as error:
-            raise HTTPException(507, f"{name[:80]} could not be stored: {error.strerror}") from None
+        with storing(name):
+            return {"folder": await shelf.receive(name, announced_size(request), request.stream(), into)}
 
     @app.post("/api/lessons/open")
     def open_dropped(folder: str = "") -> list[NamedLesson]:
@@ -147,13 +139,9 @@ def _times(shown: Shown) -> list[MethodTimes]:
 def _with_texts(made: dict[str, Any], said: NewLesson) -> dict[str, Any]:
     step = {"text": said.text} | made["steps"][0]
     answers = [{"text": said.right, "right": True}, *({"text": each} for each in said.wrong)]
-    task = {
-        "text": said.question,
-        "hint": HINT,
-        "done": said.right,
-        "choice": answers,
-        **{name: step[name] for name in ("near",) if name in step},
-    }
+    task = {"text": said.question, "hint": HINT, "done": said.right, "choice": answers}
+    if "near" in step:
+        task["near"] = step["near"]
     scan = {"scan": made["scan"]} if "scan" in made else {}
     rest = {name: value for name, value in made.items() if name not in ("steps", "scan")}
     return {"title": said.title, "about": said.about, **rest, "steps": [step], "task": task, **scan}
