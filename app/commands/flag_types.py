@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Annotated, TypeVar
 
 from tyro.conf import arg
@@ -14,3 +15,10 @@ Several = Annotated[tuple[T, ...], arg(help_behavior_hint="")]
 # Recordings, and one that need not be given.
 Files = Annotated[tuple[T, ...], arg(help_behavior_hint="", metavar="FILE ...")]
 File = Annotated[T | None, arg(help_behavior_hint="", metavar="[FILE]")]
+
+
+def lessons_folder(given: Path | None) -> Path | None:
+    """The folder of --lessons. Raises NotADirectoryError if it is none."""
+    if given is not None and not given.is_dir():
+        raise NotADirectoryError(f"--lessons is {given}, which is not a folder; name the folder with the lessons")
+    return given and given.resolve()

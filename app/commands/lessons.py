@@ -7,7 +7,7 @@ from typing import Annotated
 
 from tyro.conf import Positional, arg
 
-from .flag_types import Several, Unset
+from .flag_types import Several, Unset, lessons_folder
 from .progress import progress_bar
 
 
@@ -27,10 +27,9 @@ def lessons(
     from ..handout.site import INDEX, check_folder, write_site
     from ..shelf.lesson_shelf import LessonShelf
 
-    if lessons is not None and not lessons.is_dir():
-        raise NotADirectoryError(f"--lessons is {lessons}, which is not a folder; name the folder with the lessons")
+    own = lessons_folder(lessons)
     check_folder(out)
-    shelf = LessonShelf(lessons.resolve() if lessons is not None else None)
+    shelf = LessonShelf(own)
     try:
         known = {each.id: each for each in shelf.told().lessons}
         if unknown := next((id for id in lesson if id not in known), None):

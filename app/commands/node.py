@@ -63,7 +63,7 @@ def node(
     address = address_of(source, topic)
     if list_topics(address):
         return
-    present = _running(method, threshold)
+    running = _running(method, threshold)
     noise = noise_of(range_noise, bearing_noise)
 
     from ..live.node import OWNER, Node, warm_up
@@ -73,8 +73,8 @@ def node(
     from ..routes.robot import ros_name
 
     to = ros_name("--markers", markers), ros_name("--cloud", cloud)
-    publishing = Publishing(OWNER, to[0], *present.now, to[1], noise)
-    running = Node(address, publishing, present, _tell, once)
+    publishing = Publishing(OWNER, to[0], *running.now, to[1], noise)
+    publisher = Node(address, publishing, running, _tell, once)
 
     def prepare(method: str, params: Thresholds) -> None:
         warm_up(method, params, noise)
@@ -83,15 +83,15 @@ def node(
         if once:
             return nullcontext()
         laser = f"{address.place} {address.topic or ''}".strip()
-        return open_door(laser, present, prepare, _tell, user_folder(), host, port, token_of(None, token_file))
+        return open_door(laser, running, prepare, _tell, user_folder(), host, port, token_of(None, token_file))
 
     def stop(number: int, frame: FrameType | None) -> None:
-        running.stop()
+        publisher.stop()
 
     before = {each: signal.signal(each, stop) for each in (signal.SIGTERM, signal.SIGINT)}
     try:
         with door():
-            last = running.run()
+            last = publisher.run()
     finally:
         for each, handler in before.items():
             signal.signal(each, handler)

@@ -13,7 +13,7 @@ from lineseg.readers import Reading
 
 from ..live.address import Address, check_address, is_address
 from ..live.node_offers import is_node
-from .flag_types import Several, Switch, Unset
+from .flag_types import Several, Switch, Unset, lessons_folder
 from .reading import ReadingFlags, files_of, reading_of
 from .sources import address_of, list_topics
 from .token import token_of
@@ -70,8 +70,7 @@ def view(
     named = [source for source in sources if source not in lasers]
     files = [file.resolve() for file in files_of(named)] if named else []
     how = _beside(how, files)
-    if lessons is not None and not lessons.is_dir():
-        raise NotADirectoryError(f"--lessons is {lessons}, which is not a folder; name the folder with the lessons")
+    own_lessons = lessons_folder(lessons)
     if not 1 <= keep <= MOST_KEPT:
         raise ValueError(f"--keep is {keep}; allowed: 1 to {MOST_KEPT} scans")
     for address in robot:
@@ -87,7 +86,7 @@ def view(
             files=tuple(files),
             reading=how if files else Reading(),
             robots=tuple(robots),
-            lessons=lessons.resolve() if lessons is not None else None,
+            lessons=own_lessons,
             may_send=robot,
             keep=keep,
             host=host,
