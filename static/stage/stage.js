@@ -2,10 +2,9 @@
 // The scene: viser's page in a frame of the same origin. Its camera is set here; picking is the server's.
 import { h } from "../widgets/dom.js";
 import { closePopovers } from "../widgets/menu.js";
-import { around, CLOSE, project, towards, unproject, WHOLE } from "./plan.js";
 import { onLongPress } from "./long_press.js";
-import { placed, placedBox, seenFrom } from "./placed.js";
-import { createScale } from "./scale.js";
+import { around } from "./plan.js";
+import { PlanStage } from "./plan_stage.js";
 import {
   bend,
   cameraIn,
@@ -39,7 +38,7 @@ const OVERRULED = `
 `;
 const TAN = Math.tan(rad(PLAN_FOV_DEG / 2));
 
-export class Stage {
+export class Stage extends PlanStage {
   hasFree = true;
   frame;
   /** @type {"plan" | "free"} */
@@ -48,10 +47,6 @@ export class Stage {
   #plan = null;
   /** The plan after a fit. @type {Plan | null} */
   #whole = null;
-  /** How the plan is drawn. @type {Stretch | null} */
-  #stretch = null;
-  /** The last fit. @type {[Box, Stretch | null, typeof WHOLE] | null} */
-  #fitted = null;
   /** A fit to repeat once the camera exists. @type {(() => void) | null} */
   #pendingFit = null;
   /** @type {any} */
@@ -59,31 +54,15 @@ export class Stage {
   #source = "";
   /** Whether a person may have moved the camera. */
   #touched = false;
-  /** Whether the plan is no longer where a close-up put it. */
-  #away = true;
-  /** @type {(() => void)[]} */
-  #moveListeners = [];
-  /** @type {((at: [number, number] | null) => void)[]} */
-  #hoverListeners = [];
   #handlers;
-  #scaleMark;
-  #square = 0;
-  /** Where the laser stands; null: the plan is its own. @type {import("../wire.js").World | null} */
-  #world = null;
-  #riding = false;
-
   /** @param {HTMLElement} holder @param {typeof import("../text/page.js").pageText.stage} text @param {Handlers} handlers */
   constructor(holder, text, handlers) {
+    const frame = h("iframe", { class: "scene", title: text.scene, allow: "" });
+    super(holder, frame, text.across);
+    this.frame = frame;
     this.#handlers = handlers;
-    this.frame = h("iframe", { class: "scene", title: text.scene, allow: "" });
-    this.frame.addEventListener("load", () => this.#loaded());
-    this.#scaleMark = createScale(text.across);
-    holder.append(this.frame, this.#scaleMark.element);
-    new ResizeObserver(() => this.#resized()).observe(this.frame);
-  }
-
-  get element() {
-    return this.frame;
+    frame.addEventListener("load", () => this.#loaded());
+    new ResizeObserver(() => this.#resized()).observe(frame);
   }
 
   #loaded() {
@@ -96,10 +75,10 @@ export class Stage {
     inner.addEventListener("pointerdown", () => closePopovers(), true);
     inner.addEventListener(
       "pointermove",
-      (event) => this.#hover(event.buttons ? null : [event.clientX, event.clientY]),
+      (event) => this.hover(event.buttons ? null : [event.clientX, event.clientY]),
       true,
     );
-    inner.document.documentElement.addEventListener("pointerleave", () => this.#hover(null));
+    inner.document.documentElement.addEventListener("pointerleave", () => this.hover(null));
     const touch = () => {
       this.#touched = true;
     };
@@ -113,15 +92,15 @@ export class Stage {
 
   /** A finger rests: asks why. @param {number} left @param {number} top [px] */
   #held(left, top) {
-    const [at, sight] = [this.unproject(left, top), this.#sight];
+    const [at, sight] = [this.unproject(left, top), this.sight];
     if (at && sight) this.#handlers.onPick(at, FINGER_PX / sight.pxPerMetre, false);
   }
 
   /** Fits again what was fitted, unless a person has moved the camera since. */
   #resized() {
-    if (this.#mode === "plan" && this.#fitted && this.look === null && this.frame.clientHeight)
-      this.#fit(...this.#fitted);
-    this.#tellMoved();
+    if (this.#mode === "plan" && this.fitted && this.look === null && this.frame.clientHeight)
+      this.showBox(...this.fitted);
+    this.tellMoved();
   }
 
   /** @param {KeyboardEvent} event */
@@ -131,11 +110,6 @@ export class Stage {
     if (!taken && !moves && !event.key.startsWith("Arrow")) return;
     event.preventDefault();
     event.stopImmediatePropagation();
-  }
-
-  /** @param {[number, number] | null} at */
-  #hover(at) {
-    for (const listener of this.#hoverListeners) listener(at);
   }
 
   /** Locks the camera as soon as it exists. */
@@ -162,9 +136,9 @@ export class Stage {
       if (!now || (!this.#touched && this.#plan && isApart(now, this.#plan))) return this.#applyPlan();
       this.#plan = now;
       clip(found, now.height);
-      bend(found, this.#stretch, now.height);
+      bend(found, this.stretch, now.height);
     }
-    this.#tellMoved();
+    this.tellMoved();
     return undefined;
   }
 
@@ -172,7 +146,7 @@ export class Stage {
     const found = cameraIn(this.frame);
     if (!found || !this.#plan) return;
     if (this.#mode === "plan") {
-      bend(found, this.#stretch, this.#plan.height);
+      bend(found, this.stretch, this.#plan.height);
       lockPlan(found, this.#plan);
     }
     this.#show();
@@ -195,30 +169,21 @@ export class Stage {
   #show() {
     if (hasContent(this.frame)) this.frame.classList.add("ready");
     else requestAnimationFrame(() => this.#show());
-    this.#tellMoved();
-  }
-
-  #tellMoved() {
-    for (const listener of this.#moveListeners) listener();
-    this.#scaleMark.set(this.#sight?.pxPerMetre ?? null, this.#stretch, this.#square);
-  }
-
-  get #size() {
-    return { width: this.frame.clientWidth, height: this.frame.clientHeight };
+    this.tellMoved();
   }
 
   /** The plan as it is seen; null before it is loaded and in the free view. */
-  get #sight() {
+  get sight() {
     const plan = this.#plan;
     if (this.#mode !== "plan" || !plan) return null;
-    const { width, height } = this.#size;
+    const { width, height } = this.size;
     return {
       x: plan.x,
       y: plan.y,
       pxPerMetre: height / (2 * plan.height * TAN),
       width,
       height,
-      stretch: this.#stretch,
+      stretch: this.stretch,
     };
   }
 
@@ -230,35 +195,13 @@ export class Stage {
     this.frame.src = path;
   }
 
-  /** @param {number} square side of the grid's squares [m] */
-  set square(square) {
-    if (square === this.#square) return;
-    this.#square = square;
-    this.#tellMoved();
-  }
-
-  /** Shows the whole box. @param {Box} box */
-  fit = (box) => this.#fit(box, null, WHOLE);
-
-  /** Shows the box from near by, with its plan stretched. @param {Box} box as drawn @param {Stretch} stretch */
-  closeUp(box, stretch) {
-    this.#fit(box, stretch.factor === 1 ? null : stretch, CLOSE);
-  }
-
-  /** @param {Box} box @param {Stretch | null} stretch @param {typeof WHOLE} room */
-  #fit(box, stretch, room) {
-    this.#fitted = [box, stretch, room];
-    const { x, y, span } = around(box, this.#size, room);
-    this.#stretch = stretch;
-    this.#away = room === WHOLE;
+  /** @type {PlanStage["showBox"]} */
+  showBox(box, stretch, room) {
+    super.showBox(box, stretch, room);
+    const { x, y, span } = around(box, this.size, room);
     this.#plan = this.#whole = { x, y, height: Math.max(span / 2 / TAN, NEAREST) };
-    this.#pendingFit = cameraIn(this.frame) ? null : () => this.#fit(box, stretch, room);
+    this.#pendingFit = cameraIn(this.frame) ? null : () => this.showBox(box, stretch, room);
     this.#apply();
-  }
-
-  /** Whether the plan is not where the last close-up put it. */
-  get moved() {
-    return this.#away || this.look !== null;
   }
 
   /** The visible part of the plan, if a person has moved it. @returns {Look | null} */
@@ -277,41 +220,19 @@ export class Stage {
     this.#apply();
   }
 
-  /** Places the laser in the world; ride: whether the plan moves along. @param {import("../wire.js").World | null} world @param {boolean} ride */
-  place(world, ride) {
-    const [before, now, plan] = [this.#world?.pose, world?.pose, this.#plan];
-    this.#world = world;
-    // Whoever begins to ride is taken to the robot.
-    const from = this.#riding ? before : plan && [plan.x, plan.y];
-    this.#riding = ride && world !== null;
-    if (ride && from && now) this.pan(now[0] - from[0], now[1] - from[1]);
-    this.#tellMoved();
+  /** @returns {[number, number] | null} */
+  get middle() {
+    return this.#plan && [this.#plan.x, this.#plan.y];
   }
-
-  /** Moves the plan so that the box of the laser can be seen well, and zooms in if it is too small. @param {Box} box */
-  goTo = (box) => {
-    const there = placedBox(this.#world, box);
-    const look = there && towards(this.#sight, this.#size, there);
-    if (look) this.lookAt(look);
-  };
 
   /** Position of a point of the laser on the stage [px], in any view; null if it cannot be seen. @param {number} x @param {number} y @returns {[number, number] | null} */
   seen = (x, y) => {
     if (this.#mode === "plan") return this.project(x, y);
     const found = cameraIn(this.frame);
-    const there = placed(this.#world, [x, y]);
+    const there = this.placed([x, y]);
     const at = found && there && onScreen(found, [...there, 0]);
     return at && [at[0] * this.frame.clientWidth, at[1] * this.frame.clientHeight];
   };
-
-  /** Position of a point of the laser on the stage [px]; null in the free view. @param {number} x @param {number} y @returns {[number, number] | null} */
-  project = (x, y) => {
-    const there = placed(this.#world, [x, y]);
-    return there && this.#sight && project(this.#sight, ...there);
-  };
-
-  /** The point of the laser at a place on the stage [px]; null in the free view. @param {number} left @param {number} top @returns {[number, number] | null} */
-  unproject = (left, top) => this.#sight && seenFrom(this.#world, unproject(this.#sight, left, top));
 
   /** Passes to the scene a wheel event that an element over it received. @param {WheelEvent} event */
   pass = (event) => {
@@ -323,16 +244,6 @@ export class Stage {
     if (this.#mode !== "plan" || !this.#plan) return;
     this.#plan = { ...this.#plan, x: this.#plan.x + dx, y: this.#plan.y + dy };
     this.#applyPlan();
-  }
-
-  /** @param {(at: [number, number] | null) => void} listener told where on the stage the pointer is [px]; null: elsewhere, or dragging */
-  onHover(listener) {
-    this.#hoverListeners.push(listener);
-  }
-
-  /** @param {() => void} listener called when the view of the scene changed */
-  onMove(listener) {
-    this.#moveListeners.push(listener);
   }
 
   /** @param {"plan" | "free"} next */
