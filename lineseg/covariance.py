@@ -30,6 +30,7 @@ line by √N·σ_r·sin ψ / (rms of sᵢ) standard deviations: little, as long 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -67,29 +68,44 @@ def covariance(scan: Scan, segment: Segment, noise: Noise) -> NDArray[np.float64
     """
     n = len(scan)
     span = np.arange(segment.first, segment.last + 1 + (n if segment.last < segment.first else 0)) % n
-    return _covariance(scan, span[scan.valid[span]], segment, noise)
+    beams = span[scan.valid[span]]
+    return _covariances(scan, beams, np.array([0, len(beams)]), (segment,), noise)[0]
 
 
 def covariances(scan: Scan, extraction: Extraction, noise: Noise) -> NDArray[np.float64]:
     """Covariances (segments, 2, 2) of (ρ, θ) of all segments, each from the beams that carry its label; see above."""
     labels = np.where(scan.valid, extraction.labels, -1)
-    found = [
-        _covariance(scan, np.flatnonzero(labels == label), segment, noise)
-        for label, segment in enumerate(extraction.segments)
-    ]
-    return np.array(found).reshape(-1, 2, 2)
+    beams = np.argsort(labels, kind="stable")
+    bounds = np.searchsorted(labels[beams], np.arange(len(extraction.segments) + 1))
+    return _covariances(scan, beams, bounds, extraction.segments, noise)
 
 
-def _covariance(scan: Scan, beams: NDArray[np.integer], segment: Segment, noise: Noise) -> NDArray[np.float64]:
-    sigmas = (np.broadcast_to(sigma, len(scan))[beams].astype(np.float64) for sigma in (noise.range, noise.bearing))
-    var_rho, cov, var_theta = covariance_of_points(*scan.xy[beams].T.copy(), *sigmas, *segment.line)
-    return np.array([[var_rho, cov], [cov, var_theta]])
+def _covariances(
+    scan: Scan, beams: NDArray[np.integer], bounds: NDArray[np.integer], segments: Sequence[Segment], noise: Noise
+) -> NDArray[np.float64]:
+    """The beams of segment k are `beams[bounds[k] : bounds[k + 1]]`."""
+    range_sigma, bearing_sigma = (
+        np.broadcast_to(np.asarray(sigma, np.float64), len(scan))[beams] for sigma in (noise.range, noise.bearing)
+    )
+    x, y = scan.xy[beams].T.copy()
+    lines = np.array([segment.line for segment in segments]).reshape(-1, 3)
+    found = np.empty((len(segments), 2, 2))
+    covariances_of_points(x, y, range_sigma, bearing_sigma, bounds.astype(np.int64), lines, found)
+    return found
 
 
 @entry_kernel
-def covariance_of_points(x, y, range_sigma, bearing_sigma, a, b, c):
-    """(var ρ, cov, var θ) of the line (a, b, c) through the points (n,), whose beams have these standard deviations."""
-    return covariance_of(x, y, range_sigma, bearing_sigma, 0, len(x) - 1, (a, b, c))
+def covariances_of_points(x, y, range_sigma, bearing_sigma, bounds, lines, found):
+    """Write the covariance of each line (a, b, c) to `found` (lines, 2, 2).
+
+    bounds: the points of line k are those from bounds[k] to bounds[k + 1] − 1. range_sigma, bearing_sigma: (points,)
+    standard deviations of their beams.
+    """
+    for k in range(len(lines)):
+        line = (lines[k, 0], lines[k, 1], lines[k, 2])
+        var_rho, cov, var_theta = covariance_of(x, y, range_sigma, bearing_sigma, bounds[k], bounds[k + 1] - 1, line)
+        found[k, 0, 0], found[k, 0, 1] = var_rho, cov
+        found[k, 1, 0], found[k, 1, 1] = cov, var_theta
 
 
 @kernel

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Protocol
 
 from websockets.exceptions import ConnectionClosed, InvalidHandshake
@@ -23,8 +23,8 @@ class Told(Protocol):
     def misses(self, why: str) -> None:
         """The connection holds, but scans no longer come."""
 
-    def hand(self, decode: Callable[[], LaserScan], newest: bool = True) -> None:
-        """newest: whether no later scan has arrived already."""
+    def hand(self, decode: Callable[[], LaserScan], arrived: float, newest: bool = True) -> None:
+        """arrived: when (`time.perf_counter`); newest: whether no later scan has arrived already."""
 
 
 class Bridge(Protocol):
@@ -48,6 +48,12 @@ class Bridge(Protocol):
         ...
 
     def close(self) -> None: ...
+
+
+def hand_all(told: Told, waiting: Sequence[Callable[[], LaserScan]], arrived: float) -> None:
+    """Hand over scans that wait together, the oldest first."""
+    for index, decode in enumerate(waiting, 1):
+        told.hand(decode, arrived, newest=index == len(waiting))
 
 
 def why_not(place: str, error: Exception) -> str:

@@ -25,6 +25,11 @@ class CdrWriter:
         self.numbers("I", len(data))
         self._data += data
 
+    def same(self, data: bytes) -> None:
+        """What another writer wrote from its beginning on, with no number of more than four bytes."""
+        self._align(4)
+        self._data += data
+
     def sequence(self, values: np.ndarray) -> None:
         """A sequence (n,) of numbers, or (n, k) of structures of k numbers."""
         self.numbers("I", len(values))
@@ -34,6 +39,10 @@ class CdrWriter:
 
     def bytes(self) -> bytes:
         return LITTLE_ENDIAN + self._data
+
+    def body(self) -> bytes:
+        """Without the four bytes before."""
+        return bytes(self._data)
 
     def _align(self, size: int) -> None:
         self._data += bytes(-len(self._data) % size)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cache
 from typing import Any, ClassVar
 
 import numpy as np
@@ -59,12 +60,7 @@ class Cloud:
         cdr = CdrWriter()
         write_header(cdr, self.scan)
         cdr.numbers("2I", 1, len(points))
-        cdr.numbers("I", len(_described()))
-        for name, offset, kind in _described():
-            cdr.text(name)
-            cdr.numbers("I", offset)
-            cdr.numbers("B", kind)
-            cdr.numbers("I", 1)
+        cdr.same(_described_as_cdr())
         cdr.numbers("?", False)
         cdr.numbers("2I", POINT.itemsize, points.nbytes)
         cdr.sequence(points.view(np.uint8))
@@ -96,6 +92,18 @@ def own_noise(extraction: Extraction, scan: Scan) -> Noise:
     sigma = np.array([*sigmas, 0.0])[extraction.labels]
     ranges = np.where(scan.valid, scan.ranges, 1.0)
     return Noise(sigma, sigma / ranges)
+
+
+@cache
+def _described_as_cdr() -> bytes:
+    cdr = CdrWriter()
+    cdr.numbers("I", len(_described()))
+    for name, offset, kind in _described():
+        cdr.text(name)
+        cdr.numbers("I", offset)
+        cdr.numbers("B", kind)
+        cdr.numbers("I", 1)
+    return cdr.body()
 
 
 def _described() -> list[tuple[str, int, int]]:

@@ -10,6 +10,7 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 from cyclonedds.builtin import BuiltinDataReader, BuiltinTopicDcpsPublication
@@ -24,7 +25,7 @@ from cyclonedds.util import duration
 from lineseg.readers.decoders import plain_type
 from lineseg.readers.laser_scan import decode_cdr
 
-from .bridge import Told
+from .bridge import Told, hand_all
 from .dds_domain import join
 from .dds_types import serialised_type
 from .outgoing import Message, full_type
@@ -152,9 +153,9 @@ class Dds:
         watch = _Watch(topic, time.monotonic())
         while not self._closing.is_set():
             if waiting.wait(duration(seconds=LOOK_SECONDS)):
+                arrived = time.perf_counter()
                 samples = [each for each in reader.take(MOST_WAITING) if each.sample_info.valid_data]
-                for index, sample in enumerate(samples, 1):
-                    told.hand(lambda data=sample.data: decode_cdr(data), newest=index == len(samples))
+                hand_all(told, [partial(decode_cdr, sample.data) for sample in samples], arrived)
             now = time.monotonic()
             if now < watch.looks:
                 continue

@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import json
 import struct
+from functools import partial
 from typing import Any
 
 from websockets.sync.connection import Connection
@@ -12,7 +13,8 @@ from websockets.typing import Subprotocol
 
 from lineseg.readers.decoders import ENCODINGS, Decoder, decoder_of, is_laser
 
-from .bridge import Told
+from .arrivals import arrivals
+from .bridge import Told, hand_all
 from .outgoing import Message, encoded
 
 SUBPROTOCOLS = [Subprotocol("foxglove.sdk.v1"), Subprotocol("foxglove.websocket.v1")]
@@ -35,15 +37,17 @@ class Foxglove:
         self._advertised: dict[str, int] = {}
 
     def scans(self, topic: str | None, told: Told) -> None:
-        for data in self._socket:
-            if isinstance(data, str):
-                self._hear(json.loads(data), topic, told)
-            elif self._chosen is not None and len(data) > HEADER.size:
-                opcode, subscription, _ = HEADER.unpack_from(data)
-                if (opcode, subscription) == (MESSAGE_DATA, SUBSCRIPTION):
-                    decode = self._decode
-                    assert decode is not None
-                    told.hand(lambda decode=decode, data=data: decode(data[HEADER.size :]))
+        for arrived, waiting in arrivals(self._socket):
+            scans = []
+            for data in waiting:
+                if isinstance(data, str):
+                    self._hear(json.loads(data), topic, told)
+                elif self._chosen is not None and len(data) > HEADER.size:
+                    opcode, subscription, _ = HEADER.unpack_from(data)
+                    if (opcode, subscription) == (MESSAGE_DATA, SUBSCRIPTION):
+                        assert self._decode is not None
+                        scans.append(partial(self._decode, data[HEADER.size :]))
+            hand_all(told, scans, arrived)
 
     def announce(self, topic: str, message: type[Message]) -> None:
         """Nothing to do before `publish`: the robot says only after a while what it accepts."""

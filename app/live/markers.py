@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cache
 from typing import Any, ClassVar
 
 import numpy as np
@@ -63,7 +64,7 @@ class Markers:
         cdr.numbers("?", False)  # frame_locked
         cdr.sequence(ends)
         cdr.sequence(colours.astype(np.float32))
-        _write_no_texture_and_no_mesh(cdr)
+        cdr.same(_no_texture_and_no_mesh())
         return cdr.bytes()
 
     def _lines(self) -> tuple[np.ndarray, np.ndarray]:
@@ -80,8 +81,10 @@ def _xyz(x: float = 0.0, y: float = 0.0, z: float = 0.0) -> dict[str, float]:
     return {"x": x, "y": y, "z": z}
 
 
-def _write_no_texture_and_no_mesh(cdr: CdrWriter) -> None:
+@cache
+def _no_texture_and_no_mesh() -> bytes:
     """texture_resource, texture, uv_coordinates, text, mesh_resource, mesh_file, mesh_use_embedded_materials."""
+    cdr = CdrWriter()
     cdr.text("")
     cdr.numbers("2I", 0, 0)
     cdr.text("")
@@ -92,3 +95,4 @@ def _write_no_texture_and_no_mesh(cdr: CdrWriter) -> None:
     cdr.text("")
     cdr.numbers("I", 0)
     cdr.numbers("?", False)
+    return cdr.body()

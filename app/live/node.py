@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 import time
+from collections import deque
 from collections.abc import Callable
 
 import numpy as np
@@ -14,11 +15,12 @@ from lineseg.readers.laser_scan import LaserScan
 
 from .address import Address
 from .cloud import Cloud
+from .latency import latency
 from .markers import Markers
 from .ring import Ring
-from .robot import Robot
+from .robot import MOST_SPENT, Robot
 from .running import Running
-from .source import Published, Publishing
+from .source import SILENT, Published, Publishing, Spent
 
 OWNER = "node"
 LOOK_SECONDS = 0.05
@@ -46,7 +48,9 @@ class Node:
         self._robot.publish(OWNER, publishing)
         self._stop = threading.Event()
         self._began = 0.0
-        self._reported = 0.0
+        self._reported = self._refusal_told = 0.0
+        self._said, self._silent, self._refused = "", False, 0
+        self._spent: deque[Spent] = deque(maxlen=MOST_SPENT)
 
     def stop(self) -> None:
         self._stop.set()
@@ -59,10 +63,10 @@ class Node:
         warm_up(*self._running.now, self._publishing.noise)
         self._began = self._reported = time.monotonic()
         self._robot.start()
-        said = ""
         try:
             while not self._stop.wait(LOOK_SECONDS):
-                said = self._say_new(said)
+                self._say_new()
+                self._say_silence()
                 self._report()
                 if self._robot.publish_trouble:
                     raise ValueError(self._robot.publish_trouble)
@@ -70,6 +74,7 @@ class Node:
                     break
         finally:
             self._robot.close()
+            self._sum_up()
         return self._robot.last_published
 
     def _before_each_scan(self) -> None:
@@ -79,12 +84,25 @@ class Node:
             self._robot.publish(OWNER, None if early or self._robot.published else self._publishing)
         self._robot.follow(OWNER, *self._running.newest())
 
-    def _say_new(self, said: str) -> str:
-        """Tell what the connection says, if it is new."""
-        words = self._robot.message
-        if words and words != said:
+    def _say_new(self) -> None:
+        """Tell what the connection says, if it is new; at most once a second what is wrong with a scan."""
+        words, refused = self._robot.message, self._robot.refused
+        if words == self._said:
+            return
+        if words and refused > self._refused:
+            if time.monotonic() - self._refusal_told < REPORT_SECONDS:
+                return
+            self._refusal_told, self._refused = time.monotonic(), refused
+        self._said = words
+        if words:
             self._tell(words)
-        return words
+
+    def _say_silence(self) -> None:
+        """Tell it once. The connection may need much longer to find out: DDS waits for a lease of 10 s by default."""
+        silent = self._robot.silence > SILENT
+        if silent and not self._silent and not self._robot.message:
+            self._tell(f"no scan for {SILENT:g} s; is its publisher still running?")
+        self._silent = silent
 
     def _report(self) -> None:
         """A line a second while scans are published."""
@@ -92,14 +110,29 @@ class Node:
         if self._once or last is None or now - self._reported < REPORT_SECONDS:
             return
         self._reported = now
-        rate = self._robot.rate()
-        if rate:
-            delay, left_out = self._robot.delay, self._robot.left_out
+        rate, spent = self._robot.rate(), self._newly_spent()
+        if rate and spent:
             self._tell(
-                f"{rate:.1f} Hz, {'' if delay is None else f'delay {1e3 * delay:.0f} ms, '}"
-                f"{len(last.extraction.segments)} segments in {1e6 * last.elapsed:.0f} µs, "
-                f"{self._robot.published} scans{f', {left_out} left out' if left_out else ''}"
+                f"{rate:.1f} Hz, {latency(spent)}, {len(last.extraction.segments)} segments in "
+                f"{1e6 * last.elapsed:.0f} µs, {self._counts()}"
             )
+
+    def _sum_up(self) -> None:
+        self._newly_spent()
+        if self._spent and not self._once:
+            self._tell(f"ended after {self._counts()}; {latency(self._spent)}")
+
+    def _newly_spent(self) -> list[Spent]:
+        arrived = [self._robot.spent.popleft() for _ in range(len(self._robot.spent))]
+        self._spent.extend(arrived)
+        return arrived
+
+    def _counts(self) -> str:
+        counted = {"left out": self._robot.left_out, "refused": self._robot.refused}
+        published = self._robot.published
+        return f"{published} scan{'s' * (published != 1)}" + "".join(
+            f", {n} {words}" for words, n in counted.items() if n
+        )
 
 
 def warm_up(method: str, params: Thresholds, noise: Noise | None) -> None:

@@ -7,6 +7,7 @@ import os
 import random
 import threading
 import time
+from collections import deque
 from collections.abc import Callable
 from contextlib import AbstractContextManager
 
@@ -20,11 +21,12 @@ from .bridge import OPEN_SECONDS, Bridge, why_not
 from .cloud import Cloud
 from .markers import Markers
 from .ring import Ring
-from .source import Published, Publishing, Source
+from .source import Published, Publishing, Source, Spent
 from .websocket import open_websocket
 
 log = logging.getLogger(__name__)
 FIRST_PAUSE, LONGEST_PAUSE = 0.5, 15.0
+MOST_SPENT = 10_000
 
 
 class Robot(Source):
@@ -37,6 +39,8 @@ class Robot(Source):
         self.ring.topic = address.topic or ""
         self._bridge: Bridge | None = None
         self._pause = FIRST_PAUSE
+        # Of the scans that were published, the newest last.
+        self.spent: deque[Spent] = deque(maxlen=MOST_SPENT)
         self._closing = threading.Event()
         self._thread = threading.Thread(target=self._run, name=f"robot {self._place}", daemon=True)
         self.say("connecting", f"connecting to {self._place}")
@@ -118,7 +122,7 @@ class Robot(Source):
     def misses(self, why: str) -> None:
         self.say("lost", why)
 
-    def hand(self, decode: Callable[[], LaserScan], newest: bool = True) -> None:
+    def hand(self, decode: Callable[[], LaserScan], arrived: float, newest: bool = True) -> None:
         """Add one scan. A message that is not a scan is reported, and receiving continues."""
         try:
             scan = decode()
@@ -130,7 +134,7 @@ class Robot(Source):
         if self._message or self._connection != "open":
             self.say("open", "")
         if newest:
-            self._publish(scan)
+            self._publish(scan, arrived)
         elif self.publishing is not None:
             self.left_out += 1
 
@@ -141,7 +145,7 @@ class Robot(Source):
             if to.cloud:
                 bridge.announce(to.cloud, Cloud)
 
-    def _publish(self, received: LaserScan) -> None:
+    def _publish(self, received: LaserScan, arrived: float) -> None:
         to, bridge = self.publishing, self._bridge
         if to is None or bridge is None:
             return
@@ -158,3 +162,4 @@ class Robot(Source):
             return
         self.published += 1
         self.last_published = Published(scan, extraction, elapsed)
+        self.spent.append(Spent(self.delay, time.perf_counter() - arrived))

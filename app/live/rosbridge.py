@@ -7,13 +7,15 @@ import json
 import math
 import time
 from collections.abc import Mapping
+from functools import partial
 from typing import Any
 
 from websockets.sync.connection import Connection
 
 from lineseg.readers.laser_scan import TYPES, LaserScan, decode_json
 
-from .bridge import Told
+from .arrivals import arrivals
+from .bridge import Told, hand_all
 from .outgoing import Message, as_json
 
 # Both versions of ROS accept the short type name.
@@ -61,12 +63,13 @@ class RosBridge:
         told.topic_is(topic)
         self._send(op="subscribe", id=next(self._ids), topic=topic, type=LASER_SCAN, queue_length=1)
         told.waits(f"subscribed to {topic}; waiting for its first scan")
-        for data in self._socket:
-            message = _object(data)
-            if message.get("op") == "publish" and message.get("topic") == topic:
-                told.hand(lambda message=message: self._decoded(message.get("msg")))
-            elif _is_trouble(message):
-                raise RobotError(f"{topic}: {message.get('msg')}")
+        for arrived, waiting in arrivals(self._socket):
+            messages = [_object(data) for data in waiting]
+            scans = [each for each in messages if each.get("op") == "publish" and each.get("topic") == topic]
+            hand_all(told, [partial(self._decoded, each.get("msg")) for each in scans], arrived)
+            for each in messages:
+                if _is_trouble(each):
+                    raise RobotError(f"{topic}: {each.get('msg')}")
 
     def _decoded(self, message: Any) -> LaserScan:
         scan = decode_json(message)

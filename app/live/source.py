@@ -7,6 +7,7 @@ import time
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -45,6 +46,15 @@ class Published:
     scan: Scan
     extraction: Extraction
     elapsed: float
+
+
+class Spent(NamedTuple):
+    """Times of one scan [s]. delay: from its stamp to its arrival, None if the clocks are unrelated; publishing: from
+    its arrival to the end of publishing its segments.
+    """
+
+    delay: float | None
+    publishing: float
 
 
 class Source:
@@ -103,6 +113,11 @@ class Source:
         return self._message
 
     @property
+    def refused(self) -> int:
+        """Messages that were no scans."""
+        return self._refused
+
+    @property
     def delay(self) -> float | None:
         """From the stamp of the last scan to its arrival [s]; None if the clocks are unrelated."""
         return self._delay
@@ -111,6 +126,11 @@ class Source:
     def note(self) -> str:
         """Why there is no scan yet."""
         return self._message or f"{self.label}: waiting for the first scan"
+
+    @property
+    def silence(self) -> float:
+        """Time since the last scan [s]; 0 if there was none yet."""
+        return time.monotonic() - self._times[-1] if self._times else 0.0
 
     def rate(self) -> float:
         """Recent scans per second; 0 if none came recently."""

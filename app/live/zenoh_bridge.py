@@ -17,6 +17,7 @@ import threading
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import partial
 from typing import Any
 
 import zenoh
@@ -24,7 +25,7 @@ import zenoh
 from lineseg.readers.decoders import plain_type
 from lineseg.readers.laser_scan import decode_cdr
 
-from .bridge import OPEN_SECONDS, Told
+from .bridge import OPEN_SECONDS, Told, hand_all
 from .outgoing import Message, dds_type, full_type, typestore
 from .topics import LASER_SCAN, Offer, chosen_topic, of_lasers
 
@@ -74,7 +75,7 @@ class Zenoh:
         self._publishers: dict[str, Any] = {}
         self._offers: dict[str, Offer] = {}
         self._closing = threading.Event()
-        self._arrived: queue.Queue[bytes] = queue.Queue(MOST_WAITING)
+        self._arrived: queue.Queue[tuple[float, bytes]] = queue.Queue(MOST_WAITING)
         self._declared = [
             session.liveliness().declare_token(self._token(0, NODE)),
             session.liveliness().declare_subscriber(f"{SPACE}/{domain}/**", self._hear, history=True),
@@ -136,16 +137,17 @@ class Zenoh:
             self._offers.pop(key, None)
 
     def _keep(self, sample: zenoh.Sample) -> None:
-        """The newest scans; the oldest makes room."""
+        """The newest scans and when they arrived; the oldest makes room."""
+        arrived = time.perf_counter()
         while True:
             try:
-                return self._arrived.put_nowait(sample.payload.to_bytes())
+                return self._arrived.put_nowait((arrived, sample.payload.to_bytes()))
             except queue.Full:
                 self._take()
 
     # --- in the thread of `scans` -------------------------------------------------------------------------------------
 
-    def _take(self) -> bytes | None:
+    def _take(self) -> tuple[float, bytes] | None:
         try:
             return self._arrived.get_nowait()
         except queue.Empty:
@@ -168,10 +170,10 @@ class Zenoh:
                 waiting = [self._arrived.get(timeout=LOOK_SECONDS)]
             except queue.Empty:
                 waiting = []
-            while (data := self._take()) is not None:
-                waiting.append(data)
-            for index, data in enumerate(waiting, 1):
-                told.hand(lambda data=data: decode_cdr(data), newest=index == len(waiting))
+            while (scan := self._take()) is not None:
+                waiting.append(scan)
+            if waiting:
+                hand_all(told, [partial(decode_cdr, data) for _, data in waiting], waiting[-1][0])
             there = any(offer.is_laser and offer.topic == topic for offer in self.offers())
             if not there and not gone:
                 told.misses(f"{topic} is no longer published; waiting for it")

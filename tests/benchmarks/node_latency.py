@@ -1,7 +1,8 @@
 """How long segments take to come back: 4 lasers of 1081 beams at 40 Hz, on the loopback interface.
 
-The time from writing a scan in one process to reading its PointCloud2 there, with `lineseg node` in others:
-transport, decoding, extraction, covariances, two messages and transport back.
+Each `lineseg node` is a process of its own. It says itself, when it ends, how long it took from the arrival of a scan
+until its segments were published. The process that writes the scans measures the time until it has read the
+PointCloud2, which includes the transport both ways.
 
     .venv/bin/python tests/benchmarks/node_latency.py --seconds 10
 """
@@ -87,7 +88,7 @@ def main() -> None:
         nodes = [
             subprocess.Popen(
                 [sys.executable, "-m", "lineseg_app", "node", f"ros2:{topic}", "--markers", f"{topic}/markers",
-                 "--cloud", f"{topic}/cloud"], stderr=subprocess.DEVNULL,
+                 "--cloud", f"{topic}/cloud"], stderr=subprocess.PIPE, text=True,
             )
             for topic in topics
         ]  # fmt: skip
@@ -96,7 +97,8 @@ def main() -> None:
         finally:
             for node in nodes:
                 node.terminate()
-                node.wait()
+            for topic, node in zip(topics, nodes, strict=True):
+                print(topic, node.communicate()[1].splitlines()[-1].removeprefix("lineseg: "))
 
 
 def measure(topics: list[str], seconds: float) -> None:
