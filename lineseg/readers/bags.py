@@ -12,6 +12,7 @@ import numpy as np
 
 from ..scan import Recording, Topic
 from .decoders import MULTI_ECHO, POINT_CLOUDS, Decoder, decoder_of, is_laser
+from .laser_scan import LaserScan
 from .source import Source, Sweeps
 
 
@@ -96,36 +97,34 @@ def collect(
 
     Each publisher has a decoder of its own.
     """
-    sweeps = Sweeps()
-    recorded: list[float] = []
-    publishers: list[int] = []
+    scans: list[LaserScan] = []
+    recorded: list[int] = []
+    publishers: list[Decoder] = []
     for done, (decode, nanoseconds, data) in enumerate(messages):
         if done % 64 == 0:
             source.progress(done, total)
         try:
-            scan = decode(data)
+            scans.append(decode(data))
         except Exception as error:
             source.notes.skip(f"{source.name}: message {done} of {topic}", f"it cannot be read, {error}")
             continue
-        recorded.append(1e-9 * nanoseconds)
-        publishers.append(id(decode))
-        sweeps.add(
-            scan.ranges, scan.angle_min, scan.angle_increment, scan.range_min, scan.range_max, scan.stamp,
-            scan.frame_id, time_increment=scan.time_increment,
-        )  # fmt: skip
+        recorded.append(nanoseconds)
+        publishers.append(decode)
     source.progress(total, total)
-    if not sweeps:
+    if not scans:
         source.notes.nothing_left()
         others = ", ".join(each.name for each in topics if each.scans)
         way = f"choose one of {others}" if others else "no other topic of scans has any, so record it again"
         raise ValueError(f"{source.name}: the topic {topic} has no messages; {way}.")
+    sweeps = Sweeps()
+    sweeps.extend(scans)
     recording = sweeps.recording(source, topic=topic, topics=topics, format=format)
-    times, senders = np.array(recorded), np.array(publishers)
+    times, senders = 1e-9 * np.array(recorded, np.float64), np.array(list(map(id, publishers)))
     if (np.diff(times) < 0).any():
         order = np.argsort(times, kind="stable")
         recording, times, senders = recording.only(order), times[order], senders[order]
     source.notes.recorded = times
-    source.notes.publishers = senders if len(set(publishers)) > 1 else None
+    source.notes.publishers = senders if (senders != senders[0]).any() else None
     source.notes.stamps = "the messages" if recording.stamps.any() else "the recorder"
     return recording
 

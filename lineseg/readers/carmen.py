@@ -52,9 +52,9 @@ class CarmenLog(Reader):
 
     @staticmethod
     def recognises(head: bytes) -> bool:
-        # A table of numbers is long, and passed over at once.
-        words = not re.match(rb"\s*[-+.\d]", head)
-        return words and b"\0" not in head.rstrip(b"\0") and ANY_LINE.search(head) is not None
+        # Tables of numbers are long, and passed over at once.
+        named = not re.match(rb"\s*[-+.\d]", head) and any(word in head for word in WORDS)
+        return named and b"\0" not in head.rstrip(b"\0") and ANY_LINE.search(head) is not None
 
     @staticmethod
     def read(source: Source) -> Recording:

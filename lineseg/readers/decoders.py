@@ -51,7 +51,12 @@ def decoder_of(type: str, encoding: str, schema: bytes, echo: int) -> Decoder:
         return partial(decode_multi_echo, encoding=encoding, echo=echo)
     if type in FOXGLOVE:
         return partial(decode_foxglove_binary, encoding=encoding)
-    return partial(decode_ros1) if encoding == "ros1" else lambda data: decode_cdr(unpacked(data))
+    return partial(decode_ros1 if encoding == "ros1" else decode_packed_cdr)
+
+
+def decode_packed_cdr(data: bytes) -> LaserScan:
+    """A message of ROS 2, compressed or not."""
+    return decode_cdr(unzstd_message(data) if data[:4] == ZSTD_MAGIC else data)
 
 
 def unpacked(data: bytes) -> bytes:

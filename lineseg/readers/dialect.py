@@ -48,6 +48,7 @@ GERMAN = re.compile(rb"[-+]?[1-9]\d{0,2}(?:\.\d{3})+(?:,\d*)?")
 SPACED = re.compile("[-+]?[1-9]\\d{0,2}(?:['’\u00a0\u202f ]\\d{3})+(?:[.,]\\d*)?".encode())
 HUNDREDS = re.compile(rb"[-+]?[1-9]\d\d")
 MANY_CELLS = 10
+FIRST_WORD = re.compile(rb'["\s]*([^\s,;|"]*)')
 THOUSANDS = re.compile(rb"[^\d.,+-]+")
 LONGEST_ROW = 1 << 24
 FREE_NUMBER = re.compile(rb"(?<![\w.])[-+]?\d+\.?\d*(?:[eE][-+]?\d+)?")
@@ -174,8 +175,7 @@ def text_of(cell: bytes) -> str:
 
 def dialect_of(lines: list[bytes]) -> Dialect:
     """The dialect of some lines, of which the first may be a header."""
-    named = not is_number(re.split(rb"[\s,;|]", lines[0].strip(b'" \t'))[0].strip(b'"'))
-    data = (lines[1:] if named else lines) or lines
+    data = (lines if begins_with_number(lines[0]) else lines[1:]) or lines
     for mark in (b";", b"\t", b"|"):
         if sum(mark in line for line in data) > len(data) / 2:
             return Dialect(mark, _decimal_commas([line.split(mark) for line in data]))
@@ -188,6 +188,10 @@ def dialect_of(lines: list[bytes]) -> Dialect:
         return Dialect(b" ")
     # In quotes, a comma may be a decimal sign also where commas part the cells.
     return Dialect(b",", _decimal_commas([Dialect(b",").cells(line) for line in data if line.count(b'"') > 2]))
+
+
+def begins_with_number(line: bytes) -> bool:
+    return is_number(FIRST_WORD.match(line)[1])  # type: ignore[index] - it matches any line
 
 
 def _decimal_commas(rows: list[list[bytes]]) -> bool:
@@ -213,7 +217,8 @@ def _decimal_commas(rows: list[list[bytes]]) -> bool:
 
 def is_list(line: bytes) -> bool:
     """Whether a line begins a list in brackets, perhaps after numbers or a name, and not a header with brackets."""
-    return LIST.fullmatch(line.strip()) is not None and not IN_NAME.match(line)
+    brackets = b"[" in line or b"(" in line or b"{" in line
+    return brackets and LIST.fullmatch(line.strip()) is not None and not IN_NAME.match(line)
 
 
 def bracketed(rows: Iterable[Row], name: str) -> Iterator[Row]:
@@ -245,7 +250,7 @@ def bracketed(rows: Iterable[Row], name: str) -> Iterator[Row]:
 
 def labels_of(lines: list[bytes]) -> list[bytes] | None:
     """The names in lines such as "theta: 1.00 Dist: 3492.00 Q: 47"; None if the lines do not look like that."""
-    found = [PAIR.findall(line) for line in lines]
+    found = [PAIR.findall(line) for line in lines if b":" in line or b"=" in line]
     found = [pairs for pairs in found if len(pairs) >= 2]
     if len(found) < 0.5 * len(lines) or not found:
         return None

@@ -69,10 +69,13 @@ def _decode(data: bytes, seconds: int, nanoseconds: int, at: int, length: int, n
     angle_min, angle_max, increment, pause, _, range_min, range_max, count = NUMBERS[order].unpack_from(data, numbers)
     if numbers + 32 + 4 * count > len(data):
         raise ValueError(f"a LaserScan announces {count} ranges, but its message has {len(data)} bytes")
-    ranges = np.frombuffer(data, FLOATS[order], count, numbers + 32).astype(np.float32, copy=False)
+    ranges = np.frombuffer(data, FLOATS[order], count, numbers + 32)
+    if not ranges.dtype.isnative:
+        ranges = ranges.astype(np.float32)
     frame_id = data[at : at + length].decode("utf-8", "replace")
-    angles, limits = (angle_min, angle_max, increment), (range_min, range_max)
-    return _checked(seconds, nanoseconds, frame_id, *angles, *limits, ranges, pause)
+    return _checked(
+        seconds, nanoseconds, frame_id, angle_min, angle_max, increment, range_min, range_max, ranges, pause
+    )
 
 
 def decode_json(message: Any) -> LaserScan:

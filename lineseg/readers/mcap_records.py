@@ -18,6 +18,7 @@ MAGIC = b"\x89MCAP0\r\n"
 SCHEMA, CHANNEL, MESSAGE, CHUNK, MESSAGE_INDEX, DATA_END, FOOTER = 3, 4, 5, 6, 7, 15, 2
 CHUNK_INDEX, STATISTICS = 8, 11
 HEAD = struct.Struct("<BQ")
+MESSAGE_HEAD = struct.Struct("<HIQQ")
 MOST_RECORD = 1 << 30
 MOST_CHUNK = 8 * MOST_MESSAGE
 
@@ -81,7 +82,7 @@ class McapFile:
 
     def messages(self, channels: Collection[int]) -> Iterator[tuple[int, int, bytes]]:
         """(channel, time of recording in nanoseconds, data) of these channels, chunk after chunk."""
-        yield from self._scan(set(channels))
+        return self._scan(set(channels))
 
     def _read_summary(self) -> bool:
         """Whether the summary at the end names all channels and their counts."""
@@ -129,7 +130,8 @@ class McapFile:
                     if lost is not None:
                         lost.count(body, wanted)
                 elif opcode == MESSAGE:
-                    yield from self._message(memoryview(body), wanted)
+                    if (message := self._message(body, wanted)) is not None:
+                        yield message
                 else:
                     self._learn(opcode, body)
                 before = self._at
@@ -147,12 +149,14 @@ class McapFile:
             raise BrokenError(f"its last record breaks off at byte {self._size}")
         opcode, length = HEAD.unpack(head)
         left = self._size - self._at
-        if min(length, left) > MOST_RECORD:
+        if length > left:
+            if opcode != CHUNK:
+                raise BrokenError(f"its last record breaks off at byte {self._size}")
+            # A chunk may still have whole messages in the part that is there.
+            length = left
+        if length > MOST_RECORD:
             raise TooLargeError(too_large("a record", MOST_RECORD))
-        if length > left and opcode != CHUNK:
-            raise BrokenError(f"its last record breaks off at byte {self._size}")
-        # A chunk may still have whole messages in the part that is there.
-        return opcode, self._exactly(min(length, left))
+        return opcode, self._exactly(length)
 
     def _exactly(self, size: int) -> bytes:
         data = self._file.read(size)
@@ -174,12 +178,12 @@ class McapFile:
             encoding, _ = _text(body, at)
             self.channels.setdefault(id, McapChannel(id, topic, encoding, *self._schemas.get(schema, ("", "", b""))))
 
-    def _message(self, body: memoryview, wanted: set[int] | None) -> Iterator[tuple[int, int, bytes]]:
-        channel, _, time, _ = struct.unpack_from("<HIQQ", body)
-        if wanted is None:
-            self.counts[channel] = self.counts.get(channel, 0) + 1
-        elif channel in wanted:
-            yield channel, time, bytes(body[22:])
+    def _message(self, body: bytes | memoryview, wanted: set[int] | None) -> tuple[int, int, bytes] | None:
+        channel, _, time, _ = MESSAGE_HEAD.unpack_from(body)
+        if wanted is not None:
+            return (channel, time, bytes(body[MESSAGE_HEAD.size :])) if channel in wanted else None
+        self.counts[channel] = self.counts.get(channel, 0) + 1
+        return None
 
     def _chunk(
         self, body: bytes, at: int, wanted: set[int] | None
@@ -196,7 +200,8 @@ class McapFile:
             return self.lost[-1]
         for opcode, record in records:
             if opcode == MESSAGE:
-                yield from self._message(record, wanted)
+                if (message := self._message(record, wanted)) is not None:
+                    yield message
             elif not self._indexed:
                 self._learn(opcode, bytes(record))
         if cut:

@@ -60,6 +60,8 @@ class EchoYaml(Reader):
 
     @staticmethod
     def recognises(head: bytes) -> bool:
+        if b"angle_" not in head and b"ranges" not in head:
+            return False
         found = [line.search(head) is not None for line in ECHO_LINES]
         return all(found) or (any(found) and re.search(rb"^header:\s*$", head, re.MULTILINE) is not None)
 
@@ -88,10 +90,7 @@ def recording_of(source: Source, found: dict[str, list[LaserScan]], format: str)
             scan._replace(seconds=0, nanoseconds=time * 1e9) for scan, time in zip(found[topic], times, strict=True)
         ]
     sweeps = Sweeps()
-    for scan in found[topic]:
-        sweeps.add(
-            scan.ranges, scan.angle_min, scan.angle_increment, scan.range_min, scan.range_max, scan.stamp, scan.frame_id
-        )  # fmt: skip
+    sweeps.extend(found[topic])
     source.notes.stamps = "the messages"
     return sweeps.recording(source, topic=topic, topics=topics, format=format)
 

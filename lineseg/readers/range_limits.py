@@ -25,8 +25,10 @@ def longest_return(ranges: Floats, announced: float | None = None) -> float:
     announced: the maximum stated by the file. It is used only if beyond it lie no values, or a few that recur, like
     codes; a robot's "laser max" may be a setting of its driver that real readings exceed.
     """
-    finite = ranges[np.isfinite(ranges)]
-    greatest = float(finite.max(initial=0.0))
+    greatest = float(ranges.max(initial=0.0))
+    # Most files have numbers alone, and are not copied.
+    finite = ranges if np.isfinite(greatest) else ranges[np.isfinite(ranges)]
+    greatest = float(finite.max(initial=0.0)) if finite is not ranges else greatest
     for longest, lowest_code, highest_code in SICK_CODES:
         if lowest_code <= greatest <= highest_code and np.count_nonzero(finite >= lowest_code) > 1:
             return longest

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import struct
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack
 from typing import Any
@@ -31,7 +30,9 @@ class Ros1Bag(Reader):
         _check_version(source)
         with ExitStack() as stack:
             try:
-                bag = stack.enter_context(_open_bag(source))
+                from .indexed_bag import IndexedBag  # rosbags takes a while to import
+
+                bag = stack.enter_context(IndexedBag(source.path))
             except Exception as error:  # rosbags has errors of its own, and needs an index
                 return _without_index(source, detail(error))
             streams = [Stream(each.topic, each.msgtype, each.msgcount, each, "ros1") for each in bag.connections]
@@ -45,7 +46,9 @@ def messages_of(source: Source, wanted: Callable[[Stream], bool]) -> Iterator[tu
     hint = "`rosbag reindex` or `rosbag fix` may repair it."
     with ExitStack() as stack, cut_off(source, "ROS bag", hint):
         try:
-            bag = stack.enter_context(_open_bag(source))
+            from .indexed_bag import IndexedBag
+
+            bag = stack.enter_context(IndexedBag(source.path))
         except Exception:  # rosbags has errors of its own, and needs an index
             for connection, nanoseconds, data in scan_records(source.path):
                 stream = Stream(connection.topic, _modern(connection.type), 0, connection, "ros1")
@@ -54,8 +57,8 @@ def messages_of(source: Source, wanted: Callable[[Stream], bool]) -> Iterator[tu
             return
         streams = {each.id: Stream(each.topic, each.msgtype, each.msgcount, each, "ros1") for each in bag.connections}
         chosen = [stream.handle for stream in streams.values() if wanted(stream)]
-        for connection, nanoseconds, data in bag.messages(chosen) if chosen else ():
-            yield streams[connection.id], nanoseconds, data
+        for connection, nanoseconds, data in bag.in_order([each.id for each in chosen]):
+            yield streams[connection], nanoseconds, data
 
 
 def _modern(type: str) -> str:
@@ -76,34 +79,11 @@ def _check_version(source: Source) -> None:
         )
 
 
-def _open_bag(source: Source) -> Any:
-    """A reader of `rosbags` that computes the length of an index record from its number of entries.
-
-    Bags from 2010 announce 20 bytes per entry but contain 12.
-    """
-    from rosbags.rosbag1.reader import Header, IndexData, Reader, RecordType, read_bytes, read_uint32
-
-    class Bag(Reader):
-        def read_index_data(self, pos: int, indexes: dict[int, list[IndexData]]) -> None:
-            assert self.bio
-            header = Header.read(self.bio, RecordType.IDXDATA)
-            read_uint32(self.bio)
-            entries = read_bytes(self.bio, 12 * header.get_uint32("count"))
-            indexes[header.get_uint32("conn")].extend(
-                IndexData(seconds * 10**9 + nanoseconds, pos, offset)
-                for seconds, nanoseconds, offset in struct.iter_unpack("<III", entries)
-            )
-
-    return Bag(source.path)
-
-
 def _messages(source: Source, bag: Any, streams: list[Stream]) -> Iterator[tuple[Decoder, int, bytes]]:
-    """`streams` must not be empty: `rosbags` treats an empty list as all connections."""
-    assert streams
     decoders = {stream.handle.id: stream.decoder(source) for stream in streams}
     with cut_off(source, "ROS bag", "`rosbag fix` may save more of it."):
-        for connection, nanoseconds, data in bag.messages([stream.handle for stream in streams]):
-            yield decoders[connection.id], nanoseconds, data
+        for connection, nanoseconds, data in bag.in_order(list(decoders)):
+            yield decoders[connection], nanoseconds, data
 
 
 def _without_index(source: Source, why: str) -> Recording:

@@ -244,10 +244,10 @@ def _restrict(database: sqlite3.Connection, file: Path) -> None:
     database.execute("PRAGMA trusted_schema = OFF")
     # Otherwise SQLite refuses a file that is shorter than its header says.
     database.execute("PRAGMA writable_schema = ON")
-    for name in ("topics", "messages"):
-        row = database.execute("SELECT type, sql FROM sqlite_master WHERE lower(name) = ?", [name]).fetchone()
-        if row and (row[0] != "table" or str(row[1]).upper().startswith("CREATE VIRTUAL")):
-            raise ValueError(f"{file.name}: {name} is a {row[0]} of another kind; a bag has a plain table there.")
+    tables = "SELECT name, type, sql FROM sqlite_master WHERE lower(name) IN ('topics', 'messages')"
+    for name, kind, sql in database.execute(tables):
+        if kind != "table" or str(sql).upper().startswith("CREATE VIRTUAL"):
+            raise ValueError(f"{file.name}: {name} is a {kind} of another kind; a bag has a plain table there.")
 
 
 def _unpack_file(file: Path, stack: ExitStack, notes: Notes) -> Path:

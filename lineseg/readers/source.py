@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, ClassVar
@@ -11,10 +11,12 @@ import numpy as np
 
 from ..scan import Floats, Recording, Topic
 from .account import Notes
+from .laser_scan import LaserScan
 from .reading import Reading
 
 Progress = Callable[[int, int], None]
 LONGEST_LINE = 1 << 24
+AT_ONCE = 1 << 18
 
 
 class Cancelled(Exception):  # noqa: N818 - this is not an error
@@ -43,13 +45,23 @@ class Source:
     def lines(self) -> Iterator[tuple[int, bytes]]:
         """(number, line) of a text file; numbers count from 1; line ends, and NULs of a power failure, are removed."""
         total = max(self.path.stat().st_size, 1)
-        number = 0
+        number, done, rest = 0, 0, b""
         with self.path.open("rb") as file:
-            while line := file.readline(LONGEST_LINE):
-                number += 1
-                if number % 256 == 1:
-                    self.progress(file.tell(), total)
-                yield number, line.rstrip(b"\r\n").strip(b"\0")
+            while block := file.read(AT_ONCE):
+                self.progress(done, total)
+                done += len(block)
+                # Whole blocks are looked at for what hardly any line has.
+                plain = b"\r" not in block and b"\0" not in block and not rest.endswith((b"\r", b"\0"))
+                *lines, rest = (rest + block).split(b"\n")
+                for line in lines:
+                    number += 1
+                    yield number, line if plain else line.rstrip(b"\r").strip(b"\0")
+                if len(rest) > LONGEST_LINE:
+                    number += 1
+                    yield number, rest
+                    rest = b""
+        if rest:
+            yield number + 1, rest.rstrip(b"\r").strip(b"\0")
         self.progress(total, total)
 
     def choose(self, topics: list[Topic], what: str = "topic") -> str:
@@ -126,6 +138,15 @@ class Sweeps:
         self.time_increments.append(time_increment)
         if bearings is not None:
             self.bearings.append(bearings)
+
+    def extend(self, scans: Sequence[LaserScan]) -> None:
+        """Adds messages."""
+        self.ranges += [each.ranges for each in scans]
+        self.geometry += [
+            (each.angle_min, each.angle_increment, each.range_min, each.range_max, each.stamp) for each in scans
+        ]
+        self.frame_ids += [each.frame_id for each in scans]
+        self.time_increments += [each.time_increment for each in scans]
 
     def recording(self, source: Source, **fields: Any) -> Recording:
         """All scans as one Recording; `fields` override the collected values."""

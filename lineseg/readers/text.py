@@ -11,7 +11,18 @@ from typing import Any
 
 from ..scan import Recording
 from .beam_rows import columns_beside, read_beams, table_of
-from .dialect import COMMENTS, Dialect, Row, bracketed, dialect_of, is_list, labels_of, text_of, unlabelled
+from .dialect import (
+    COMMENTS,
+    Dialect,
+    Row,
+    begins_with_number,
+    bracketed,
+    dialect_of,
+    is_list,
+    labels_of,
+    text_of,
+    unlabelled,
+)  # fmt: skip
 from .headers import LENGTHS, TURNS, Name, array_columns, column_of, is_angle, is_beam, is_distance, name_of, unit_of
 from .lasers import rows_of_one_laser
 from .numbered import read_numbered
@@ -94,7 +105,7 @@ def _titles(lines: list[bytes]) -> int:
     if 2 * sum(map(is_list, below)) >= len(below):
         first = next(at for at, line in enumerate(lines) if is_list(line))
         return 0 if any(MARK.search(line) for line in lines[:first]) else first
-    if len(lines) < FEW_ROWS:
+    if len(lines) < FEW_ROWS or begins_with_number(lines[0]):
         return 0
     dialect = dialect_of(below)
     width = Counter(map(dialect.width, below)).most_common(1)[0][0]

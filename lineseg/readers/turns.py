@@ -7,6 +7,7 @@ from itertools import pairwise
 import numpy as np
 
 from ..scan import Floats
+from .guessing import middle_of
 
 # A beam so far ahead, where the angle also leaps back, begins the next scan rather than following a gap.
 WIDE = np.deg2rad(30)
@@ -74,14 +75,14 @@ def regularity(bearings: Floats) -> float:
     if len(bearings) < 3:
         return 0.0
     steps = (np.diff(bearings) + np.pi) % (2 * np.pi) - np.pi
-    middle = float(np.median(steps))
+    middle = middle_of(np.sort(steps))
     if middle == 0:
         return np.inf
-    sideways = np.mean(np.sign(steps) != np.sign(middle))
-    return float(np.median(np.abs(steps - middle)) / abs(middle) + (sideways if sideways > 0.1 else 0.0))
+    sideways = np.count_nonzero(steps <= 0 if middle > 0 else steps >= 0) / len(steps)
+    return middle_of(np.sort(np.abs(steps - middle))) / abs(middle) + (sideways if sideways > 0.1 else 0.0)
 
 
 def _step(raw: Floats) -> float:
     """The usual step between beams, without the leaps of the seam."""
     small = raw[np.abs(raw) < np.pi]
-    return float(np.median(small)) if small.size and np.median(small) else float(np.median(raw)) or 1e-3
+    return middle_of(np.sort(small)) or middle_of(np.sort(raw)) or 1e-3
