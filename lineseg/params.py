@@ -27,7 +27,7 @@ Epsilon = Annotated[
 Delta = Annotated[
     float,
     Knob(
-        "δ", 0.01, 1.0, "m", 0.005, log=True, least=1e-6, most=1000.0, ros="predict_distance", scatter=1.5,
+        "δ", 0.01, 1.0, "m", 0.005, log=True, least=1e-6, most=1000.0, ros="predict_distance", scatter=1.0,
         label="distance to the predicted point", equation="Eqs. 4–6", lesson="02_delta",
         why="a distance of 0 would refuse every measured point",
         help="Largest distance, in a seed, from a point to where its beam meets the line. Lower keeps range jumps out "

@@ -6,8 +6,9 @@ So the smallest ε at which the lines of region growing scatter by no more than 
 laser and walls that bend, without a model of either.
 
 From there the search looks for steadiness. Where walls still break, as those do that are rough in some places only, a
-larger ε gives other lines, so the lines at ε are scored as if those at a larger ε were the truth. The best ε is
-proposed; a larger one must be the steadier the nearer it is to the depth of doors and of what stands before walls.
+larger ε gives other lines, so the lines at ε are scored as if those at a larger ε were the truth. Points of the wall
+hardly raise the scatter of a line, points of doors and of what stands before the wall do. So a larger ε is proposed only
+if lines gain more steadiness than scatter.
 """
 
 from __future__ import annotations
@@ -35,20 +36,19 @@ GROWING = EXTRACTORS["region-growing"]
 FRAMES = 24
 LEAST_FRAMES = 4
 # The factor from one value of ε to the next; lines are compared APART values apart.
-STEP, APART = 1.6**0.25, 4
+STEP, APART = 1.6**0.25, 3
 # The search begins at this many times the white noise, and ends so many steps above the ε that suits the scatter.
 LOWEST, STEPS = 2.3, 6
 # Walls that beams graze scatter by less than others, for which ε is a little larger than what suits them all.
-MORE = 1.15
+MORE = 1.1
 # The share of ε by which points may scatter about their lines: for white noise, ε is then about three times as large.
 # At a coarse laser more is allowed, because there a larger ε takes in doors: the share grows with this power of ε.
-SHARE, SHARE_AT, POWER = 0.32, 0.05, 0.25
-# At an ε of SHARE_AT or less, lines must be so much steadier at a value that is larger by a factor of e; above it, in
-# proportion to the square of ε.
-PULL = 0.2
-# Where lines are less steady by this than at a smaller ε, doors and what stands before walls become part of them: the
-# search ends.
-FALLS = 0.02
+SHARE, SHARE_AT, POWER = 0.32, 0.05, 0.35
+# At an ε of SHARE_AT or less, lines must be so much steadier at a value where they scatter more by a factor of e; above
+# it, in proportion to the square of ε.
+WORTH = 0.3
+# Walls deviate from straight by no more than this [m]: lines that scatter more have taken in something else.
+BEND = 0.025
 # Multiples of what is proposed whose lines judge it and the present values. Values that differ by more are told.
 MUCH = 1.25
 BESIDE = (1 / MUCH, MUCH)
@@ -71,7 +71,7 @@ class Proposal:
     they differ. fitting: those that fit best, also if the present ones are as good; None if nothing can be proposed.
     scatter: standard deviation of points from their walls [m]. pieces: number of segments into which a wall breaks at
     the present values, on average. tried: (k,) values of ε, or of the method's counterpart [m]; steady: (k,) score of
-    the lines there, with the lines at 1.6 times that value as the truth, 0 to 1.
+    the lines there, with the lines at 1.4 times that value as the truth, 0 to 1.
     text: what is proposed, or why nothing can be; "" if the present values are as good.
     """
 
@@ -187,8 +187,7 @@ class _Search:
         steady = np.array([_agreement(lines[k], lines[k + APART]) for k in range(len(tried))])
         if not steady.max() > 0.0:
             return self.nothing("No ε that fits this noise gives steady lines.")
-        pull = PULL * max(suits / SHARE_AT, 1.0) ** 2
-        best = int(np.argmax((steady - pull * np.log(tried / suits))[: _rising(steady)]))
+        best = self._worth(suits, np.array([_scatter(each) for each in lines[: STEPS + 1]]), steady)
         proposed = self.fitting(MORE * tried[best], self.present)
         found, present = self._extracted(proposed), self._extracted(self.present)
         around = [self._extracted(rescaled(proposed, factor)) for factor in BESIDE]
@@ -198,6 +197,12 @@ class _Search:
         if lacking <= AS_GOOD:
             return answer
         return replace(answer, params=proposed, changed=True, text=self._text(proposed, pieces))
+
+    def _worth(self, suits: float, scatter: Floats, steady: Floats) -> int:
+        """Which of the values is proposed, from the scatter of the lines there [m] and how steady they are."""
+        walls = np.minimum.accumulate(scatter <= max(math.hypot(self._white, BEND), scatter[0]))
+        worth = WORTH * max(suits / SHARE_AT, 1.0) ** 2
+        return int(np.argmax((steady - worth * np.log(scatter / scatter[0]))[walls]))
 
     def _suiting(self) -> float:
         """The ε [m] that suits the scatter, which also tells whether ε grows with the range; NaN if it is too large."""
@@ -248,12 +253,6 @@ class _Search:
         return f"{told} {', '.join(new)} {'fits' if len(new) == 1 else 'fit'} a little better than the present values."
 
 
-def _rising(steady: Floats) -> int:
-    """The number of values before steadiness first falls."""
-    falls = steady < np.maximum.accumulate(steady) - FALLS
-    return int(np.argmax(falls)) if falls.any() else len(steady)
-
-
 def _allowed(scale: float) -> float:
     """The share of an ε of `scale` [m] by which points may scatter about their lines."""
     return SHARE * (scale / SHARE_AT) ** POWER
@@ -268,6 +267,12 @@ def _share(found: list[Extraction], params: Params) -> float:
     middles = np.array([(line.start, line.end) for line in lines]).mean(axis=1)
     shares = rms / params.epsilon_at(np.hypot(*middles.T))
     return math.sqrt(float(length @ shares**2 / length.sum()))
+
+
+def _scatter(found: list[Extraction]) -> float:
+    """The rms distance of points from their lines [m], by length; NaN without lines."""
+    length, rms = np.array([(line.length, line.rms) for one in found for line in one.segments]).reshape(-1, 2).T
+    return math.sqrt(float(length @ rms**2) / float(length.sum())) if length.sum() else math.nan
 
 
 def _changes(present: Thresholds, proposed: Thresholds) -> list[tuple[Knob, float]]:
