@@ -31,7 +31,7 @@ def score(recording, params):
 
 
 def best_score(recording):
-    return max(score(recording, Params(epsilon=epsilon, delta=1.5 * epsilon)) for epsilon in EPSILONS.tolist())
+    return max(score(recording, Params(epsilon=epsilon, delta=epsilon)) for epsilon in EPSILONS.tolist())
 
 
 def world(name, sigma, laser):
