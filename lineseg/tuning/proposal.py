@@ -7,8 +7,8 @@ laser and walls that bend, without a model of either.
 
 From there the search looks for steadiness. Where walls still break, as those do that are rough in some places only, a
 larger ε gives other lines, so the lines at ε are scored as if those at a larger ε were the truth. Points of the wall
-hardly raise the scatter of a line, points of doors and of what stands before the wall do. So a larger ε is proposed only
-if lines gain more steadiness than scatter.
+hardly raise the scatter of a line, points of doors and of what stands before the wall do. So a larger ε is proposed if
+lines gain more steadiness than scatter.
 """
 
 from __future__ import annotations
