@@ -15,6 +15,7 @@ from .params import params
 from .record import record
 from .score import score
 from .sweep import sweep
+from .truth import truth
 from .tune import tune
 from .view import view
 
@@ -29,6 +30,7 @@ COMMANDS: dict[str, Callable[..., None]] = {
     "record": record,
     "score": score,
     "sweep": sweep,
+    "truth": truth,
     "tune": tune,
     "compare": compare,
     "bench": bench,

@@ -28,7 +28,7 @@ SHAPES = "ranges (frames, beams) or (beams,), angle_min and angle_increment scal
 
 class Npz(Reader):
     """ranges (F, N) or (N,) [m], angle_min, angle_increment [rad] scalars or (F,); optional range_min, range_max [m],
-    stamps (F,) [s], frame_id, wall (F, N) int, walls (W, 4), time_increment [s] scalar or (F,).
+    stamps (F,) [s], frame_id, wall (F, N) int (−1 none, −2 unknown), walls (W, 4), time_increment [s] scalar or (F,).
     poses (F, 3) of x, y [m] and heading [rad] of the laser in the world, NaN where unknown; upside_down, if it is
     mounted so.
 

@@ -15,9 +15,10 @@ from ..params import Params
 from ..readers.source import Cancelled
 from ..scan import Recording, are_valid
 from ..survey.stretch import Stretch, Workspace, flattened
-from ..truth import true_lines
+from ..truth import UNKNOWN, true_lines
 from .totals import COLUMNS, COUNTS, MEAN_COLUMNS, Totals
 
+SEGMENTS = COUNTS.index("segments")
 LINES = slice(COUNTS.index("true_lines"), COUNTS.index("shared") + 1)
 
 
@@ -25,8 +26,8 @@ LINES = slice(COUNTS.index("true_lines"), COUNTS.index("shared") + 1)
 class Truth:
     """The true lines of some frames.
 
-    labels: (total,) int32 line of each beam, −1 for none, numbered from 0 in each frame; sizes: number of beams of each
-    line, frame after frame; offsets: (frames + 1,) where the lines of each frame start in `sizes`.
+    labels: (total,) int32 line of each beam, −1 for none or UNKNOWN, numbered from 0 in each frame; sizes: number of
+    beams of each line, frame after frame; offsets: (frames + 1,) where the lines of each frame start in `sizes`.
     """
 
     labels: NDArray[np.int32]
@@ -104,13 +105,14 @@ class Batch:
             else:
                 row[len(COUNTS) :] = np.nan
             if self._truths:
-                row[LINES] = np.mean([self._agreement(each, segments, counts, tally) for each in self._truths], axis=0)
+                found = np.mean([self._agreement(each, segments, counts, tally) for each in self._truths], axis=0)
+                row[LINES], row[SEGMENTS] = found[:-1], found[-1]
         return Totals(sums)
 
     def _agreement(
         self, truth: Truth, segments: NDArray[np.void], counts: NDArray[np.int64], tally: NDArray[np.int64]
-    ) -> tuple[float, float, float]:
-        """(true lines, matches, Σ of their intersections over union)."""
+    ) -> tuple[float, float, float, float]:
+        """(true lines, matches, Σ of their intersections over union, segments whose truth is known)."""
         lines = truth.labels, truth.sizes, truth.offsets
         found = count_matches(segments, counts, self._first, self._flat.offsets, *lines, tally)
         return float(truth.offsets[-1] - truth.offsets[self._first]), *found
@@ -118,30 +120,35 @@ class Batch:
 
 @entry_kernel
 def count_matches(segments, counts, first, offsets, labels, sizes, places, tally):
-    """(matches, Σ of their intersections over union) of the frames from `first`, as `truth.match` defines them.
+    """(matches, Σ of their intersections over union, known segments) of the frames from `first`, see `truth.match`.
 
     tally: (beams,) zeros, and zeros again afterwards.
     """
-    matches, shared, used = 0, 0.0, 0
+    matches, shared, used, known = 0, 0.0, 0, 0
     for frame in range(first, len(counts)):
         start, beams = offsets[frame], offsets[frame + 1] - offsets[frame]
         for i in range(used, used + counts[frame]):
             length = (segments[i].last - segments[i].first) % beams + 1
             most = line = -1
+            unknown = 0
             for k in range(length):
                 label = labels[start + (segments[i].first + k) % beams]
                 if label >= 0:
                     tally[label] += 1
                     if tally[label] > most:
                         most, line = tally[label], label
+                elif label == UNKNOWN:
+                    unknown += 1
             for k in range(length):
                 label = labels[start + (segments[i].first + k) % beams]
                 if label >= 0:
                     tally[label] = 0
+            points = segments[i].points - unknown
+            known += 2 * points >= segments[i].points
             if line >= 0:
-                union = segments[i].points + sizes[places[frame] + line] - most
+                union = points + sizes[places[frame] + line] - most
                 if 2 * most > union:
                     matches += 1
                     shared += most / union
         used += counts[frame]
-    return matches, shared
+    return matches, shared, known

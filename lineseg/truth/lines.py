@@ -16,10 +16,12 @@ from ..scan import Scan
 OCCLUSION = 0.3
 # Share of P_min or L_min by which a wall may miss it and still make a segment on it neutral.
 SHORT = 0.3
+# The wall of a beam, and its true line, if nothing is known: it counts neither for nor against a segment.
+UNKNOWN = -2
 
 
 def true_lines(scan: Scan, params: Params | None = None, occlusion: float = OCCLUSION) -> NDArray[np.int32]:
-    """For each beam its true line, or −1, for a scan with known walls. Lines are numbered from 0.
+    """For each beam its true line, −1 for none or UNKNOWN, for a scan with known walls. Lines are numbered from 0.
 
     A true line is a visible run of one wall with at least P_min valid beams and at least L_min between its outermost
     points. A run is cut between two of its beams if other beams, of another wall or without a return, lie between them
@@ -57,6 +59,7 @@ def _runs_labelled(
         share = np.minimum(share, length / params.min_length)
     kept = wanted(share)
     labels[beams] = np.where(kept, np.cumsum(kept) - 1, -1)[run]
+    labels[scan.valid & (scan.wall == UNKNOWN)] = UNKNOWN
     return labels
 
 

@@ -17,7 +17,7 @@ from ..extractors import EXTRACTORS
 from ..knobs import Thresholds
 from ..scan import Recording
 from ..segment import Extraction
-from .lines import demands_of, near_lines, true_ends, true_lines
+from .lines import UNKNOWN, demands_of, near_lines, true_ends, true_lines
 
 
 @dataclass(frozen=True)
@@ -80,7 +80,8 @@ class Matching:
 
     shared: (lines, segments) number of beams in common; line_beams, segment_beams: number of beams of each.
     endpoint_errors: (lines, 2) [m] from the ends of a true line to those of its match; NaN without a match.
-    neutral: (segments,) whether a segment is neither right nor false, because it matches a near line.
+    neutral: (segments,) whether a segment is neither right nor false, because it matches a near line or is `unknown`.
+    unknown: (segments,) whether the truth is unknown for more than half of its beams; then it is not counted at all.
     """
 
     shared: NDArray[np.int64]
@@ -88,6 +89,7 @@ class Matching:
     segment_beams: NDArray[np.int64]
     endpoint_errors: NDArray[np.float64]
     neutral: NDArray[np.bool_]
+    unknown: NDArray[np.bool_]
 
     @cached_property
     def overlap(self) -> NDArray[np.float64]:
@@ -119,13 +121,14 @@ class Matching:
         matched = self.overlap > 0.5
         errors = self.endpoint_errors[np.isfinite(self.endpoint_errors)]
         return Agreement(
-            *self.shared.shape,
+            len(self.line_beams),
+            int((~self.unknown).sum()),
             matches=int(matched.sum()),
             shared=float(self.overlap[matched].sum()),
             splits=int(self.split.sum()),
             merges=int(self.merged.sum()),
             endpoint_errors=tuple(errors.tolist()),
-            neutral=int(self.neutral.sum()),
+            neutral=int((self.neutral & ~self.unknown).sum()),
         )
 
 
@@ -141,12 +144,15 @@ def match(
     share no beam, nor do two true lines, so no other can match either of them.
     ends: (lines, 2, 2) [m] the endpoints of the true lines, see `true_ends`; None: no endpoint errors.
     near: (n,) the lines that make a segment neutral instead of false, see `near_lines`; None: no segment is neutral.
+    Beams whose truth is UNKNOWN are left out of all sets.
     """
     counts = _shared_beams(extraction, truth)
-    neutral = np.zeros(len(extraction.segments), np.bool_)
+    known = counts[2]
+    unknown = 2 * known < np.bincount(extraction.labels[extraction.labels >= 0], minlength=len(known))
+    neutral = unknown.copy()
     if near is not None:
         neutral |= (_overlap(*_shared_beams(extraction, near)) > 0.5).any(axis=0)
-    matching = Matching(*counts, np.full((len(counts[0]), 2), np.nan), neutral)
+    matching = Matching(*counts, np.full((len(counts[0]), 2), np.nan), neutral, unknown)
     if ends is not None:
         for line in np.flatnonzero(matching.segment_of >= 0):
             segment = extraction.segments[matching.segment_of[line]]
@@ -157,13 +163,17 @@ def match(
 def _shared_beams(
     extraction: Extraction, truth: NDArray[np.integer]
 ) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int64]]:
-    """(lines, segments) number of beams in common, and the number of beams of each line and of each segment."""
+    """(lines, segments) number of beams in common, and the number of beams of each line and of each segment.
+
+    Unknown beams belong to no segment.
+    """
     lines, segments = int(truth.max(initial=-1)) + 1, len(extraction.segments)
     both = (truth >= 0) & (extraction.labels >= 0)
     pairs = truth[both].astype(np.int64) * segments + extraction.labels[both]
     shared = np.bincount(pairs, minlength=lines * segments).reshape(lines, segments)
     line_beams = np.bincount(truth[truth >= 0], minlength=lines)
-    segment_beams = np.bincount(extraction.labels[extraction.labels >= 0], minlength=segments)
+    known = (extraction.labels >= 0) & (truth != UNKNOWN)
+    segment_beams = np.bincount(extraction.labels[known], minlength=segments)
     return shared, line_beams, segment_beams
 
 
@@ -181,8 +191,8 @@ def agreement(
 ) -> Agreement:
     """How well the segments of one scan agree with its true lines. See `match` for which segment matches which.
 
-    truth: (n,) int, the true line of each beam or −1; ends: (lines, 2, 2) [m], see `true_ends`; near: (n,) int, see
-    `near_lines`.
+    truth: (n,) int, the true line of each beam, −1 or UNKNOWN; ends: (lines, 2, 2) [m], see `true_ends`; near:
+    (n,) int, see `near_lines`.
     """
     return match(extraction, truth, ends, near).agreement
 

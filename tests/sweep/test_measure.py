@@ -1,6 +1,7 @@
 """Sums over frames equal the library's numbers for each frame."""
 
 import threading
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +13,7 @@ from scenes import corner, room, scan_of
 from lineseg import Agreement, Cancelled, Params, Recording, Scan, agreements, open_recording, survey, true_lines
 from lineseg.sweep import MEASURES, Batch, Grid, Totals, axis_values
 from lineseg.sweep.totals import MEANS
+from lineseg.truth import UNKNOWN
 
 SAMPLES = Path(__file__).parents[2] / "sample_scans"
 
@@ -38,6 +40,17 @@ def test_every_measure_is_computed_from_the_frames(sample: Recording):
         assert totals.measure("segments")[k] == len(scores.segments) / len(sample)
         for name in MEANS:
             assert totals.measure(name)[k] == pytest.approx(scores.score(name).mean(dtype=float)), name
+
+
+def test_unknown_beams_are_left_out_as_in_the_agreement():
+    sample = open_recording(SAMPLES / "hallway.npz").only(np.arange(0, 20))
+    assert sample.wall is not None
+    sample = replace(sample, wall=np.where(sample.wall % 3 == 0, UNKNOWN, sample.wall))
+    totals = Batch(sample, scored=False).measure([Params()])
+    found = Agreement.of_all(filter(None, agreements(sample, truth=lambda frame: true_lines(sample[frame]))))
+    assert totals.measure("true_rate")[0] == found.true_rate
+    assert totals.measure("false_rate")[0] == pytest.approx(found.false_rate, abs=0.02)
+    assert totals.measure("completeness")[0] == pytest.approx(found.completeness, abs=0.005)
 
 
 def test_parts_add_up_to_the_whole(sample: Recording):

@@ -9,7 +9,7 @@ from hypothesis import given
 from scenes import chipped, corner, room, scan_of, scans, wall_ahead
 
 from lineseg import Extraction, Params, Recording, Scan, Segment, extract, open_recording
-from lineseg.truth import Agreement, agreement, agreements, match, near_lines, true_ends, true_lines
+from lineseg.truth import UNKNOWN, Agreement, agreement, agreements, match, near_lines, true_ends, true_lines
 
 SAMPLES = Path(__file__).parents[2] / "sample_scans"
 
@@ -140,6 +140,14 @@ def found(labels) -> Extraction:
         for k in range(labels.max(initial=-1) + 1)
     ]
     return Extraction("by hand", Params(), tuple(segments), labels, ())
+
+
+def test_unknown_beams_count_neither_for_nor_against():
+    truth = np.array([0] * 6 + [UNKNOWN] * 14)
+    matching = match(found([0] * 10 + [1] * 10), truth)
+    assert matching.overlap[0, 0] == 1
+    assert matching.unknown.tolist() == [False, True]
+    assert matching.agreement == Agreement(true_lines=1, segments=1, matches=1, shared=1.0)
 
 
 def test_a_line_in_two_pieces_is_a_split_and_its_larger_piece_may_match():

@@ -1,0 +1,131 @@
+"""Small squares of the world: what was measured in each, from how many views, and which way the surface faces there."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..kernel import entry_kernel, kernel
+
+# Side of a square [m], and how far around it points tell the direction of the surface [squares].
+SIDE = 0.04
+AROUND = 6
+# More views than this do not add to the weight of a square.
+MOST_VIEWS = 8
+MOST_POINTS = 20
+# Squares are numbered row by row, at most so many in a row; those seen from other quarters of the sky are others.
+ROW = 1 << 24
+QUARTERS = 4
+
+Floats = NDArray[np.float64]
+
+
+class Cells(NamedTuple):
+    """xy: (c, 2) mean of the points [m]; toward: (c, 2) mean direction to the laser; views: (c,) number of views;
+    strength: (c,) number of points, of each view at most MOST_POINTS;
+    normal: (c, 2) of the surface, towards the laser; flat: (c,) rms of the points around the local line [m];
+    spread: (c,) their rms along it [m]; key: (c,) rising; origin: (2,) the corner of the first square [m].
+    """
+
+    xy: Floats
+    toward: Floats
+    views: Floats
+    strength: Floats
+    normal: Floats
+    flat: Floats
+    spread: Floats
+    key: NDArray[np.int64]
+    origin: Floats
+
+
+def cells_of(
+    placed: NDArray[np.floating], scan: NDArray[np.integer], poses: Floats, views: NDArray[np.int64], least_views: int
+) -> Cells:
+    """The squares that `least_views` or more views see something in.
+
+    placed: (n, 2) points in the world; scan: (n,) scan of each; poses: (m, 3), views: (m,) of each scan.
+    Within a square each view counts alike, however many points it has there.
+    """
+    origin = placed.min(axis=0).astype(np.float64)
+    toward = poses[scan, :2] - placed
+    toward /= np.maximum(np.hypot(*toward.T), 1e-6)[:, None]
+    quarter = np.floor(np.arctan2(toward[:, 1], toward[:, 0]) * (QUARTERS / (2 * np.pi))).astype(np.int64) % QUARTERS
+    column, row = np.floor((placed - origin) / SIDE).astype(np.int64).T
+    key = (column * ROW + row) * QUARTERS + quarter
+    order = np.lexsort((views[scan], key))
+    key, view = key[order], views[scan[order]]
+    starts = np.flatnonzero((np.diff(key, prepend=-1) != 0) | (np.diff(view, prepend=-1) != 0))
+    sizes = np.diff(starts, append=len(key))
+    strength = np.minimum(sizes, MOST_POINTS).astype(np.float64)
+    values = np.column_stack((placed[order], toward[order])).astype(np.float64)
+    of_views = np.add.reduceat(values, starts) / sizes[:, None]
+    key = key[starts]
+    starts = np.flatnonzero(np.diff(key, prepend=-1) != 0)
+    counts = np.diff(starts, append=len(key))
+    means = np.add.reduceat(of_views, starts) / counts[:, None]
+    strength = np.add.reduceat(strength, starts)
+    kept = counts >= least_views
+    key, means, counts = key[starts][kept], means[kept], counts[kept].astype(np.float64)
+    surface = np.zeros((len(key), 4))
+    xy, looking = np.ascontiguousarray(means[:, :2]), np.ascontiguousarray(means[:, 2:])
+    surfaces(key, xy, looking, np.minimum(counts, MOST_VIEWS), ROW, QUARTERS, AROUND, surface)
+    return Cells(
+        xy,
+        looking,
+        counts,
+        strength[kept],
+        np.ascontiguousarray(surface[:, :2]),
+        surface[:, 2].copy(),
+        surface[:, 3].copy(),
+        key,
+        origin,
+    )
+
+
+@kernel
+def first_from(keys, wanted):
+    """The first position whose key is at least `wanted`."""
+    low, high = 0, len(keys)
+    while low < high:
+        middle = (low + high) // 2
+        if keys[middle] < wanted:
+            low = middle + 1
+        else:
+            high = middle
+    return low
+
+
+@entry_kernel
+def surfaces(keys, xy, toward, weights, row, quarters, around, surface):
+    """Normal, rms across and rms along of the points around each square, by the eigenvectors of their scatter.
+
+    Only squares seen from the same half of the sky count: the two faces of a board are two surfaces.
+    """
+    for i in range(len(keys)):
+        place = keys[i] // quarters
+        n = sx = sy = sxx = sxy = syy = 0.0
+        for column in range(-around, around + 1):
+            start = (place + column * row - around) * quarters
+            j = first_from(keys, start)
+            while j < len(keys) and keys[j] < start + (2 * around + 1) * quarters:
+                if toward[i, 0] * toward[j, 0] + toward[i, 1] * toward[j, 1] > 0:
+                    w = weights[j]
+                    x, y = xy[j, 0] - xy[i, 0], xy[j, 1] - xy[i, 1]
+                    n += w
+                    sx += w * x
+                    sy += w * y
+                    sxx += w * x * x
+                    sxy += w * x * y
+                    syy += w * y * y
+                j += 1
+        a, b, c = sxx / n - sx * sx / n / n, sxy / n - sx * sy / n / n, syy / n - sy * sy / n / n
+        angle = 0.5 * np.arctan2(2 * b, a - c)
+        half = np.sqrt((a - c) * (a - c) / 4 + b * b)
+        nx, ny = -np.sin(angle), np.cos(angle)
+        if nx * toward[i, 0] + ny * toward[i, 1] < 0:
+            nx, ny = -nx, -ny
+        surface[i, 0], surface[i, 1] = nx, ny
+        surface[i, 2] = np.sqrt(max((a + c) / 2 - half, 0.0))
+        surface[i, 3] = np.sqrt((a + c) / 2 + half)

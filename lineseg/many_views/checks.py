@@ -1,0 +1,76 @@
+"""Recordings from which no truth can be made, and how far a truth can be trusted."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..poses import Poses
+from ..scan import Recording
+from .refining import MOST_SHIFT, MOST_TURN
+from .returns import views_of
+
+# A drive passes through so many views or more.
+LEAST_VIEWS = 6
+# Between two scans a robot drives no farther than this [m], or than so many times its usual step.
+FARTHEST_STEP, TIMES_USUAL = 1.0, 8.0
+# With less on walls than the first, there is no truth; with less than the second, it is not trusted.
+LEAST_EXPLAINED, WELL_EXPLAINED = 0.25, 0.6
+THICKEST, MOST_UNKNOWN = 0.05, 0.4
+
+Floats = NDArray[np.float64]
+
+
+def check(recording: Recording) -> Poses:
+    """The poses, if a truth can be made of them. Raises ValueError that says why not, and what helps."""
+    name, poses = recording.name, recording.poses
+    if poses is None:
+        why = recording.pose_source.missing
+        raise ValueError(
+            f"{name} has no poses ({why}), so its scans cannot be put together; --poses FILE reads a trajectory."
+        )
+    known = np.flatnonzero(np.isfinite(poses).all(axis=1))
+    places = np.asarray(poses, np.float64)[known]
+    views = int(views_of(places).max()) + 1
+    if views < LEAST_VIEWS:
+        size = np.ptp(places[:, :2], axis=0).max()
+        raise ValueError(
+            f"{name}: the robot stands still, or nearly: its {len(known)} poses lie within {size:.2f} m. "
+            f"What is a wall is seen by looking from {LEAST_VIEWS} or more places; take a recording of a drive."
+        )
+    steps = np.hypot(*np.diff(places[:, :2], axis=0).T) / np.diff(known)
+    usual = float(np.median(steps[steps > 0.01])) if (steps > 0.01).any() else 0.0
+    farthest = max(FARTHEST_STEP, TIMES_USUAL * usual)
+    jumps = np.flatnonzero(steps > farthest)
+    if len(jumps):
+        first, last = (recording.number(int(known[jumps[0] + k])) for k in (0, 1))
+        raise ValueError(
+            f"{name}: the poses jump: by {steps[jumps[0]]:.2f} m between frames {first} and {last}, where the robot "
+            f"usually drives {usual:.2f} m{f' ({len(jumps)} such jumps)' if len(jumps) > 1 else ''}. Take the frames "
+            "before or after, or poses that were corrected."
+        )
+    return poses
+
+
+def trust(
+    name: str, thickness: float, explained: float, unknown: float, shift: Floats, turn: Floats
+) -> tuple[bool, str]:
+    """Whether a truth can be used to judge methods, and why. Raises ValueError if there are hardly any walls."""
+    if explained < LEAST_EXPLAINED:
+        raise ValueError(
+            f"{name}: only {explained:.0%} of the returns lie on straight walls that several views agree on. "
+            "Either there are no walls, or the poses do not fit the scans (of another clock, or another laser)."
+        )
+    bounded = float(np.mean((shift > 0.98 * MOST_SHIFT) | (turn > 0.98 * MOST_TURN)))
+    reasons = []
+    if thickness > THICKEST:
+        reasons.append(f"walls are {1e3 * thickness:.0f} mm thick, more than {1e3 * THICKEST:.0f} mm")
+    if explained < WELL_EXPLAINED:
+        reasons.append(f"only {explained:.0%} of the returns lie on walls")
+    if unknown > MOST_UNKNOWN:
+        reasons.append(f"{unknown:.0%} of the returns are unknown")
+    if bounded > 0.05:
+        reasons.append(f"{bounded:.0%} of the poses needed the largest correction")
+    if reasons:
+        return False, f"Do not trust this truth: {'; '.join(reasons)}."
+    return True, "This truth can be used to judge methods."

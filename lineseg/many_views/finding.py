@@ -1,0 +1,169 @@
+"""The truth by many views: walls that many scans agree on, and for each beam its wall."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..poses import Track
+from ..scan import Recording
+from ..truth import UNKNOWN
+from .cells import cells_of
+from .checks import check, trust
+from .growing import Walls, grown_walls
+from .labelling import nearest_walls
+from .merging import merged_walls, without_shadows
+from .profiles import is_even, is_straight, profiles_of, stretches_of
+from .refining import refined
+from .returns import Returns, views_of
+
+# A wall and a place without one are known if so many views, or more, saw them.
+LEAST_VIEWS = 3
+# Side of the squares in which the views of a place are counted [m].
+PLACE = 0.20
+# Points lie within so many standard deviations of their wall; bounds of that distance [m].
+DEVIATIONS, NEAREST, FARTHEST = 4.0, 0.06, 0.10
+# A curve that is shorter is a pillar or the like [m].
+LONG = 1.0
+ROUNDS = 3
+BAND = 0.04
+
+Floats = NDArray[np.float64]
+Progress = Callable[[int, int], None]
+
+
+@dataclass(frozen=True, eq=False)
+class ManyViews:
+    """What many scans of a recording agree on.
+
+    recording: with `wall` of each beam (−1 none, UNKNOWN for too little support), `walls` and the corrected poses.
+    thickness: rms distance of the points from their walls [m], and before the poses were corrected; explained, unknown:
+    shares of the returns. shift, turn: (frames with a pose,) corrections of the poses [m, rad]. trusted: whether the
+    truth can be used to judge methods; reason: why, or why not.
+    """
+
+    recording: Recording
+    thickness: float
+    thickness_before: float
+    explained: float
+    unknown: float
+    shift: Floats
+    turn: Floats
+    trusted: bool = True
+    reason: str = ""
+
+    @property
+    def text(self) -> str:
+        """All of it in sentences."""
+        walls = len(self.recording.walls if self.recording.walls is not None else ())
+        return (
+            f"{walls} walls, {1e3 * self.thickness:.0f} mm thick (rms; {1e3 * self.thickness_before:.0f} mm with the "
+            f"given poses). {self.explained:.0%} of the returns lie on them; {self.unknown:.0%} are unknown. "
+            f"Poses were corrected by {1e3 * np.median(self.shift):.0f} mm and "
+            f"{np.degrees(np.median(self.turn)):.2f}° (median), at most {1e3 * self.shift.max():.0f} mm and "
+            f"{np.degrees(self.turn.max()):.2f}°. {self.reason}"
+        )
+
+
+def truth_by_many_views(recording: Recording, progress: Progress | None = None) -> ManyViews:
+    """Walls that many posed scans agree on, and for each beam its wall.
+
+    No extraction of single frames goes in: all returns are put into the world, where surfaces that several views see
+    are grown to straight walls. Poses are corrected within 0.25 m and 3° where that makes the walls thinner.
+    progress: is told how much of the work is done; it may raise to stop it.
+    Raises ValueError without poses, for poses that jump, a robot that stands still, and where there are no walls.
+    """
+    say = progress or (lambda done, total: None)
+    say(0, ROUNDS + 2)
+    given = check(recording)
+    returns = Returns.of(recording, given)
+    given = np.ascontiguousarray(given[returns.frames])
+    scan, views = returns.scan, views_of(given)
+    poses, before = given, np.nan
+    say(1, ROUNDS + 2)
+    for turn in range(ROUNDS):
+        placed = returns.in_world(poses)
+        walls = walls_of(placed, scan, poses, views)
+        _, height = nearest_walls(placed, scan, poses, walls, FARTHEST)
+        thickness = _rms(height)
+        before = thickness if turn == 0 else before
+        say(turn + 2, ROUNDS + 2)
+        if turn < ROUNDS - 1:
+            poses = refined(returns, given, poses, walls, 0.20 / (turn + 1), max(thickness, 0.01))
+    wall = labels_of(placed, scan, poses, views, walls)
+    return _result(recording, returns, given, poses, walls, wall, height, before)
+
+
+def walls_of(placed: NDArray[np.float32], scan: NDArray[np.int32], poses: Floats, views: NDArray[np.int64]) -> Walls:
+    """The walls in the points (n, 2) of all scans in the world."""
+    cells = cells_of(placed, scan, poses, views, 1)
+    walls, owner = grown_walls(cells, BAND)
+    walls, owner = without_shadows(cells, walls, owner)
+    walls, owner = merged_walls(cells, walls, owner, BAND)
+    return without_shadows(cells, walls, owner)[0]
+
+
+def labels_of(
+    placed: NDArray[np.float32], scan: NDArray[np.int32], poses: Floats, views: NDArray[np.int64], walls: Walls
+) -> NDArray[np.int32]:
+    """(n,) the wall of each return, −1 for none, UNKNOWN where fewer than LEAST_VIEWS views saw the place.
+
+    Long curves and rough surfaces are UNKNOWN too: whoever finds lines there is neither right nor wrong.
+    """
+    found, height = nearest_walls(placed, scan, poses, walls, FARTHEST)
+    wall, near = np.full(len(placed), -1, np.int32), np.flatnonzero(found >= 0)
+    if len(near):
+        spots, own, heights = placed[near], found[near], height[near]
+        profiles = profiles_of(spots, own, heights, views[scan[near]], walls)
+        straight, even = is_straight(spots, own, heights, walls), is_even(profiles)
+        limit = np.clip(DEVIATIONS * walls.rms, NEAREST, FARTHEST)
+        good = np.abs(heights) < limit[own]
+        wall[near[good]] = own[good]
+        long = walls.high - walls.low > LONG
+        wall[near[good & ~(straight & even)[own]]] = -1
+        wall[near[~straight[own] & long[own] | ~even[own]]] = UNKNOWN
+        few = profiles.views[stretches_of(spots, own, walls, profiles.starts)] < LEAST_VIEWS
+        wall[near[few & good]] = UNKNOWN
+    elsewhere = wall == -1
+    wall[elsewhere & (views_at(placed, views[scan]) < LEAST_VIEWS)] = UNKNOWN
+    return wall
+
+
+def views_at(placed: NDArray[np.float32], view: NDArray[np.int64]) -> NDArray[np.int64]:
+    """(n,) from how many views something was seen in the square of each point."""
+    square = np.floor((placed - placed.min(axis=0)) / PLACE).astype(np.int64) @ np.array([1 << 24, 1])
+    _, square = np.unique(square, return_inverse=True)
+    pairs = np.unique(square.astype(np.int64) * (int(view.max()) + 1) + view)
+    return np.bincount(pairs // (int(view.max()) + 1))[square]
+
+
+def _rms(height: NDArray[np.floating]) -> float:
+    known = height[np.isfinite(height)].astype(np.float64)
+    return float(np.sqrt(np.mean(known**2))) if len(known) else 0.0
+
+
+def _result(
+    recording: Recording, returns: Returns, given: Floats, poses: Floats, walls: Walls, wall: NDArray[np.int32],
+    height: NDArray[np.float32], before: float,
+) -> ManyViews:  # fmt: skip
+    used, numbers = np.unique(wall[wall >= 0], return_inverse=True)
+    wall = wall.copy()
+    wall[wall >= 0] = numbers
+    of_beams = np.full(len(recording.ranges), UNKNOWN, np.int32)
+    valid = np.concatenate([scan.valid for scan in recording])
+    of_beams[~valid] = -1
+    of_beams[returns.beam] = wall
+    all_poses = np.full((len(recording), 3), np.nan)
+    all_poses[returns.frames] = poses
+    source = replace(recording.pose_source, text=f"{recording.pose_source.text}, corrected by many views")
+    shift, turn = np.hypot(*(poses - given)[:, :2].T), np.abs(poses - given)[:, 2]
+    explained = float(np.mean(wall >= 0)) if len(wall) else 0.0
+    found = ManyViews(
+        replace(recording, wall=of_beams, walls=walls.ends[used], track=Track.of(all_poses, source)),
+        _rms(height[wall >= 0]), before, explained, float(np.mean(wall == UNKNOWN)), shift, turn,
+    )  # fmt: skip
+    trusted, reason = trust(recording.name, found.thickness, explained, found.unknown, shift, turn)
+    return replace(found, trusted=trusted, reason=reason)

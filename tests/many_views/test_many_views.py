@@ -1,0 +1,113 @@
+"""The truth by many views: against the exact truth of simulated worlds, and refused where none can be made."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from lineseg import Recording, simulate
+from lineseg.many_views import truth_by_many_views
+from lineseg.poses import PoseSource, Track
+from lineseg.simulate import UTM_30LX, box, circle, room
+from lineseg.truth import UNKNOWN, true_lines
+
+WORLD = room([(0, 0), (7, 0), (7, 5), (0, 5)]) + box((3.4, 4.7), 1.2, 0.5) + circle((5.4, 3.4), 0.2)
+LASER = replace(UTM_30LX, beams=361, angle_increment=3 * UTM_30LX.angle_increment)
+STAMPS = 0.5 * np.arange(40)
+
+
+def driven(poses, world=WORLD, laser=LASER) -> Recording:
+    return simulate.record(lambda stamp: world, poses, STAMPS[: len(poses)], laser, np.random.default_rng(5), "drive")
+
+
+def drive() -> Recording:
+    return driven(simulate.drive((1.5, 1.2, 0.0), [(8, 0.45, 0.0), (4, 0.2, 0.8), (8, 0.3, 0.0)], STAMPS))
+
+
+def with_poses(recording: Recording, poses) -> Recording:
+    return replace(recording, track=Track.of(np.asarray(poses, float), PoseSource("odometry")), walls=None)
+
+
+def differing(recording: Recording, truth: Recording) -> float:
+    """Share of the beams on true lines of the exact truth for which many views say something else."""
+    wrong = total = 0
+    for exact, found in zip(recording, truth, strict=True):
+        lines, others = true_lines(exact), true_lines(found)
+        known = exact.valid & (others != UNKNOWN) & (lines >= 0)
+        for line in range(lines.max() + 1):
+            here = known & (lines == line)
+            same = np.bincount(others[here & (others >= 0)], minlength=1).max()
+            wrong, total = wrong + int(here.sum() - same), total + int(here.sum())
+    return wrong / total
+
+
+def test_walls_and_beams_agree_with_the_exact_truth():
+    recording = drive()
+    found = truth_by_many_views(recording)
+    assert differing(recording, found.recording) < 0.02
+    assert found.trusted
+    assert found.thickness < 0.02
+    assert found.explained > 0.9
+    assert found.shift.max() < 0.05
+
+
+def test_poses_that_drift_are_corrected():
+    recording = drive()
+    assert recording.poses is not None
+    drift = np.outer(np.arange(len(recording)) / len(recording), (0.06, -0.05, np.radians(1.0)))
+    found = truth_by_many_views(with_poses(recording, recording.poses + drift))
+    assert found.thickness < 0.8 * found.thickness_before
+    assert differing(recording, found.recording) < 0.03
+
+
+def test_what_one_place_alone_saw_is_unknown():
+    recording = drive()
+    assert recording.poses is not None
+    poses = np.array(recording.poses)
+    poses[:-1:2] = np.nan
+    found = truth_by_many_views(with_poses(recording, poses)).recording
+    assert (found[0].wall[found[0].valid] == UNKNOWN).all()
+    assert (found[1].wall >= 0).any()
+
+
+def test_work_can_be_stopped():
+    def stop(done: int, total: int) -> None:
+        if done == 2:
+            raise InterruptedError
+
+    with pytest.raises(InterruptedError):
+        truth_by_many_views(drive(), stop)
+
+
+def standing():
+    return driven(np.tile((2.0, 2.0, 0.3), (12, 1)))
+
+
+def jumping():
+    recording = drive()
+    return with_poses(
+        recording, np.asarray(recording.poses) + np.where(np.arange(40) < 17, 0, 4.0)[:, None] * (1, 0, 0)
+    )
+
+
+def outdoors():
+    trees = simulate.World.of(circles=np.random.default_rng(2).uniform((-9, -9, 0.1), (9, 9, 0.3), (60, 3)))
+    return driven(simulate.drive((-2, 0, 0.0), [(20, 0.3, 0.0)], STAMPS), trees)
+
+
+def without_poses():
+    return replace(drive(), track=None)
+
+
+@pytest.mark.parametrize(
+    ("make", "sentence"),
+    [
+        (without_poses, "drive has no poses .*--poses FILE"),
+        (standing, "stands still, .* 12 poses lie within 0.00 m"),
+        (jumping, "jump: by 4.* m between frames 16 and 17"),
+        (outdoors, "returns lie on straight walls"),
+    ],
+)
+def test_where_no_truth_can_be_made_it_says_why(make, sentence):
+    with pytest.raises(ValueError, match=sentence):
+        truth_by_many_views(make())
