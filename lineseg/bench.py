@@ -12,6 +12,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from .against import Against
 from .extractors import extract, trace
 from .kernel import keep
 from .params import Params
@@ -24,6 +25,8 @@ FRAMES = 300
 # A shorter survey would mostly measure the start of its threads.
 SURVEY_BEAMS = 4_000_000
 ROUNDS = 9
+# The row of another program.
+OTHER = "against"
 
 # A pass over all frames; returns the time of each [ns]. A survey returns one value, their mean.
 Pass = Callable[[], NDArray[np.float64]]
@@ -66,21 +69,31 @@ def floor_pass(x, y):
     return total
 
 
-def bench(recording: Recording, params: Params | None = None, rounds: int = ROUNDS) -> list[Timing]:
+def bench(
+    recording: Recording, params: Params | None = None, rounds: int = ROUNDS, against: str | None = None
+) -> list[Timing]:
     """Times of the floor, of one frame in several ways, and of the whole recording.
 
     Single frames are up to FRAMES of the recording; for a survey they are repeated until there are SURVEY_BEAMS.
+    against: command of another program to time on the same frames, see `lineseg.against`; raises its AgainstError.
     """
     params = params or Params()
     scans = [recording[frame] for frame in np.unique(np.linspace(0, len(recording) - 1, FRAMES, dtype=int))]
     floor = _floor(scans)
     floor()
     timings, floors = [], []
-    for name, used, run in _passes(scans, params):
+
+    def time(name: str, used: int, run: Pass) -> None:
         run()
         before, times = zip(*((floor(), run()) for _ in range(rounds)), strict=True)
-        floors += before
+        floors.extend(before)
         timings.append(_timing(name, used, np.array(times), np.array(before)))
+
+    for name, used, run in _passes(scans, params):
+        time(name, used, run)
+    if against is not None:
+        with Against(against, scans) as other:
+            time(OTHER, 1, other.run)
     return [_timing("floor", 1, np.array(floors), np.array(floors)), *timings]
 
 

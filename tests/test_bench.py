@@ -1,6 +1,8 @@
 """The times measure what they claim, and are written as a table or JSON."""
 
 import json
+import shlex
+import sys
 
 import numpy as np
 import pytest
@@ -8,6 +10,7 @@ from lineseg_app.__main__ import main
 from scenes import corner, room
 
 from lineseg import Params, Recording, save_npz
+from lineseg.against import Against, AgainstError
 from lineseg.bench import bench, floor_pass, table
 
 NAMES = ["floor", "kernel", "extract", "trace", "survey", "survey with scores"]
@@ -73,3 +76,48 @@ def test_the_thresholds_may_be_given(tmp_path, capsys):
 def test_a_recording_that_is_not_there_is_said_to_be_missing(tmp_path, capsys):
     assert main(["bench", str(tmp_path / "none.npz")]) == 2
     assert "there is no such file" in capsys.readouterr().err
+
+
+def program(tmp_path, body):
+    """The command of a program that does `body` for each `frame` that it reads."""
+    path = tmp_path / "peer.py"
+    path.write_text(f"import json, sys\nfor line in sys.stdin:\n    frame = json.loads(line)\n    {body}\n")
+    return f"{shlex.quote(sys.executable)} -S -u {shlex.quote(str(path))}"
+
+
+def test_another_program_is_timed_on_the_same_frames(recording, tmp_path):
+    tells_returns = program(tmp_path, "print(json.dumps({'us': sum(r is not None for r in frame['ranges'])}))")
+    *ours, other = bench(recording, rounds=2, against=tells_returns)
+    assert [timing.name for timing in ours] == NAMES
+    returns = [np.count_nonzero(scan.valid) for scan in recording]
+    assert (other.name, other.min_us, other.max_us) == ("against", min(returns), max(returns))
+
+
+def test_without_times_of_its_own_the_time_there_and_back_counts(recording, tmp_path):
+    with Against(program(tmp_path, "print(len(frame['bearings']))"), list(recording)) as other:
+        assert np.all(other.run() > 0)
+
+
+@pytest.mark.parametrize(
+    ("body", "said"),
+    [
+        ("print(json.dumps({'us': -1}))", 'answered "us": -1; expected a time above 0'),
+        ("sys.exit(3)", "ended with code 3; expected one line for each frame"),
+        ("import time; time.sleep(60)", "was silent for 0.3 s"),
+    ],
+)
+def test_a_program_that_cannot_be_timed_is_told(body, said, recording, tmp_path):
+    with (
+        Against(program(tmp_path, body), [recording[0]], patience=0.3) as other,
+        pytest.raises(AgainstError, match=said) as told,
+    ):
+        other.run()
+    assert str(told.value).startswith("Frame 0: --against")
+
+
+@pytest.mark.parametrize("command", ["", "no-such-program-here --fast", "'"])
+def test_a_program_that_cannot_be_started_is_told(command, tmp_path, capsys):
+    path = tmp_path / "corners.npz"
+    save_npz(Recording.from_scans([corner(noise=0.01)] * 3), path)
+    assert main(["bench", str(path), "--against", command]) == 2
+    assert f"--against {command!r} cannot be started" in capsys.readouterr().err

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from tyro.conf import OmitArgPrefixes, Positional
 
-from .flag_types import File, Switch
+from .flag_types import File, Switch, Unset
 from .progress import open_with_progress
 from .reading import ReadingFlags, reading_of
 from .thresholds import Flags, changed
@@ -19,6 +19,7 @@ def bench(
     *,
     threshold: OmitArgPrefixes[Flags],  # type: ignore[valid-type]
     reading: OmitArgPrefixes[ReadingFlags],  # type: ignore[valid-type]
+    against: Unset[str] = None,
     json: Switch = False,
 ) -> None:
     """Time the extraction and compare it with the minimum work of the method.
@@ -27,6 +28,9 @@ def bench(
         file: recording to use (default: the samples).
         threshold: thresholds of region growing.
         reading: how to read the file.
+        against: command of another program to time on the same frames, such as "./peer --fast". For each frame it
+            reads one line of JSON with bearings, ranges (null: no return), range_min and range_max, and writes one
+            line: {"us": 12.5} for its own time in µs; after any other line, the time there and back counts.
         json: write JSON instead of a table.
     """
     from lineseg import Params
@@ -42,8 +46,14 @@ def bench(
     reports = []
     for path in files:
         recording = open_with_progress(path, reading_of(reading))
-        timings = measure(recording, params)
-        facts = {"file": recording.name, "frames": len(recording), "beams": recording.beams, "cores": cores()}
+        timings = measure(recording, params, against=against)
+        facts = {
+            "file": recording.name,
+            "frames": len(recording),
+            "beams": recording.beams,
+            "cores": cores(),
+            "against": against,
+        }
         reports.append(facts | {"params": params.numbers(), "timings": [asdict(timing) for timing in timings]})
         if not json:
             print(f"{recording.name}, {recording.beams[1]} beams\n{table(timings)}", flush=True)

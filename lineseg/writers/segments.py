@@ -65,14 +65,22 @@ def geojson(rows: Rows, noise: Noise | None = None, about: About = None) -> Iter
 
 def csv_lines(rows: Rows, noise: Noise | None = None, about: About = None) -> Iterator[str]:
     """A header and a row for each segment, with enough digits to restore every number exactly; no place for `about`."""
-    yield _csv_line(COLUMNS if noise is None else (*COLUMNS, *POLAR_COLUMNS))
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(COLUMNS if noise is None else (*COLUMNS, *POLAR_COLUMNS))
     for frame, scan, extraction in rows:
         stamp = finite_or_none(scan.stamp)
         polars = [()] * len(extraction.segments) if noise is None else _polar(scan, extraction, noise)
         for segment, polar in zip(extraction.segments, polars, strict=True):
             place = (*segment.start, *segment.end, segment.first, segment.last)
             fit = (*segment.line, segment.points, segment.length, segment.rms)
-            yield _csv_line((frame, "" if stamp is None else stamp, scan.frame_id, *place, *fit, *polar))
+            row = (frame, "" if stamp is None else stamp, scan.frame_id, *place, *fit, *polar)
+            # numpy's floats have another repr.
+            writer.writerow([repr(float(value)) if isinstance(value, float) else value for value in row])
+        yield text.getvalue()
+        text.seek(0)
+        text.truncate()
+    yield text.getvalue()
 
 
 # Suffix → writer: takes rows of (frame, scan, extraction), yields pieces of text.
@@ -141,11 +149,3 @@ def _polar(scan: Scan, extraction: Extraction, noise: Noise) -> list[tuple[float
     """POLAR_COLUMNS of each segment."""
     matrices = covariances(scan, extraction, noise)[:, (0, 0, 1), (0, 1, 1)].tolist()
     return [(segment.rho, segment.theta, *m) for segment, m in zip(extraction.segments, matrices, strict=True)]
-
-
-def _csv_line(values: Iterable[object]) -> str:
-    line = io.StringIO()
-    csv.writer(line, lineterminator="\n").writerow(
-        [repr(float(value)) if isinstance(value, float) else value for value in values]
-    )
-    return line.getvalue()
