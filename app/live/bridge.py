@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Protocol
 
+from websockets import CloseCode
 from websockets.exceptions import ConnectionClosed, InvalidHandshake
 
 from lineseg.readers.laser_scan import LaserScan
 
 from .outgoing import Message
 
-OPEN_SECONDS = 5.0
+OPEN_SECONDS, CLOSE_SECONDS = 5.0, 1.0
 LARGEST_MESSAGE = 4 * 1024 * 1024
 
 
@@ -63,6 +64,10 @@ def why_not(place: str, error: Exception) -> str:
     if isinstance(error, ConnectionRefusedError):
         return f"nothing listens at {place}"
     if isinstance(error, ConnectionClosed):
+        if error.sent is not None and error.sent.code == CloseCode.MESSAGE_TOO_BIG:
+            return f"{place} sent a message of more than {LARGEST_MESSAGE >> 20} MB"
+        if error.sent is not None and error.sent.code in (CloseCode.INVALID_DATA, CloseCode.PROTOCOL_ERROR):
+            return f"{place} sent a message that is not one of WebSocket ({error.sent.reason or error.sent.code})"
         return f"{place} closed the connection"
     if isinstance(error, InvalidHandshake):
         return f"{place} does not offer a usable WebSocket ({error})"

@@ -15,12 +15,14 @@ from lineseg.readers.decoders import ENCODINGS, Decoder, decoder_of, is_laser
 
 from .arrivals import arrivals
 from .bridge import Told, hand_all
+from .heard import list_of, object_of, strings_of
 from .outgoing import Message, encoded
 
 SUBPROTOCOLS = [Subprotocol("foxglove.sdk.v1"), Subprotocol("foxglove.websocket.v1")]
 MESSAGE_DATA = 1
 HEADER = struct.Struct("<BIQ")
 SUBSCRIPTION = 1
+MOST_CHANNELS = 10_000
 
 
 class Foxglove:
@@ -41,8 +43,8 @@ class Foxglove:
             scans = []
             for data in waiting:
                 if isinstance(data, str):
-                    self._hear(json.loads(data), topic, told)
-                elif self._chosen is not None and len(data) > HEADER.size:
+                    self._hear(object_of(data), topic, told)
+                elif self._chosen is not None and len(data) >= HEADER.size:
                     opcode, subscription, _ = HEADER.unpack_from(data)
                     if (opcode, subscription) == (MESSAGE_DATA, SUBSCRIPTION):
                         assert self._decode is not None
@@ -53,9 +55,9 @@ class Foxglove:
         """Nothing to do before `publish`: the robot says only after a while what it accepts."""
 
     def publish(self, topic: str, message: Message) -> None:
-        if "clientPublish" not in self._server.get("capabilities", []):
+        if "clientPublish" not in strings_of(self._server.get("capabilities")):
             raise ValueError("the robot accepts no messages; enable clientPublish on its Foxglove server")
-        supported = self._server.get("supportedEncodings") or []
+        supported = strings_of(self._server.get("supportedEncodings"))
         encoding = next((name for name in message.encodings if name in supported), None)
         if encoding is None:
             taken = ", ".join(supported) or "nothing"
@@ -74,15 +76,20 @@ class Foxglove:
             case "serverInfo":
                 self._server = message
             case "advertise":
-                self._channels |= {channel["id"]: channel for channel in message["channels"]}
+                there = [each for each in list_of(message.get("channels")) if _is_channel(each)]
+                self._channels |= {channel["id"]: channel for channel in there[: MOST_CHANNELS - len(self._channels)]}
             case "unadvertise":
-                for id in message["channelIds"]:
-                    self._channels.pop(id, None)
+                for id in list_of(message.get("channelIds")):
+                    if isinstance(id, int):
+                        self._channels.pop(id, None)
                 if self._chosen is not None and self._chosen not in self._channels:
                     self._send(op="unsubscribe", subscriptionIds=[SUBSCRIPTION])
                     self._chosen = None
             case "status" if message.get("level") == 2:
-                told.waits(f"the robot says: {message.get('message')}")
+                told.waits(f"the robot says: {str(message.get('message'))[:300]}")
+                return
+            case None:
+                told.waits("the robot sends messages that are not those of Foxglove; is this the right port?")
                 return
         if self._chosen is None:
             self._choose(topic, told)
@@ -114,8 +121,14 @@ class Foxglove:
         self._socket.send(json.dumps(message))
 
 
+def _is_channel(channel: Any) -> bool:
+    """Whether it has what every channel has: an id, and the names of its topic, its type and its encoding."""
+    named = isinstance(channel, dict) and type(channel.get("id")) is int
+    return named and all(isinstance(channel.get(name), str) for name in ("topic", "schemaName", "encoding"))
+
+
 def _is_laser(channel: dict[str, Any]) -> bool:
-    return is_laser(str(channel["schemaName"]), channel["encoding"]) and channel["encoding"] in ENCODINGS
+    return is_laser(channel["schemaName"], channel["encoding"]) and channel["encoding"] in ENCODINGS
 
 
 def _decoder(channel: dict[str, Any]) -> Decoder:
@@ -126,8 +139,8 @@ def _decoder(channel: dict[str, Any]) -> Decoder:
             schema = base64.b64decode(str(channel.get("schema", "")), validate=True)
         except ValueError as error:
             raise ValueError(f"its schema is not base64 ({error})") from None
-    return decoder_of(str(channel["schemaName"]), channel["encoding"], schema, 0)
+    return decoder_of(channel["schemaName"], channel["encoding"], schema, 0)
 
 
 def _shown(channel: dict[str, Any]) -> str:
-    return f"{channel['topic']} is {channel['schemaName'] or 'of no type'} as {channel['encoding']}"
+    return f"{channel['topic'][:80]} is {channel['schemaName'][:80] or 'of no type'} as {channel['encoding'][:40]}"

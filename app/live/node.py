@@ -86,16 +86,14 @@ class Node:
 
     def _say_new(self) -> None:
         """Tell what the connection says, if it is new; at most once a second what is wrong with a scan."""
-        words, refused = self._robot.message, self._robot.refused
-        if words == self._said:
-            return
-        if words and refused > self._refused:
-            if time.monotonic() - self._refusal_told < REPORT_SECONDS:
-                return
-            self._refusal_told, self._refused = time.monotonic(), refused
-        self._said = words
-        if words:
-            self._tell(words)
+        words, refused, now = self._robot.message, self._robot.refused, time.monotonic()
+        if refused > self._refused and now - self._refusal_told > REPORT_SECONDS:
+            self._refused, self._refusal_told = refused, now
+            self._tell(self._robot.refusal)
+        if words != self._said and words != self._robot.refusal:
+            self._said = words
+            if words:
+                self._tell(words)
 
     def _say_silence(self) -> None:
         """Tell it once. The connection may need much longer to find out: DDS waits for a lease of 10 s by default."""

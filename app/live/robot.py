@@ -39,6 +39,7 @@ class Robot(Source):
         self.ring.topic = address.topic or ""
         self._bridge: Bridge | None = None
         self._pause = FIRST_PAUSE
+        self._unexpected = ""
         # Of the scans that were published, the newest last.
         self.spent: deque[Spent] = deque(maxlen=MOST_SPENT)
         self._closing = threading.Event()
@@ -95,8 +96,11 @@ class Robot(Source):
         except (OSError, WebSocketException, ValueError) as error:
             return why_not(self._place, error)
         except Exception as error:
-            log.exception("%s sent a message that cannot be understood", self._place)
-            return f"{self._place} sent a message that cannot be understood ({type(error).__name__}: {error})"
+            why = f"{self._place} sent a message that cannot be understood ({type(error).__name__}: {error})"
+            if why != self._unexpected:
+                log.exception("%s", why)
+            self._unexpected = why
+            return why
         finally:
             self._bridge = None
         return f"{self._place} closed the connection"
@@ -124,6 +128,8 @@ class Robot(Source):
 
     def hand(self, decode: Callable[[], LaserScan], arrived: float, newest: bool = True) -> None:
         """Add one scan. A message that is not a scan is reported, and receiving continues."""
+        if self._closing.is_set():
+            return
         try:
             scan = decode()
             self.take(scan)

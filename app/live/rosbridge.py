@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import itertools
-import json
 import math
 import time
 from collections.abc import Mapping
@@ -16,6 +15,7 @@ from lineseg.readers.laser_scan import TYPES, LaserScan, decode_json
 
 from .arrivals import arrivals
 from .bridge import Told, hand_all
+from .heard import object_of, strings_of
 from .outgoing import Message, as_json
 
 # Both versions of ROS accept the short type name.
@@ -48,7 +48,7 @@ class RosBridge:
         self._send(op="call_service", id=id, service=service, args=dict(args))
         late = min(time.monotonic() + seconds, self._ends)
         while True:
-            message = _object(self._socket.recv(timeout=max(late - time.monotonic(), 0)))
+            message = object_of(self._socket.recv(timeout=max(late - time.monotonic(), 0)))
             if message.get("op") == "service_response" and message.get("id") == id:
                 break
             if _is_trouble(message) and message.get("id") in (id, None):
@@ -64,7 +64,7 @@ class RosBridge:
         self._send(op="subscribe", id=next(self._ids), topic=topic, type=LASER_SCAN, queue_length=1)
         told.waits(f"subscribed to {topic}; waiting for its first scan")
         for arrived, waiting in arrivals(self._socket):
-            messages = [_object(data) for data in waiting]
+            messages = [object_of(data) for data in waiting]
             scans = [each for each in messages if each.get("op") == "publish" and each.get("topic") == topic]
             hand_all(told, [partial(self._decoded, each.get("msg")) for each in scans], arrived)
             for each in messages:
@@ -97,7 +97,8 @@ class RosBridge:
                 said = str(error) or "no answer"
                 raise ValueError(f"the robot does not list its topics ({said}); name one: --topic /scan") from None
             return wanted
-        topics = dict(zip(values.get("topics", []), values.get("types", []), strict=False))
+        rows = zip(strings_of(values.get("topics")), strings_of(values.get("types")), strict=False)
+        topics = {name: type for name, type in rows if name}
         lasers = [name for name, type in topics.items() if type in TYPES]
         if wanted is None:
             if not lasers:
@@ -107,20 +108,13 @@ class RosBridge:
             return wanted
         if wanted in topics:
             others = f", such as {', '.join(lasers)}" if lasers else ""
-            raise ValueError(f"{wanted} is {topics[wanted]}; choose a sensor_msgs/LaserScan topic{others}")
+            raise ValueError(
+                f"{wanted} is {topics[wanted] or 'of no type'}; choose a sensor_msgs/LaserScan topic{others}"
+            )
         raise ValueError(f"the robot has no topic {wanted}; its laser topics: {', '.join(lasers) or 'none'}")
 
     def _send(self, **message: Any) -> None:
         self._socket.send(as_json(message))
-
-
-def _object(data: str | bytes) -> dict[str, Any]:
-    """The message, or an empty one if the text is not a JSON object."""
-    try:
-        message = json.loads(data)
-    except (ValueError, RecursionError):
-        return {}
-    return message if isinstance(message, dict) else {}
 
 
 def _is_trouble(message: Mapping[str, Any]) -> bool:

@@ -72,6 +72,7 @@ class Source:
         self._times: deque[float] = deque(maxlen=512)
         self._delay: float | None = None
         self._refused = 0
+        self.refusal = ""
         self._connection: Connection = "open"
         self._message = ""
 
@@ -89,7 +90,7 @@ class Source:
     def refuse(self, why: str) -> None:
         """Count a message that is not a scan, and show the last reason."""
         self._refused += 1
-        self._message = why
+        self.refusal = self._message = why
 
     def say(self, connection: Connection, message: str) -> None:
         self._connection, self._message = connection, message

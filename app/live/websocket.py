@@ -7,7 +7,7 @@ from contextlib import contextmanager
 
 from websockets.sync.client import connect
 
-from .bridge import LARGEST_MESSAGE, OPEN_SECONDS, Bridge
+from .bridge import CLOSE_SECONDS, LARGEST_MESSAGE, OPEN_SECONDS, Bridge
 from .foxglove import SUBPROTOCOLS, Foxglove
 from .rosbridge import RosBridge
 
@@ -18,6 +18,7 @@ def open_websocket(url: str) -> Iterator[Bridge]:
         url,
         subprotocols=SUBPROTOCOLS,
         open_timeout=OPEN_SECONDS,
+        close_timeout=CLOSE_SECONDS,
         max_size=LARGEST_MESSAGE,
         proxy=None,
     ) as socket:

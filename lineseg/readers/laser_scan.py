@@ -53,16 +53,26 @@ class LaserScan(NamedTuple):
 
 def decode_ros1(data: bytes) -> LaserScan:
     """The serialisation of ROS 1: little-endian, packed."""
-    _, seconds, nanoseconds, length = ROS1_HEADER.unpack_from(data)
-    return _decode(data, seconds, nanoseconds, 16, length, 16 + length, "<")
+    try:
+        _, seconds, nanoseconds, length = ROS1_HEADER.unpack_from(data)
+        return _decode(data, seconds, nanoseconds, 16, length, 16 + length, "<")
+    except struct.error:
+        raise ValueError(_too_short(data)) from None
 
 
 def decode_cdr(data: bytes) -> LaserScan:
     """The serialisation of ROS 2: four bytes that state the byte order, then CDR with aligned numbers."""
-    order = "<" if data[1] & 1 else ">"
-    seconds, nanoseconds, length = CDR_HEADER[order].unpack_from(data, 4)
-    aligned = 4 + (12 + length + 3) // 4 * 4
-    return _decode(data, seconds, nanoseconds, 16, max(length - 1, 0), aligned, order)
+    try:
+        order = "<" if data[1] & 1 else ">"
+        seconds, nanoseconds, length = CDR_HEADER[order].unpack_from(data, 4)
+        aligned = 4 + (12 + length + 3) // 4 * 4
+        return _decode(data, seconds, nanoseconds, 16, max(length - 1, 0), aligned, order)
+    except (struct.error, IndexError):
+        raise ValueError(_too_short(data)) from None
+
+
+def _too_short(data: bytes) -> str:
+    return f"its {len(data)} bytes end in the middle of a LaserScan"
 
 
 def _decode(data: bytes, seconds: int, nanoseconds: int, at: int, length: int, numbers: int, order: str) -> LaserScan:

@@ -221,7 +221,7 @@ def test_an_impossible_message_ends_the_connection_and_not_the_program(peer: Ros
     with watching(peer.url, tmp_path) as server, page_of(server) as page:
         page.say(type="hello")
         note = page.heard("loading", lambda m: "trying again" in m["note"])["note"]
-        assert "sent a message that cannot be understood" in note
+        assert "the robot has no topic /scan; its laser topics: none" in note
 
 
 def test_a_publication_that_fails_says_why(server: Address, page: Page):

@@ -1,0 +1,146 @@
+"""Servers that lie: a node says in a sentence what they sent, goes on, and ends when it is told to."""
+
+from __future__ import annotations
+
+import json
+import struct
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import pytest
+from lineseg_app.live.address import Address
+from lineseg_app.live.bridge import LARGEST_MESSAGE
+from lineseg_app.live.node import OWNER, Node
+from lineseg_app.live.running import Running
+from lineseg_app.live.source import Publishing
+from obeying import running, said
+from robots import wall
+from rosbridge_peer import scan_message
+from websockets.exceptions import ConnectionClosed
+from websockets.sync.server import ServerConnection, serve
+from websockets.typing import Subprotocol
+
+from lineseg import Params
+
+SCAN = "sensor_msgs/msg/LaserScan"
+RUNNING = Running("region-growing", Params())
+CDR = bytes([0, 1, 0, 0])
+HEADER = CDR + struct.pack("<iII", 1, 2, 6) + b"laser\0\0\0"
+CHANNEL = {"id": 1, "topic": "/scan", "encoding": "cdr", "schemaName": SCAN, "schema": ""}
+
+
+@contextmanager
+def lying(talk: Callable[[ServerConnection], Any], foxglove: bool) -> Iterator[tuple[Address, threading.Event]]:
+    """A server that says what `talk` says to each connection, and keeps it open until the event."""
+    over = threading.Event()
+
+    def serve_one(socket: ServerConnection) -> None:
+        try:
+            talk(socket)
+            over.wait(60)
+        except ConnectionClosed:
+            pass
+
+    protocols = [Subprotocol("foxglove.sdk.v1")] if foxglove else None
+    with serve(serve_one, "127.0.0.1", 0, subprotocols=protocols, max_size=None) as server:
+        threading.Thread(target=server.serve_forever).start()
+        yield Address(f"ws://127.0.0.1:{server.socket.getsockname()[1]}", "/scan"), over
+        over.set()
+        server.shutdown()
+
+
+def heard(socket: ServerConnection, op: str) -> dict[str, Any]:
+    while True:
+        message = json.loads(socket.recv(timeout=60))
+        if message["op"] == op:
+            return message
+
+
+def says(**message: Any) -> Callable[[ServerConnection], None]:
+    return lambda socket: socket.send(json.dumps(message))
+
+
+def lists(topics: Any, types: Any) -> Callable[[ServerConnection], None]:
+    """Answers rosapi with these values."""
+
+    def talk(socket: ServerConnection) -> None:
+        answer = {"op": "service_response", "result": True, "values": {"topics": topics, "types": types}}
+        socket.send(json.dumps(answer | {"id": heard(socket, "call_service")["id"]}))
+
+    return talk
+
+
+def scans(*messages: bytes) -> Callable[[ServerConnection], None]:
+    """Foxglove messages of a channel of laser scans."""
+
+    def talk(socket: ServerConnection) -> None:
+        socket.send(json.dumps({"op": "advertise", "channels": [CHANNEL]}))
+        heard(socket, "subscribe")
+        for message in messages:
+            socket.send(struct.pack("<BIQ", 1, 1, 0) + message)
+
+    return talk
+
+
+@pytest.mark.parametrize(
+    ("talk", "sentence"),
+    [
+        (lists(3, [1]), "the robot has no topic /scan; its laser topics: none"),
+        (lists([[1], {}, "/scan"], [SCAN, {}, 3]), "/scan is of no type; choose a sensor_msgs/LaserScan topic"),
+        (lambda socket: socket.send("x" * (LARGEST_MESSAGE + 1)), "sent a message of more than 4 MB"),
+        (lambda socket: socket.send(b"\xff" * 9, text=True), "sent a message that is not one of WebSocket"),
+    ],
+)
+def test_what_a_rosbridge_sends_is_told_in_a_sentence(talk: Any, sentence: str, caplog: pytest.LogCaptureFixture):
+    with lying(talk, foxglove=False) as (address, _), running(address, "/scan") as told:
+        said(told, sentence)
+    assert not caplog.records
+
+
+@pytest.mark.parametrize(
+    ("talk", "sentence"),
+    [
+        (lambda socket: socket.send("nonsense"), "sends messages that are not those of Foxglove"),
+        (lambda socket: socket.send("[" * 100_000), "sends messages that are not those of Foxglove"),
+        (says(op="advertise", channels=3), "has no topic /scan yet; it has no topic at all"),
+        (says(op="advertise", channels=[3, {}, CHANNEL | {"id": [1]}, CHANNEL | {"topic": 1}]), "it has no topic"),
+        (says(op="unadvertise", channelIds=[{}, 3]), "it has no topic at all"),
+        (scans(b""), "/scan is not a scan: its 0 bytes end in the middle of a LaserScan"),
+        (scans(HEADER[:9]), "its 9 bytes end in the middle of a LaserScan"),
+        (scans(HEADER + struct.pack("<7fI", 0, 1, 0.1, 0, 0, 0, 9, 10**9)), "announces 1000000000 ranges"),
+    ],
+)
+def test_what_a_foxglove_server_sends_is_told_in_a_sentence(talk: Any, sentence: str, caplog: pytest.LogCaptureFixture):
+    with lying(talk, foxglove=True) as (address, _), running(address, "/scan") as told:
+        said(told, sentence)
+    assert not caplog.records
+
+
+@pytest.mark.parametrize("offered", [{"capabilities": 3, "supportedEncodings": 7}, {"supportedEncodings": [{}, 3]}])
+def test_a_foxglove_server_that_describes_itself_wrongly_accepts_no_messages(offered: dict[str, Any]):
+    def talk(socket: ServerConnection) -> None:
+        socket.send(json.dumps({"op": "serverInfo", "capabilities": ["clientPublish"]} | offered))
+        scans(HEADER + struct.pack("<7f4I", -1, 1, 0.5, 0, 0, 0, 9, 2, 0, 0, 0))(socket)
+
+    refused = pytest.raises(ValueError, match=r"the robot accepts (no messages|messages as)")
+    with lying(talk, foxglove=True) as (address, _), refused:
+        Node(address, Publishing(OWNER, "/walls", "region-growing", Params()), RUNNING, [].append).run()
+
+
+def test_a_node_in_a_flood_of_scans_ends_at_once():
+    flood = json.dumps({"op": "publish", "topic": "/scan", "msg": scan_message(wall(2.0))})
+
+    def talk(socket: ServerConnection) -> None:
+        lists(["/scan"], [SCAN])(socket)
+        heard(socket, "subscribe")
+        while True:
+            socket.send(flood)
+
+    with lying(talk, foxglove=False) as (address, _):
+        with running(address, "/scan") as told:
+            said(told, " left out")
+            began = time.monotonic()
+        assert time.monotonic() - began < 5
