@@ -270,7 +270,7 @@ class View:
                 raise ValueError(f"a view has no {name!r}; it has {', '.join(sorted(declared))}")
         view, usual = self, _usual(type(self))
         changed, chosen = set[str](), set[str]()
-        for name, entry in declared.items():
+        for name, entry in _concerned(type(self), frozenset(patch)):
             value = was = getattr(view, name)
             if changed and not changed.isdisjoint(entry.reset_by):
                 value = entry.fresh(view) if entry.fresh else getattr(usual, name)
@@ -338,6 +338,17 @@ def _place(recording: str, topic: str | None, reading: Reading) -> str:
 def _usual(view: type[T]) -> T:
     """A View with its defaults."""
     return view()
+
+
+@lru_cache(maxsize=256)
+def _concerned(view: type[View], patched: frozenset[str]) -> tuple[tuple[str, ViewField], ...]:
+    """The fields that a patch of these may change, in order: a slider's is one of more than twenty."""
+    declared = view_fields(view)
+    reached = set(patched)
+    for name, entry in declared.items():
+        if not reached.isdisjoint((*entry.reset_by, *entry.off_by)):
+            reached.add(name)
+    return tuple((name, entry) for name, entry in declared.items() if name in reached)
 
 
 def _parts(said: Mapping[str, Any], order: list[str]) -> Iterator[dict[str, Any]]:

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 
 import numpy as np
 from numpy.typing import NDArray
 
 from lineseg import Decision, FrameLabels, Recording, Segment, Thresholds, TrueLine, difference
-from lineseg.colours import segment_colours
 from lineseg.poses import said_of
 from lineseg.readers import Account
 from lineseg.scan import PackAbout
@@ -89,7 +88,7 @@ def state_of(
         "extent": extent_of(scan, bounds),
         "bounds": bounds,
         "square": square_of(bounds),
-        "segments": segments_told(found.extraction.segments),
+        "segments": segments_told(found),
         "dropped": _dropped_once(found),
         "decision": _decision(chosen, type(view.params)) if chosen is not None else None,
         "framing": _framed(found, view, view.step, looked),
@@ -135,11 +134,10 @@ def _pack(about: PackAbout) -> told.Pack:
     }
 
 
-def segments_told(segments: Sequence[Segment]) -> list[told.Segment]:
+def segments_told(found: Findings) -> list[told.Segment]:
     """The segments, with their colours."""
-    colours = segment_colours(segments).tolist()
-    codes = ["#{:02x}{:02x}{:02x}".format(*colour) for colour in colours]
-    return [_segment(segment, code) for segment, code in zip(segments, codes, strict=True)]
+    codes = ["#{:02x}{:02x}{:02x}".format(*colour) for colour in found.colours.tolist()]
+    return [_segment(segment, code) for segment, code in zip(found.extraction.segments, codes, strict=True)]
 
 
 def _segment(segment: Segment, colour: str) -> told.Segment:

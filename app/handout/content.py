@@ -93,7 +93,7 @@ class Content:
 
     def _result(self, view: View, found: Findings) -> int:
         numbers = []
-        for segment in segments_told(found.extraction.segments):
+        for segment in segments_told(found):
             told = rounded(segment)
             number = self._of_segment.setdefault(str(told), len(self.segments))
             if number == len(self.segments):

@@ -29,15 +29,24 @@ class Lines:
 def points_at(xy: ArrayLike, colours: Colours | Colour) -> Points:
     """Points at (n, 2), in one colour or one colour each; points that are not finite are left out."""
     flat = np.asarray(xy, dtype=float).reshape(-1, 2)
-    finite = np.isfinite(flat).all(axis=1)
-    return Points(_raised(flat[finite]), _each(colours, len(flat))[finite])
+    each, finite = _each(colours, len(flat)), np.isfinite(flat)
+    if finite.all():
+        return Points(_raised(flat), each)
+    kept = finite.all(axis=1)
+    return Points(_raised(flat[kept]), each[kept])
 
 
 def lines_between(starts: ArrayLike, ends: ArrayLike, colours: Colours | Colour) -> Lines:
     """Lines from (n, 2) to (n, 2); lines that are not finite are left out."""
-    both = np.stack((np.asarray(starts, float).reshape(-1, 2), np.asarray(ends, float).reshape(-1, 2)), axis=1)
-    finite = np.isfinite(both).all(axis=(1, 2))
-    return Lines(_raised(both[finite]), _each(colours, len(both))[finite])
+    starts = np.asarray(starts, float).reshape(-1, 2)
+    both = np.empty((len(starts), 2, 2))
+    both[:, 0], both[:, 1] = starts, np.asarray(ends, float).reshape(-1, 2)
+    each = _each(colours, len(both))
+    finite = np.isfinite(both)
+    if finite.all():
+        return Lines(_raised(both), each)
+    kept = finite.all(axis=(1, 2))
+    return Lines(_raised(both[kept]), each[kept])
 
 
 def joined(*parts: Lines) -> Lines:

@@ -49,7 +49,9 @@ class ViserScene:
         self._metres_per_pixel = 0.02
         self._dark: bool | None = None
         self._bounds: Bounds | None = None
+        # The last shapes of each node, and the names of those that are to be seen.
         self._shown = Picture({}, {}, (0.0, 0.0, 0.0, 0.0))
+        self._visible = set[str]()
         nodes = self._server.scene
         # What the laser sees hangs on it.
         self._laser = nodes.add_frame(LASER, show_axes=False)
@@ -91,10 +93,16 @@ class ViserScene:
             self._set_theme(dark)
             self._set_bounds(picture.bounds)
             self._set_place(picture.place)
-            for name, cloud in self._clouds.items():
-                _show_points(cloud, picture.points.get(name), self._shown.points.get(name))
-            for name, lines in self._lines.items():
-                _show_lines(lines, picture.lines.get(name), self._shown.lines.get(name))
+            nodes = set(picture.nodes)
+            for name, points in picture.points.items():
+                if name in nodes:
+                    _show_points(self._clouds[name], points, self._shown.points.get(name))
+            for name, lines in picture.lines.items():
+                if name in nodes:
+                    _show_lines(self._lines[name], lines, self._shown.lines.get(name))
+            for name in nodes ^ self._visible:
+                (self._clouds.get(name) or self._lines[name]).visible = name in nodes
+            self._visible = nodes
             self._shown = Picture(
                 self._shown.points | picture.points, self._shown.lines | picture.lines, picture.bounds
             )
@@ -240,28 +248,26 @@ def _path(name: str) -> str:
     return ("/" if name in IN_THE_WORLD else f"{LASER}/") + name.replace(" ", "_")
 
 
-def _show_points(handle: viser.PointCloudHandle, points: Points | None, last: Points | None) -> None:
+def _show_points(handle: viser.PointCloudHandle, points: Points, last: Points | None) -> None:
     """last: what the handle has."""
-    if points is not None and len(points.xyz) and points is not last:
+    if points is not last:
         arrays = {}
         if last is None or not _same(points.xyz, last.xyz):
             arrays["points"] = points.xyz
         if last is None or not _same(points.colours, last.colours):
             arrays["colors"] = points.colours
         _assign(handle, arrays)
-    _set_visible(handle, points is not None and len(points.xyz) > 0)
 
 
-def _show_lines(handle: viser.LineSegmentsHandle, lines: Lines | None, last: Lines | None) -> None:
+def _show_lines(handle: viser.LineSegmentsHandle, lines: Lines, last: Lines | None) -> None:
     """last: what the handle has."""
-    if lines is not None and len(lines.xyz) and lines is not last:
+    if lines is not last:
         arrays = {}
         if last is None or not _same(lines.xyz, last.xyz):
             arrays["points"] = lines.xyz
         if last is None or not _same(lines.colours, last.colours):
             arrays["colors"] = np.repeat(linear(lines.colours)[:, None, :], 2, axis=1)
         _assign(handle, arrays)
-    _set_visible(handle, lines is not None and len(lines.xyz) > 0)
 
 
 def _same(one: NDArray, other: NDArray) -> bool:
@@ -276,8 +282,3 @@ def _assign(handle: viser.SceneNodeHandle, arrays: dict[str, NDArray]) -> None:
     if arrays:
         vars(handle._impl.props).update(arrays)
         handle._impl.api._queue_scene_message(SceneNodeUpdateMessage(handle.name, arrays))
-
-
-def _set_visible(handle: viser.SceneNodeHandle, visible: bool) -> None:
-    if handle.visible != visible:
-        handle.visible = visible

@@ -91,16 +91,17 @@ class GrowthTrace(Trace):
     @cached_property
     def phases(self) -> NDArray[np.int64]:
         """The index in PHASES of each decision; a line dropped after the last growth counts as overlap."""
-        of_kind = np.array([PHASES.index(kind.phase) for kind in VOCABULARY.kinds])
-        phases = of_kind[self.kinds]
+        phases = VOCABULARY.phase_of_kind[self.kinds]
         phases[self._growth_ended_at :] = np.maximum(phases[self._growth_ended_at :], PHASES.index("overlap"))
         return phases
 
-    def _stretches(self, level: str) -> NDArray[np.int64]:
+    def _stretches(self, level: str) -> tuple[NDArray[np.integer], ...]:
         """A "line" covers the search for the next seed and the growth from it; a growing "phase" covers one line."""
         phases = self.phases
-        key = phases if level == "phase" else np.where(phases <= 1, self.log["candidate"], -phases)
-        return np.column_stack((key, self.log["candidate"] * (phases <= 1)))
+        growing = phases <= 1
+        candidates = self.log["candidate"]
+        key = phases if level == "phase" else np.where(growing, candidates, -phases)
+        return key, candidates * growing
 
     @cached_property
     def _growth_ended_at(self) -> int:

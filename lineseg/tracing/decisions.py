@@ -180,20 +180,19 @@ class Trace:
     @cached_property
     def phases(self) -> NDArray[np.int64]:
         """The index of each decision's phase in the vocabulary."""
-        of_kind = [self.vocabulary.phases.index(kind.phase) for kind in self.vocabulary.kinds]
-        return np.array(of_kind, dtype=np.int64)[self.kinds]
+        return self.vocabulary.phase_of_kind[self.kinds]
 
     def indices(self, kind: str) -> NDArray[np.intp]:
         """Indices of the decisions of a kind."""
         names = self.vocabulary.names
         if kind not in names:
             raise ValueError(f"there is no decision {kind!r}; choose from {', '.join(names)}")
-        return np.flatnonzero(self.kinds == names.index(kind))
+        return (self.kinds == names.index(kind)).nonzero()[0]
 
     def jump(self, name: str) -> NDArray[np.intp]:
         """Indices of the decisions that a jump leads to, see `Kind`; none if the method has no such decisions."""
-        wanted = np.array([kind.jump == name for kind in self.vocabulary.kinds])
-        return np.flatnonzero(wanted[self.kinds])
+        wanted = self.vocabulary.leads_to.get(name)
+        return np.empty(0, np.intp) if wanted is None else wanted[self.kinds].nonzero()[0]
 
     def starts(self, level: str) -> NDArray[np.intp]:
         """Indices where a "decision", a "phase" or a "line" (decisions about one candidate) starts."""
@@ -201,13 +200,15 @@ class Trace:
             raise ValueError(f"there is no level {level!r}; choose from decision, phase, line")
         if level == "decision" or not len(self):
             return np.arange(len(self))
-        keys = self._stretches(level)
-        return np.flatnonzero(np.any(np.diff(keys, axis=0, prepend=keys[:1] - 1), axis=1))
+        begins = np.zeros(len(self), np.bool_)
+        begins[0] = True
+        for key in self._stretches(level):
+            begins[1:] |= key[1:] != key[:-1]
+        return begins.nonzero()[0]
 
-    def _stretches(self, level: str) -> NDArray[np.int64]:
-        """(decisions, any): equal for neighbouring decisions of one stretch."""
-        candidates = self.log["candidate"] if level == "line" else np.zeros(len(self), np.int64)
-        return np.column_stack((self.phases, candidates))
+    def _stretches(self, level: str) -> tuple[NDArray[np.integer], ...]:
+        """Columns that are all equal for neighbouring decisions of one stretch."""
+        return (self.phases, self.log["candidate"]) if level == "line" else (self.phases,)
 
     def lines_at(self, step: int) -> tuple[TracedLine, ...]:
         """The lines after decision `step`; none for −1, before the first decision."""

@@ -7,6 +7,9 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Literal, NamedTuple
 
+import numpy as np
+from numpy.typing import NDArray
+
 from .log import Row
 
 Effect = Literal["none", "shown", "stands", "gone", "joined", "parted", "placed"]
@@ -63,6 +66,16 @@ class Vocabulary:
     def jumps(self) -> tuple[str, ...]:
         """The jumps for which this method has decisions."""
         return tuple(dict.fromkeys(kind.jump for kind in self.kinds if kind.jump))
+
+    @cached_property
+    def leads_to(self) -> dict[str, NDArray[np.bool_]]:
+        """For each jump, (kinds,) which decisions it leads to."""
+        return {jump: np.array([kind.jump == jump for kind in self.kinds]) for jump in self.jumps}
+
+    @cached_property
+    def phase_of_kind(self) -> NDArray[np.int64]:
+        """(kinds,) the index of each kind's phase."""
+        return np.array([self.phases.index(kind.phase) for kind in self.kinds], np.int64)
 
     def jump_of(self, kind: str) -> str:
         return self.kinds[self.names.index(kind)].jump
