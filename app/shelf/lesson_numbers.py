@@ -131,11 +131,12 @@ def trace_by(scan: Scan, method: str, params: Params) -> Trace:
 
 def found(traced: Trace, find: Find) -> list[Decision]:
     """All decisions that have the properties."""
+    # Only those of the kind are written out.
+    of_kind = traced.at(traced.indices(find.kind)) if find.kind in traced.vocabulary.names else []
     return [
         decision
-        for decision in traced
-        if decision.kind == find.kind
-        and find.check in (None, decision.check)
+        for decision in of_kind
+        if find.check in (None, decision.check)
         and find.direction in (None, decision.direction)
         and find.beam in (None, decision.beam)
     ]
