@@ -17,7 +17,7 @@ quick test: export PYTHONDONTWRITEBYTECODE =
 
 # What needs neither a server nor a browser, with fewer made examples.
 quick: .venv/installed-dev
-	$(PYTEST) 2 -m "not server" --hypothesis-profile quick
+	$(PYTEST) 2 -m "not server" --ignore=tests/browser --hypothesis-profile quick
 
 # One more than the two cores, since a browser, its server and its test wait for each other a third of the time.
 test: .venv/installed-dev
