@@ -9,18 +9,19 @@ import numpy as np
 from lineseg import Params, Scan, Trace
 from lineseg.tracing.decisions import Decision
 
-from ..frame.geometry import Bounds
 from ..view import View
 from .lesson import USUAL, Find
 from .lesson_numbers import METHOD, found
 
 # Scans of which a lesson can only know the name; those of others it contains.
 LASTING = ("lesson:", "sample:", "drawn:")
+# x₁, y₁, x₂, y₂ [m]
+Box = tuple[float, float, float, float]
 # How far beams may be from even spacing [rad].
 UNEVEN = 1e-5
 
 
-def drafted(view: View, scan: Scan, trace: Trace, box: Bounds | None) -> dict[str, Any]:
+def drafted(view: View, scan: Scan, trace: Trace, box: Box | None) -> dict[str, Any]:
     """The fields of a lesson of one step, without its texts and its task. box: of the plan on the stage [m].
 
     Raises ValueError for what a lesson cannot show.
@@ -60,7 +61,7 @@ def find_of(trace: Trace, decision: Decision) -> dict[str, Any]:
     return find | ({"nth": nth} if nth else {})
 
 
-def near_in(scan: Scan, box: Bounds) -> list[int]:
+def near_in(scan: Scan, box: Box) -> list[int]:
     """The outermost beams whose points are in a box; none if all of them are."""
     left, low, right, high = box
     x, y = np.nan_to_num(scan.xy, nan=np.inf).T

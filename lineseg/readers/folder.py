@@ -6,6 +6,7 @@ import re
 from itertools import islice
 from pathlib import Path
 
+from .source import known_suffixes
 from .wrapping import BAG_PARTS, MOST_NAMED
 
 METADATA = "metadata.yaml"
@@ -57,8 +58,9 @@ def recording_in(folder: Path) -> Path:
     if storage_files(folder):
         return folder
     bag_of_metadata(folder / METADATA)
+    suffixes = known_suffixes()
     bags = [path for path in _entries(folder) if path.is_dir() and storage_files(path)]
-    files = [path for path in _entries(folder) if path.is_file() and path.suffix.lower() in _suffixes()]
+    files = [path for path in _entries(folder) if path.is_file() and path.suffix.lower() in suffixes]
     found = bags or files
     if len(found) == 1:
         return found[0]
@@ -73,12 +75,6 @@ def recording_in(folder: Path) -> Path:
 
 def _entries(folder: Path) -> list[Path]:
     return sorted(path for path in islice(folder.iterdir(), MOST_ENTRIES) if not path.name.startswith("."))
-
-
-def _suffixes() -> set[str]:
-    from . import READERS
-
-    return {suffix for reader in READERS for suffix in reader.suffixes}
 
 
 def _listed(paths: list[Path]) -> str:

@@ -107,6 +107,11 @@ class Reader:
         raise NotImplementedError
 
 
+def known_suffixes() -> tuple[str, ...]:
+    """The suffixes of all readers, by which a recording is found in a folder or an archive."""
+    return tuple(suffix for reader in Reader.__subclasses__() for suffix in reader.suffixes)
+
+
 class Sweeps:
     """Collects scans one by one and joins them into a Recording."""
 

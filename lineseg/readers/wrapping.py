@@ -16,6 +16,7 @@ from ..unfinished import temporary_folder
 from .account import Notes
 from .bounded import expand, limit_of, zstd_file
 from .cut_zip import unpack_cut
+from .source import known_suffixes
 
 GZIP_MAGIC, ZSTD_MAGIC, ZIP_MAGIC = b"\x1f\x8b", b"\x28\xb5\x2f\xfd", b"PK\x03\x04"
 TAR_MAGIC, TAR_AT = b"ustar", 257
@@ -198,9 +199,7 @@ def _chosen(entries: list[str], name: str) -> list[str]:
     if bags and len(folders) == 1:
         about = [entry for entry in entries if PurePosixPath(entry).name == "metadata.yaml"]
         return bags + [entry for entry in about if str(PurePosixPath(entry).parent) in folders]
-    from . import READERS
-
-    suffixes = (*(suffix for reader in READERS for suffix in reader.suffixes), ".gz", ".zst")
+    suffixes = (*known_suffixes(), ".gz", ".zst")
     known = [entry for entry in entries if entry.lower().endswith(suffixes)]
     found = known if known else entries
     if len(found) == 1:

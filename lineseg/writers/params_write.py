@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator
 from ..extractors import method_of
 from ..knobs import Knob, Thresholds
 from ..params import Params
+from ..version import __version__
 
 EXTENSION = "extension of lineseg; not in the authors' program"
 
@@ -29,8 +30,6 @@ def ros1_launch(params: Thresholds) -> str:
 
 def ros2_yaml(params: Thresholds, recording: str = "") -> str:
     """A parameter file for `lineseg node`, which any node can load; its comment says what it is for."""
-    from .. import __version__
-
     method = method_of(params)
     chosen = "" if type(params) is Params else f"--method {method.name} "
     made_for = f", set for {' '.join(recording.split())}" if recording.split() else ""
