@@ -38,7 +38,10 @@ WORDS = {
     rb"\bTrue\b": b"1",
     rb"\bFalse\b": b"0",
 }
-MISSING = (b"", b"-", b"--", b"null", b"none", b"na", b"n/a", b"#n/a", b".nan", b".inf", b"-.inf")
+MISSING = (
+    b"", b"-", b"--", b"null", b"none", b"na", b"n/a", b"#n/a", b"#value!", b"#num!", b"#div/0!", b"#ref!", b".nan",
+    b".inf", b"-.inf",
+)  # fmt: skip
 TIME = re.compile(
     rb"(?:(\d{4})[-/.](\d\d?)[-/.](\d\d?)[T /_-])?(\d\d?):(\d\d):(\d\d(?:[.,]\d+)?)\s*(?:Z|UTC|([-+]\d\d):?(\d\d))?"
 )
@@ -48,6 +51,7 @@ GERMAN = re.compile(rb"[-+]?[1-9]\d{0,2}(?:\.\d{3})+(?:,\d*)?")
 SPACED = re.compile("[-+]?[1-9]\\d{0,2}(?:['’\u00a0\u202f ]\\d{3})+(?:[.,]\\d*)?".encode())
 HUNDREDS = re.compile(rb"[-+]?[1-9]\d\d")
 MANY_CELLS = 10
+EASTERN = re.compile("角度|方位|距離|距离")
 FIRST_WORD = re.compile(rb'["\s]*([^\s,;|"]*)')
 THOUSANDS = re.compile(rb"[^\d.,+-]+")
 LONGEST_ROW = 1 << 24
@@ -166,11 +170,13 @@ def seconds_of(cell: bytes) -> float | None:
 
 
 def text_of(cell: bytes) -> str:
-    """A cell as text: UTF-8, or else what Windows writes in Europe."""
+    """A cell as text: UTF-8, or else what Windows writes in Japan or China, if that has an angle or a distance, or in
+    Europe."""
     try:
         return cell.decode("utf-8")
     except UnicodeDecodeError:
-        return cell.decode("cp1252", "replace")
+        texts = [cell.decode(encoding, "replace") for encoding in ("shift_jis", "gb18030")]
+        return next(filter(EASTERN.search, texts), cell.decode("cp1252", "replace"))
 
 
 def dialect_of(lines: list[bytes]) -> Dialect:

@@ -9,10 +9,10 @@ DRIVER = "record the scans that its driver publishes, or save them as text with 
 RECORD = "record the scans of the laser"
 # How each begins, what it is, and what to do.
 FOREIGN = (
-    (rb"MATLAB 5\.0 MAT-file", "a MATLAB file", f"load it with scipy.io.loadmat and save it with {ARRAYS}"),
+    (rb"MATLAB [57]\.\d MAT-file", "a MATLAB file", f"load it with scipy.io.loadmat and save it with {ARRAYS}"),
     (rb"\x89HDF", "an HDF5 file, as MATLAB 7.3 also writes", f"load it with h5py and save it with {ARRAYS}"),
     (rb"PAR1", "a Parquet table", "save it as CSV, with pandas.read_parquet(…).to_csv('scans.csv')"),
-    (rb"ARROW1|\xff\xff\xff\xff\x10", "an Arrow table", "save it as CSV"),
+    (rb"ARROW1|FEA1|\xff\xff\xff\xff\x10", "an Arrow table", "save it as CSV"),
     (rb"\x80[\x02-\x05]", "a Python pickle, which could run programs", f"load it yourself and save it with {ARRAYS}"),
     (rb"\xd0\xcf\x11\xe0|PK\x03\x04[\s\S]{26,40}(?:\[Content_Types\]|mimetype)", "a workbook or document",
      "save its table as CSV"),
@@ -22,6 +22,10 @@ FOREIGN = (
     (rb"RRF\d", "a rerun recording", "open it in rerun; scans cannot be read from it"),
     (rb"\x89PNG|\xff\xd8\xff|GIF8|BM....\0\0\0\0|II\*\0|MM\0\*|P[1-6]\s+(?:#|\d+\s+\d)", "a picture",
      "open the recording behind it"),
+    (rb"RIFF....(?:AVI |WAVE)|....ftyp|\x1a\x45\xdf\xa3|OggS|ID3", "a video or sound",
+     "open the recording of the laser"),
+    (rb"solid [^\n]{0,99}\n\s*facet normal|(?:#[^\n]*\n)*(?:mtllib|o|g) [^\n]+\n(?:v |g |o |usemtl )|glTF",
+     "a 3D model", "open the scans that it was made of"),
     (rb"%PDF", "a PDF document", "open the recording behind it"),
     (rb"\s{0,99}<(?:!DOCTYPE html|html|table)", "a web page, not the file behind it", "download the file itself"),
     (rb"version https://git-lfs", "a pointer of Git LFS, not the file itself", "fetch it with `git lfs pull`"),

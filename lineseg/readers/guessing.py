@@ -93,10 +93,15 @@ def angle_unit_of(angles: Floats) -> AngleUnit:
     if greatest <= MOST_RADIANS:
         return "rad"
     if greatest <= MOST_DEGREES:
-        return "deg"
+        return "gon" if abs(_turn(angles) - 400.0) < 0.5 else "deg"
     # A turn of these units, or else hundredths.
     turn = {"mrad": 2000 * np.pi, "1/64deg": 360 * 64}
     return next((unit for unit, most in turn.items() if 0.98 * most < greatest <= most), "0.01deg")  # type: ignore[return-value]
+
+
+def _turn(angles: Floats) -> float:
+    """The span of angles with the step after the last of them, which is a turn if they go all around."""
+    return float(np.nanmax(angles) - np.nanmin(angles)) + middle_of(np.sort(np.abs(np.diff(angles))))
 
 
 def guess_angle_unit(angles: Floats, reading: Reading, notes: Notes) -> AngleUnit:
@@ -105,7 +110,7 @@ def guess_angle_unit(angles: Floats, reading: Reading, notes: Notes) -> AngleUni
     if unit is None:
         unit = notes.found["angle_unit"] = angle_unit_of(angles)
         why = f"no unit is stated, and the angles go from {np.nanmin(angles):.4g} to {np.nanmax(angles):.4g}"
-        other = {"deg": "rad", "0.01deg": "1/64deg", "1/64deg": "0.01deg"}.get(unit, "deg")
+        other = {"deg": "rad", "gon": "deg", "0.01deg": "1/64deg", "1/64deg": "0.01deg"}.get(unit, "deg")
         notes.guess("angle_unit", ANGLE_UNIT_NAMES[unit], why, angle_unit=other)
     return unit
 

@@ -10,10 +10,12 @@ from .reading import AngleUnit, Unit
 
 ANGLES = (
     "angle", "angles", "ang", "theta", "thetas", "bearing", "bearings", "azimuth", "azimuths", "phi", "winkel", "alpha",
+    "ángulo", "angulo", "angolo", "角度", "角", "方位", "方位角", "각도", "угол",
 )  # fmt: skip
 DISTANCES = (
     "distance", "distances", "dist", "dists", "range", "ranges", "rho", "r", "d", "radius", "depth", "depths",
     "distanz", "abstand", "entfernung", "länge", "laenge", "length",
+    "distancia", "distanza", "距離", "距离", "거리", "расстояние",
 )  # fmt: skip
 STAMPS = ("stamp", "timestamp", "time", "t", "secs", "sec", "seconds", "zeit", "rosbagtimestamp", "datetime")
 BEAMS = ("beam", "beam_id", "beam_index", "beam_number", "beam_no", "ray", "point_id", "index", "idx", "i", "step",
@@ -42,6 +44,7 @@ LENGTHS: dict[str, Unit] = {
 TURNS: dict[str, AngleUnit] = {
     "rad": "rad", "rads": "rad", "radian": "rad", "radians": "rad",
     "deg": "deg", "degs": "deg", "degree": "deg", "degrees": "deg", "°": "deg", "grad": "deg",
+    "度": "deg", "degrés": "deg", "degres": "deg", "grados": "deg", "gradi": "deg",
     "gon": "gon", "gons": "gon", "gradian": "gon", "gradians": "gon", "mrad": "mrad", "mrads": "mrad",
     "milliradian": "mrad", "milliradians": "mrad",
 }  # fmt: skip

@@ -25,6 +25,9 @@ from .source import Reader, Source
 MOST_BYTES = 8 << 30
 SHAPES = "ranges (frames, beams) or (beams,), angle_min and angle_increment scalars or (frames,)"
 
+# Fields of view [rad] that a laser has, and that none has.
+NARROW_VIEW, LEAST_VIEW, MOST_VIEW = np.deg2rad((10.0, 60.0, 365.0))
+
 
 class Npz(Reader):
     """ranges (F, N) or (N,) [m], angle_min, angle_increment [rad] scalars or (F,); optional range_min, range_max [m],
@@ -63,11 +66,24 @@ class Npz(Reader):
 def recording_of_exchange(source: Source, arrays: dict[str, NDArray], format: str) -> Recording:
     """The scans of arrays with the names of the exchange format. Raises ValueError if they do not fit together."""
     try:
-        recording = _recording(source, arrays)
+        recording = _recording(source, _upright(source, arrays))
     except (TypeError, ValueError) as error:
         raise ValueError(f"{source.name}: {error}") from None
     source.choose(list(recording.topics), "array")
     return replace(recording, format=format)
+
+
+def _upright(source: Source, arrays: dict[str, NDArray]) -> dict[str, NDArray]:
+    """The arrays with a scan in each row; turned if only columns fit their angles."""
+    ranges, step = arrays.get("ranges"), arrays.get("angle_increment")
+    if ranges is None or step is None or ranges.ndim != 2 or step.size != 1 or "wall" in arrays:
+        return arrays
+    rows, columns = (abs(float(step.ravel()[0])) * (beams - 1) for beams in ranges.shape)
+    if not (LEAST_VIEW <= rows <= MOST_VIEW and not NARROW_VIEW <= columns <= MOST_VIEW):
+        return arrays
+    source.notes.notice("columns", f"Each of {ranges.shape[1]} columns was read as a scan; a row has too few or too "
+                        "many beams for its angles.")  # fmt: skip
+    return {**arrays, "ranges": ranges.T}
 
 
 def save_npz(recording: Recording, target: str | Path | BinaryIO) -> None:

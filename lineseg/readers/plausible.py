@@ -14,6 +14,8 @@ from .reading import Reading
 
 MOST_RANGE, LEAST_MEDIAN = 500.0, 0.05
 RECURS = 0.1
+# A laser has no such narrow view of so many beams.
+MANY_BEAMS, NARROW = 30, 12.0
 CODES_BELOW = 0.02
 YEAR = 365.25 * 86400
 WRAPS = tuple(2.0**32 * scale for scale in (1.0, 1e-3, 1e-6, 1e-9))
@@ -62,6 +64,11 @@ def _about_angles(recording: Recording, reading: Reading) -> Iterator[Notice]:
         if "angle_increment" in change:
             question = "Is only angle_increment in degrees?"
         yield Notice("field of view", f"A field of view of {view:.0f}° is more than a turn. {question}", change)
+
+    beams = middle_of(np.sort(lengths))
+    if beams >= MANY_BEAMS and view < NARROW:
+        text = f"{beams:.0f} beams within {view:.2g}° are more than a laser has. Are these an angle and a distance?"
+        yield Notice("narrow", text)
 
 
 def _in_degrees(recording: Recording, reading: Reading, view: float) -> dict[str, Any]:

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..scan import Floats, Recording, Topic
-from .dialect import Dialect, Row
+from .dialect import Dialect, Row, text_of
 from .guessing import angle_unit_of
 from .reading import RADIANS, Reading
 from .scan_columns import alike, tell_columns
@@ -37,6 +37,8 @@ MOST_LEADING = 8
 # Rows may vary by this share; those that differ more are broken.
 VARIES = 0.1
 LEAST_BEAMS = 10
+# So many times farther are ranges from the quantities between them than from the next range.
+LEAST_PAIRS, FAR_APART = 30, 8.0
 
 
 @dataclass(frozen=True)
@@ -66,6 +68,9 @@ def scans_of(
     if leading is None and (columns := _in_columns(reading, values)) is not None:
         tell_columns(source.notes, len(columns))
         numbers, values, double = numbers[:1] * len(columns), list(columns), 0
+    if leading is None and reading.skip_columns is None and (pairs := _pairs(values)):
+        source.notes.notice("pairs", f"Of each row, every second number was left out, as {pairs} intensities would be.")
+        values = [row[::2] for row in values]
     geometry = None
     if len(values) > 1:
         geometry = _angle_row(source, reading, values) or _settings_row(values)
@@ -104,22 +109,41 @@ def _in_columns(reading: Reading, values: list[Floats]) -> Floats | None:
     return table.T if alike(table) else None
 
 
+def _pairs(values: list[Floats]) -> int:
+    """The number of ranges in a row if each is followed by another quantity, such as its intensity; 0 if none is."""
+    row, beams = values[0], len(values[0]) // 2
+    if len(row) % 2 or beams < LEAST_PAIRS or any(len(each) != len(row) for each in values):
+        return 0
+    ranges, others = row[::2], row[1::2]
+    apart = float(np.nanmedian(np.abs(ranges - others)))
+    steps = [float(np.nanmedian(np.abs(np.diff(each)))) for each in (ranges, others)]
+    return beams if apart > FAR_APART * max(*steps, 1e-9) else 0
+
+
 def _parsed(source: Source, rows: Iterable[Row], dialect: Dialect) -> tuple[list[int], list[Floats], int]:
     """(line numbers, numbers of each row, numbers before the only double space of the first row or 0)."""
     numbers: list[int] = []
     values: list[Floats] = []
     double = None
+    words: dict[str, None] = {}
     for number, text in rows:
         if double is None:
             double = _before_double_space(text)
         found = dialect.numbers(text)
         if found is None:
-            wrong = next(cell for cell in dialect.cells(text) if dialect.number(cell) is None)
-            shown = wrong[:40].decode("utf-8", "replace")
-            source.notes.skip(f"{source.name}:{number}", f"{shown!r} is not a number; {FORMS}")
-        elif len(found):
+            found, wrong = _with_a_word(dialect, text)
+            shown = text_of(wrong[:40])
+            if found is None:
+                source.notes.skip(f"{source.name}:{number}", f"{shown!r} is not a number; {FORMS}")
+            else:
+                words.setdefault(shown)
+        if found is None:
+            continue
+        if len(found):
             numbers.append(number)
             values.append(found)
+    for word in words:
+        source.notes.notice("word", f"{word!r} among the ranges was read as no return.")
     if len(values) <= source.notes.skips:
         source.notes.nothing_left()
         raise ValueError(f"{source.name} has no line of numbers; {FORMS}")
@@ -127,6 +151,16 @@ def _parsed(source: Source, rows: Iterable[Row], dialect: Dialect) -> tuple[list
 
 
 FORMS = "use one scan per row, or columns of angle and distance, or a table with a column named ranges"
+
+
+def _with_a_word(dialect: Dialect, text: bytes) -> tuple[Floats | None, bytes]:
+    """The numbers of a line, NaN for the one word that recurs among them, if it does; also returns the first word."""
+    cells = dialect.cells(text)
+    found = [dialect.number(cell) for cell in cells]
+    words = [cell for cell, number in zip(cells, found, strict=True) if number is None]
+    if len(words) < 2 or len(set(words)) > 1 or 2 * len(words) > len(cells):
+        return None, words[0]
+    return np.array([math.nan if number is None else number for number in found]), words[0]
 
 
 def _before_double_space(text: bytes) -> int:
