@@ -529,13 +529,15 @@ class Session:
         self._survey()
 
     def _refused(self, view: View, message: str) -> Refused | None:
-        """What could not be read; None if it is not a file that exists."""
+        """What could not be read; None if it is no file that exists, or if no other Reading could help."""
         try:
             if not self._library.path(view.recording).exists():
                 return None
         except ValueError:
             return None
         given, named = view.reading.given(), named_in(message)
+        if not (given or named or view.topic):
+            return None
         label = self._library.label(view.recording)
         return Refused(recording=view.recording, label=label, topic=view.topic, reading=given, named=named)
 

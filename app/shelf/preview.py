@@ -23,7 +23,8 @@ HEAD_BYTES = 1 << 14
 # Of a longer text only this much is read, so that a field can be tried out while typing.
 MOST_TEXT = 1 << 20
 FLAG = re.compile(r"(?<![\w`-])(flag )?--([a-z][a-z-]+)")
-NAMED = re.compile(r"--([a-z][a-z-]+)|\b([a-z]+(?:_[a-z]+)+)\b")
+# Not the arguments of a call, as in numpy.savez(…, angle_min=0).
+NAMED = re.compile(r"--([a-z][a-z-]+)|\b([a-z]+(?:_[a-z]+)+)\b(?!=)")
 
 
 @dataclass(frozen=True, eq=False)

@@ -15,7 +15,7 @@ from ..scan import Recording, Scan
 from .account import Account, Findings, Guess, Notes
 from .guessing import guess_limit, guess_unit, no_return_codes, sampled
 from .lasers import one_laser
-from .plausible import noticed, oddness, trouble_in, trouble_of
+from .plausible import noticed, oddness, trouble_in, trouble_of, unwrapped
 from .posing import with_poses
 from .reading import METRES, RADIANS, Reading, Span, frames_of, span_of, values_of
 from .saying import line_of
@@ -85,6 +85,8 @@ def _with_stamps(recording: Recording, reading: Reading, notes: Notes) -> Record
         raise ValueError(f"{recording.name}: stamps cannot be the recorder's; only a bag has its recorder's times.")
     if reading.stamps == "none":
         return replace(recording, stamps=np.zeros(len(recording)))
+    if reading.stamps == "unwrapped":
+        return replace(recording, stamps=unwrapped(recording.stamps))
     wanted = reading.stamps == "recorded" or (reading.stamps is None and not recording.stamps.any())
     return replace(recording, stamps=notes.recorded) if wanted and notes.recorded is not None else recording
 

@@ -37,7 +37,7 @@ class JsonMessages(Reader):
 
     format = "JSON"
     suffixes = (".json", ".jsonl", ".ndjson")
-    expects = "objects with ranges, angle_min and angle_increment"
+    expects = "objects with ranges and angles"
 
     @staticmethod
     def recognises(head: bytes) -> bool:
@@ -81,7 +81,7 @@ def recording_of(source: Source, found: dict[str, list[LaserScan]], format: str)
     """The scans of the chosen topic. Raises ValueError if there are none."""
     if not found:
         source.notes.nothing_left()
-        raise ValueError(f"{source.name} has no object with ranges; a scan has ranges, angle_min and angle_increment.")
+        raise ValueError(f"{source.name} has no object with ranges; a scan has a list of ranges, and its angles.")
     topics = tuple(Topic(name, len(scans)) for name, scans in found.items())
     topic = source.choose(list(topics))
     if "stamps" in source.notes.unstated:

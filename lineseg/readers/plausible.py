@@ -18,6 +18,7 @@ RECURS = 0.1
 MANY_BEAMS, NARROW = 30, 12.0
 CODES_BELOW = 0.02
 YEAR = 365.25 * 86400
+WRAP = "stamps wrap"
 WRAPS = tuple(2.0**32 * scale for scale in (1.0, 1e-3, 1e-6, 1e-9))
 
 
@@ -186,8 +187,23 @@ def trouble_in(stamps: Floats, odd: Oddness | None) -> str:
 
 def _about_stamps(odd: Oddness | None, recorded: bool) -> Iterator[Notice]:
     if odd is not None:
-        way = "Use the times of the recorder?" if recorded else "Read the file without stamps?"
-        yield Notice("stamps", f"{odd.sentence} {way}", {"stamps": "recorded" if recorded else "none"})
+        way, stamps = "Read the file without stamps?", "none"
+        if odd.words == WRAP:
+            way, stamps = "Count on from there?", "unwrapped"
+        elif recorded:
+            way, stamps = "Use the times of the recorder?", "recorded"
+        yield Notice("stamps", f"{odd.sentence} {way}", {"stamps": stamps})
+
+
+def wrap_of(step: float) -> float:
+    """How far a counter fell at this step [s], if it wrapped at 2³²; 0 if it did not."""
+    return next((wrap for wrap in WRAPS if abs(-step - wrap) < 0.01 * wrap), 0.0)
+
+
+def unwrapped(stamps: Floats) -> Floats:
+    """Stamps that count on where their counter wraps."""
+    falls = np.array([wrap_of(step) for step in np.diff(stamps).tolist()])
+    return stamps + np.concatenate(([0.0], np.cumsum(falls)))
 
 
 class Oddness(NamedTuple):
@@ -207,8 +223,8 @@ def oddness(stamps: Floats) -> Oddness | None:
     if not steps.any():
         return Oddness("stamps are equal", f"All stamps are equal ({stamps[0]:g}).")
     at, leap = int(np.argmin(steps)), int(np.argmax(np.abs(steps)))
-    if any(steps[at] < 0 and abs(-steps[at] - wrap) < 0.01 * wrap for wrap in WRAPS):
-        return Oddness("stamps wrap", f"The stamps wrap at 2³² before frame {at + 1}.")
+    if wrap_of(steps[at]):
+        return Oddness(WRAP, f"The stamps wrap at 2³² before frame {at + 1}.")
     if abs(steps[leap]) > YEAR:
         years = abs(steps[leap]) / YEAR
         return Oddness("stamps jump by years", f"The stamps jump by {years:.0f} years before frame {leap + 1}.")

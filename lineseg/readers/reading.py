@@ -13,7 +13,7 @@ Unit = Literal["m", "cm", "mm", "0.1mm", "1/4mm", "um", "in", "ft"]
 AngleUnit = Literal["rad", "deg", "gon", "mrad", "0.01deg", "1/64deg"]
 Direction = Literal["counter-clockwise", "clockwise"]
 Motion = Literal["kept", "removed"]
-Stamps = Literal["message", "recorded", "none"]
+Stamps = Literal["message", "unwrapped", "recorded", "none"]
 METRES: dict[str, float] = {
     "m": 1.0, "cm": 0.01, "mm": 0.001, "0.1mm": 1e-4, "1/4mm": 0.25e-3, "um": 1e-6, "in": 0.0254, "ft": 0.3048,
 }  # fmt: skip
@@ -123,7 +123,8 @@ class Reading:
         Stamps | None,
         ReadingField(
             "stamps",
-            "where times come from: the message, the recorder of a bag, or none at all (default: the message)",
+            "where times come from: the message, the message counted on where it wraps at 2³², the recorder of a bag, "
+            "or none at all (default: the message)",
             "scans",
         ),
     ] = None

@@ -13,6 +13,7 @@ import numpy as np
 from ..scan import Floats, Recording, Topic
 from .dialect import Dialect, Row, text_of
 from .guessing import angle_unit_of
+from .plausible import unwrapped, wrap_of
 from .reading import RADIANS, Reading
 from .scan_columns import alike, tell_columns
 from .source import Source, Sweeps
@@ -266,11 +267,18 @@ def _unlike(values: list[Floats]) -> int:
     skip = 0
     for lead in range(min(MOST_LEADING, table.shape[1] - 3)):
         column = table[:, lead]
-        rises = len(column) >= 3 and bool((np.diff(column) > 0).all())
+        rises = len(column) >= 3 and _rises(column)
         huge = bool((np.abs(column) > 50 * np.maximum(tops, 1e-9)).mean() > 0.5)
         if huge or (rises and _leaps(values, lead + 1)):
             skip = lead + 1
     return skip
+
+
+def _rises(column: Floats) -> bool:
+    """Whether numbers rise from row to row, as a counter does, perhaps but for where it wraps at 2³²."""
+    steps = np.diff(column)
+    falls = steps[~(steps > 0)].tolist()
+    return len(falls) <= max(1, len(steps) // 10) and all(map(wrap_of, falls))
 
 
 def _leaps(values: list[Floats], lead: int) -> bool:
@@ -286,13 +294,16 @@ def _stamps(source: Source, values: list[Floats], skip: int, leading: tuple[str,
         at = leading.index("stamp") if "stamp" in leading else None
     else:
         columns = [np.array([row[lead] for row in values]) for lead in range(min(skip, MOST_LEADING))]
-        rising = [lead for lead, column in enumerate(columns) if len(column) > 1 and bool((np.diff(column) > 0).all())]
+        rising = [lead for lead, column in enumerate(columns) if len(column) > 1 and _rises(column)]
         # A column that counts the rows is a time only if there is no other.
         timed = [lead for lead in rising if not (np.diff(columns[lead]) == 1).all()]
         at = next(iter(timed or rising), None)
     if at is None:
         return np.zeros(len(values))
-    column = np.array([row[at] for row in values])
+    raw = np.array([row[at] for row in values])
+    column = unwrapped(raw)
+    if (column != raw).any():
+        source.notes.notice("wraps", "The stamps wrap at 2³², and were counted on.")
     times, words = in_seconds(column)
     source.notes.stamps = f"column {at + 1}"
     if leading is None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections import Counter
 from collections.abc import Iterable, Iterator
@@ -300,11 +301,20 @@ def _read_beams(
             return _read_columns_of_scans(source, reading, rows, dialect, names, angle, columns)
     if any(map(is_distance, names)) and any(map(is_beam, names)):
         return read_numbered(source, reading, rows, dialect, names)
-    shown = " ".join(name.plain for name in names[names[0] == UNNAMED :])
+    shown = " ".join(name.plain for name in names[names[0] == UNNAMED :])[:60]
+    sample = list(islice(rows, SAMPLE))
+    if 2 * sum(_are_numbers(dialect, row) for row in sample) <= len(sample):
+        raise ValueError(f"{source.name} begins with {shown!r}, and has no table of numbers below; {TEXT_FORMS}")
     raise ValueError(
-        f"{source.name} begins with {shown[:60]!r}, which names no column angle; {TEXT_FORMS} "
+        f"{source.name} begins with {shown!r}, which names no column angle; {TEXT_FORMS} "
         "The flag --columns says what the columns hold."
     )
+
+
+def _are_numbers(dialect: Dialect, row: Row) -> bool:
+    """Whether a row has two numbers or more."""
+    numbers = [dialect.number(cell) for cell in dialect.cells(row.text)]
+    return sum(number is not None and not math.isnan(number) for number in numbers) > 1
 
 
 def _read_columns(

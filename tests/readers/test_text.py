@@ -130,7 +130,7 @@ def test_output_of_rostopic_echo_opens(text):
     [
         ("0.0, 1.0\n0.1\n", r"scan.csv:2: 1 of 2 columns \(angle, distance\); is the line complete\?"),
         ("1.0, 2.0, x\n", "scan.csv:1: 'x' is not a number; use one scan per row"),
-        ("Dear reader,\nthis is a letter.\n", "scan.csv begins with 'dear reader', which names no column angle"),
+        ("Dear reader,\nthis is a letter.\n", "scan.csv begins with 'dear reader', and has no table of numbers below"),
         ("# nothing but words\n", "scan.csv has no line of numbers"),
         ("angle,distance\n", "scan.csv has column names, but no line of numbers"),
         ('time,ranges\n1,"[1.0]"\n', "scan.csv:2: angle_min is missing; give it in a column or an option"),

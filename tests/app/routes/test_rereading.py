@@ -28,6 +28,18 @@ def test_a_file_that_needs_help_is_kept_tried_and_opened(server: Address, page: 
     assert (state["label"], state["readAs"]) == ("odd.csv", {"angle_increment": 0.02, "angle_min": -0.96})
 
 
+def test_the_panel_is_offered_only_if_another_reading_could_help(server: Address, page: Page):
+    page.hello()
+    for name, content, helps in (
+        ("letter.csv", b"Dear reader,\nthis is a letter.\n", False),
+        ("table.mat", b"MATLAB 7.3 MAT-file, Platform: GLNXA64, Created on: " + bytes(99), False),
+        ("other.json", b'{"a": [1, 2, 3]}', False),
+        ("odd.csv", ROWS, True),
+    ):
+        refused = page.refused(recording=server.upload(name, content).json()["recording"])["refused"]
+        assert (refused is not None) == helps, name
+
+
 def test_fields_that_a_sentence_names_are_found():
     assert named_in("give angle_increment, or --unit mm and --skip-columns 1; columns of a file_name") == [
         "angle_increment", "unit", "skip_columns",
