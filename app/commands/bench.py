@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import asdict
 from json import dumps
 from pathlib import Path
+from typing import Annotated
 
-from tyro.conf import OmitArgPrefixes, Positional
+from tyro.conf import OmitArgPrefixes, Positional, arg
 
 from .flag_types import File, Switch, Unset
 from .progress import open_with_progress
@@ -19,7 +20,7 @@ def bench(
     *,
     threshold: OmitArgPrefixes[Flags],  # type: ignore[valid-type]
     reading: OmitArgPrefixes[ReadingFlags],  # type: ignore[valid-type]
-    against: Unset[str] = None,
+    against: Annotated[Unset[str], arg(metavar="COMMAND")] = None,
     json: Switch = False,
 ) -> None:
     """Time the extraction and compare it with the minimum work of the method.

@@ -74,9 +74,7 @@ def csv_lines(rows: Rows, noise: Noise | None = None, about: About = None) -> It
         for segment, polar in zip(extraction.segments, polars, strict=True):
             place = (*segment.start, *segment.end, segment.first, segment.last)
             fit = (*segment.line, segment.points, segment.length, segment.rms)
-            row = (frame, "" if stamp is None else stamp, scan.frame_id, *place, *fit, *polar)
-            # numpy's floats have another repr.
-            writer.writerow([repr(float(value)) if isinstance(value, float) else value for value in row])
+            writer.writerow((frame, "" if stamp is None else stamp, scan.frame_id, *place, *fit, *polar))
         yield text.getvalue()
         text.seek(0)
         text.truncate()
