@@ -1,5 +1,6 @@
 // @ts-check
 // Passes each message of the server to the parts that need it.
+import { markStage } from "./view/stages.js";
 
 /** @typedef {import("./wire.js").State} State */
 /** @typedef {import("./wire.js").Message} Message */
@@ -57,7 +58,9 @@ export function createReceiver(page, { address, notices, work, following, panel,
     if (page.settled()) page.adoptDrawn();
     if (!work.busy) notices.setLoaded();
     page.tell("setState", page.drawn, origin);
-    document.title = `${state.label} – ${text.appName}`;
+    const title = `${state.label} – ${text.appName}`;
+    if (document.title !== title) document.title = title;
+    markStage("shown", state.rev);
     if (unpacked) packCard.take(pack);
   }
 

@@ -64,11 +64,13 @@ def voids(scan: Scan, labels: NDArray[np.integer]) -> tuple[NDArray[np.intp], ND
     """
     beams, line = _along_lines(scan, labels)
     within = line[1:] == line[:-1]
-    steps = np.diff(beams) % max(scan.around, len(scan))
-    gaps = np.hypot(*np.diff(scan.xy[beams], axis=0).T)
-    each = np.concatenate(([0.0], np.where(within, gaps / np.maximum(steps, 1), 0.0), [0.0]))
+    steps = (beams[1:] - beams[:-1]) % max(scan.around, len(scan))
+    x, y = scan.xy[beams].T
+    gaps = np.hypot(x[1:] - x[:-1], y[1:] - y[:-1])
+    each = np.zeros(len(gaps) + 2)
+    np.divide(gaps, np.maximum(steps, 1), out=each[1:-1], where=within)
     wide = within & (gaps > LEAST_VOID) & ((steps > 1) | (gaps > TIMES * np.maximum(each[:-2], each[2:])))
-    return np.column_stack((beams[:-1][wide], beams[1:][wide])), line[:-1][wide]
+    return np.stack((beams[:-1][wide], beams[1:][wide]), axis=1), line[:-1][wide]
 
 
 def _along_lines(scan: Scan, labels: NDArray[np.integer]) -> tuple[NDArray[np.intp], NDArray[np.integer]]:

@@ -2,6 +2,7 @@
 // The WebSocket. At most one change is under way; newer ones replace each other meanwhile, and the last one is always sent.
 import { merged } from "./fields.js";
 import { messageOf } from "./message.js";
+import { markStage } from "./stages.js";
 
 /** @typedef {import("../wire.js").Message} Message */
 /** @typedef {import("./fields.js").Patch} Patch */
@@ -102,6 +103,8 @@ export class Link {
     const rev = this.#rev;
     this.#underWay = { rev, since, timer: setTimeout(() => this.#answered(rev), PATIENCE_MS) };
     this.#post({ type: linked ? "link" : "view", rev, patch });
+    markStage("changed", rev, since);
+    markStage("sent", rev);
   }
 
   /** @param {number} rev */
@@ -154,6 +157,7 @@ export class Link {
     // A long load must not hold back the slider: the server lets the newest view win by itself.
     if (message.type === "loading" && this.#underWay) this.#answered(this.#underWay.rev);
     if (message.type === "drawn" || (message.type === "error" && message.rev !== null)) {
+      markStage("answered", message.rev ?? 0);
       latencyMs = this.#answered(message.rev ?? 0);
     }
     this.#onMessage(message, latencyMs);

@@ -120,3 +120,16 @@ def test_segments_of_the_recording_are_downloaded(tab):
         tab.page.get_by_role("menuitem", name="JSON lines").click()
     (line,) = download.value.path().read_text().splitlines()
     assert line.count('"start"') == len(segments)
+
+
+def test_each_stage_of_a_change_has_one_mark_and_marks_do_not_pile_up(tab):
+    for epsilon in ("0.05", "0.06"):
+        tab.type_value("epsilon", epsilon)
+        tab.until(f"s.params.epsilon === {epsilon}")
+    script = """() => {
+        const marks = performance.getEntriesByType("mark").filter(({ name }) => name.startsWith("lineseg "));
+        const { rev } = window.lineseg.state;
+        return marks.filter(({ detail }) => detail === rev).map(({ name }) => name.slice(8)).sort().join(" ");
+    }"""
+    tab.eventually(lambda: tab.page.evaluate(script) == "answered changed sent shown", "not one mark of each stage")
+    assert tab.page.evaluate("performance.getEntriesByType('mark').length") < 20
