@@ -1062,6 +1062,38 @@ export interface MethodTimes {
   most: number;
 }
 
+/** machine: on which the times were measured, and when. */
+export interface TimesHere {
+  machine: string;
+  methods: MethodTimes[];
+}
+
+/** A line that was found. start, end: of it [m]. */
+export interface LineToLabel {
+  first: number;
+  last: number;
+  start: [number, number];
+  end: [number, number];
+}
+
+/** Numbers of true lines, of lines found, and of matches (Eqs. 9, 10). */
+export interface Counted {
+  true: number;
+  found: number;
+  matched: number;
+}
+
+/**
+ * A frame with what was found in it. x, y: of each beam [m]; known: by the known walls, null if there are none.
+ */
+export interface FrameToLabel {
+  frame: number;
+  x: (number | null)[];
+  y: (number | null)[];
+  lines: LineToLabel[];
+  known: Counted | null;
+}
+
 /** Common fields of answers of long work. done: it has ended; stopped: on request; message: why it failed. */
 export interface Worked {
   type: "curves" | "map" | "auto" | "fit";
@@ -1114,12 +1146,12 @@ export interface Named {
  * names: words for beams, written beside their points.
  *
  * show: something to try in the text: points and their fits, the noise of the recording, the times of two methods,
- * or another method step by step beside the one of the lesson (static/learn/shown.js).
+ * another method step by step beside the one of the lesson, or frames to label (static/learn/shown.js).
  */
 export interface Looked {
   near: number[];
   names: Record<string, number>;
-  show: "fits" | "noise" | "times" | "beside" | null;
+  show: "fits" | "noise" | "times" | "beside" | "label" | null;
 }
 
 /**
@@ -1131,7 +1163,7 @@ export interface Looked {
 export interface Step {
   near: number[];
   names: Record<string, number>;
-  show: "fits" | "noise" | "times" | "beside" | null;
+  show: "fits" | "noise" | "times" | "beside" | "label" | null;
   text: string;
   method: string | null;
   find: Find | null;
@@ -1187,7 +1219,7 @@ export interface Quantity {
 export interface Task {
   near: number[];
   names: Record<string, number>;
-  show: "fits" | "noise" | "times" | "beside" | null;
+  show: "fits" | "noise" | "times" | "beside" | "label" | null;
   text: string;
   hint: string;
   done: string;

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import base64
+import json
 from collections.abc import Callable, Mapping
 from functools import partial
 from types import MappingProxyType
 from typing import Any
+
+import numpy as np
 
 from lineseg import EXTRACTORS, Params, Recording, Thresholds
 from lineseg.tracing.glossary import TERMS
@@ -19,19 +22,22 @@ from ..shelf.lesson import Lessons, NamedLesson, Step, Task
 from ..shelf.lesson_markup import MEDIA, links
 from ..shelf.lesson_numbers import METHOD
 from ..shelf.lesson_shelf import LessonShelf
+from ..shelf.lesson_shown import BESIDE, decisions_of, frames_to_label, times_here
 from ..told.answers import ExplainedTerm
 from ..told.drawn import Framing
 from ..told.handout import Handout, Stand
 from ..told.messages import MethodEntry
+from ..tuning.fit import fit
 from .content import Content, rounded, usual_ranges
 from .packing import packed
 from .page import page_of
 from .pool import SCALE
+from .sheet import sheet_of
 
 LARGEST = 3_000_000
 # Decisions that can be stepped through; fewer if the file would be too large.
 MOST_STEPS = (8000, 3000, 1000, 300)
-LISTING = "learn/listing.json"
+LISTINGS = ("learn/listing.json", "learn/splitting.json")
 
 
 def frame_page(
@@ -77,7 +83,25 @@ def _lesson_page(shelf: LessonShelf, lesson: NamedLesson, next: str, index: str,
     told = Lessons(lessons=[lesson], terms=_terms())
     head = {"title": lesson.title, "recording": lesson.recording, "frame": lesson.frame, "lesson": lesson.id}
     head |= {"pages": pages, "next": next, "index": index}
-    return _page(content, [stand for stand, _ in stands.values()], told, head, _pictures(shelf, lesson))
+    answers = _pictures(shelf, lesson) | shown_in(content, lesson)
+    sheet = sheet_of(shelf, lesson, lambda name: answers[f"picture:{name}"])
+    return _page(content, [stand for stand, _ in stands.values()], told, head, answers, sheet)
+
+
+def shown_in(content: Content, lesson: NamedLesson) -> dict[str, str]:
+    """What the page would ask the server for what texts let one try, by address."""
+    shows = {page.show for page in (*lesson.steps, lesson.task)}
+    usual = _thresholds(lesson, lesson.task)[1]
+    answers: dict[str, Any] = {}
+    if "noise" in shows:
+        answers["noise?session="] = next(fit(content.recording, usual, METHOD, np.zeros(1, np.bool_)))
+    if "times" in shows:
+        answers["times?session="] = times_here(content.recording)
+    if "label" in shows:
+        answers["frames?session="] = frames_to_label(content.recording, usual)
+    for method in BESIDE if "beside" in shows else ():
+        answers[f"decisions?session=&method={method}"] = decisions_of(content.scan, method)
+    return {f"/api/lessons/{address}": json.dumps(answer, allow_nan=False) for address, answer in answers.items()}
 
 
 def _pictures(shelf: LessonShelf, lesson: NamedLesson) -> dict[str, str]:
@@ -106,8 +130,9 @@ def _page(
     lessons: Lessons,
     head: dict[str, Any],
     answers: Mapping[str, str] = MappingProxyType({}),
+    sheet: str = "",
 ) -> str:
-    """answers: more of them than every page has."""
+    """answers: more of them than every page has. sheet: the lesson on paper."""
     light, dark = content.pool.palettes
     x1, y1, x2, y2 = united(extent_of(content.scan, content.bounds), (0.0, 0.0, 0.0, 0.0))
     methods = dict.fromkeys([METHOD, *(stand["method"] for stand in stands)])
@@ -128,12 +153,12 @@ def _page(
         "segments": content.segments,
         "answers": {
             "/api/lessons": lessons.model_dump_json(),
-            f"lineseg:/{LISTING}": (data_folder("static") / LISTING).read_text("utf-8"),
+            **{f"lineseg:/{name}": (data_folder("static") / name).read_text("utf-8") for name in LISTINGS},
             **answers,
         },
     }
     handout: Handout = {**common, **head}  # pyright: ignore[reportAssignmentType]
-    return page_of(handout["title"], packed(handout, content.pool.arrays()))
+    return page_of(handout["title"], packed(handout, content.pool.arrays()), sheet)
 
 
 def small_enough(made: Callable[[int], str], what: str) -> str:

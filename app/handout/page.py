@@ -18,7 +18,7 @@ SHEETS = (
     "base.css", "widgets/controls.css", "widgets/dialog.css", "widgets/tooltip.css", "widgets/decision.css",
     "widgets/track.css", "widgets/words.css", "stage/stage.css", "stage/overlay.css", "bars/topbar.css", "keys.css",
     "tune/explanation.css", "tune/replay.css", "tune/panel.css", "tune/sliders.css", "learn/learn.css",
-    "handout/handout.css",
+    "handout/handout.css", "handout/sheet.css",
 )  # fmt: skip
 LIST_SHEETS = ("base.css", "learn/learn.css", "handout/list.css")
 # Tells our pages from other files.
@@ -48,15 +48,17 @@ BODY = Template("""<body class="handout">
 <aside id="learn" class="panel learn"></aside>
 </main>
 <noscript>This page needs JavaScript. Turn it on and reload it.</noscript>
+$sheet
 <script type="application/octet-stream" id="data">$data</script>
 <script type="module">$script</script>
 </body>""")
 
 
-def page_of(title: str, data: str) -> str:
-    """The page. title: any text; data: base64."""
+def page_of(title: str, data: str, sheet: str = "") -> str:
+    """The page. title: any text; data: base64; sheet: HTML that is printed instead of what is on the screen."""
     script = _script()
-    return document(title, BODY.substitute(data=data, script=script), _style(), script)
+    paper = f'<section class="sheet print-only">{sheet}</section>' if sheet else ""
+    return document(title, BODY.substitute(data=data, script=script, sheet=paper), _style(), script)
 
 
 def document(title: str, body: str, style: str, script: str = "") -> str:

@@ -4,36 +4,32 @@ from __future__ import annotations
 
 import json
 from typing import Annotated, Any
+from urllib.parse import urlencode
 
 import numpy as np
 from fastapi import FastAPI, Request
-from fastapi.responses import FileResponse, PlainTextResponse
+from fastapi.responses import FileResponse, HTMLResponse, PlainTextResponse
 from pydantic import Field
 from starlette.concurrency import run_in_threadpool
 from starlette.exceptions import HTTPException
 
-from lineseg import EXTRACTORS
-from lineseg.compare.timing import times_of
+from lineseg import EXTRACTORS, Params
 
 from ..bounds import Message, Number
-from ..frame.findings import findings_in
-from ..frame.stepping import columns_of
-from ..session.session import Shown
+from ..handout.sheet import sheet_page
 from ..session.sessions import Sessions
-from ..shelf.lesson import Lessons, NamedLesson
+from ..shelf.lesson import USUAL, Lessons, NamedLesson
 from ..shelf.lesson_draft import drafted
 from ..shelf.lesson_markup import MEDIA
+from ..shelf.lesson_shown import decisions_of, frames_to_label, times_here
 from ..shelf.library import Library
-from ..told.answers import Fitted, MethodTimes
+from ..told.answers import Fitted, FrameToLabel, TimesHere
 from ..told.messages import TraceColumns
 from ..tuning.fit import fit
 from .body import announced_size, storing
 from .slow import SlowWork
 
 Short = Annotated[str, Field(min_length=1, max_length=300)]
-# Those of the paper's Fig. 9 and Table 3.
-TIMED = ("region-growing", "split-and-merge")
-TIMED_FRAMES = 100
 HINT = "Go back and look again."
 
 
@@ -65,6 +61,18 @@ def add_lessons(app: FastAPI, library: Library, sessions: Sessions) -> None:
             raise HTTPException(404, f"there is no lesson {id[:60]!r} on this server")
         return lesson
 
+    @app.get("/lessons/{id:path}/print")
+    async def sheet(id: str) -> HTMLResponse:
+        """A lesson to print."""
+        lesson = await run_in_threadpool(shelf.find, id)
+        if lesson is None:
+            raise HTTPException(404, f"there is no lesson {id[:60]!r} on this server")
+
+        def address(name: str) -> str:
+            return f"/api/lessons/picture?{urlencode({'id': id, 'name': name})}"
+
+        return HTMLResponse(await slow.run(sheet_page, shelf, lesson, address))
+
     @app.get("/api/lessons/picture")
     def picture(id: str = "", name: str = "") -> FileResponse:
         try:
@@ -93,17 +101,20 @@ def add_lessons(app: FastAPI, library: Library, sessions: Sessions) -> None:
         return await slow.run(lambda: next(fit(shown.recording, shown.view.params, shown.view.method, stop)))
 
     @app.get("/api/lessons/times")
-    async def times(session: str = "") -> list[MethodTimes]:
-        return await slow.run(_times, sessions.shown(session))
+    async def times(session: str = "") -> TimesHere:
+        return await slow.run(times_here, sessions.shown(session).recording)
+
+    @app.get("/api/lessons/frames")
+    async def frames(session: str = "") -> list[FrameToLabel]:
+        shown = sessions.shown(session)
+        return await run_in_threadpool(frames_to_label, shown.recording, Params().but(**USUAL))
 
     @app.get("/api/lessons/decisions")
     async def decisions(session: str = "", method: str = "") -> TraceColumns:
         """The decisions of another method, with its default thresholds, about the frame that a tab shows."""
         if method not in EXTRACTORS:
             raise HTTPException(400, f"there is no method {method[:40]!r}; choose from {', '.join(EXTRACTORS)}")
-        scan = sessions.shown(session).found.scan
-        found = await run_in_threadpool(findings_in, scan, method, EXTRACTORS[method].params_type())
-        return columns_of(found)
+        return await run_in_threadpool(decisions_of, sessions.shown(session).found.scan, method)
 
     @app.post("/api/lessons/new")
     async def new(said: NewLesson, session: str = "") -> PlainTextResponse:
@@ -114,26 +125,6 @@ def add_lessons(app: FastAPI, library: Library, sessions: Sessions) -> None:
         except ValueError as error:
             raise HTTPException(400, str(error)) from None
         return PlainTextResponse(json.dumps(_with_texts(made, said), indent=2, ensure_ascii=False) + "\n")
-
-
-def _times(shown: Shown) -> list[MethodTimes]:
-    """How long methods take for a frame, on this machine and now [µs]."""
-    recording = shown.recording
-    frames = np.unique(np.linspace(0, len(recording) - 1, TIMED_FRAMES, dtype=int)).tolist()
-    methods = [EXTRACTORS[name] for name in TIMED]
-    taken = np.stack(list(times_of(recording, frames, [(each, each.params_type()) for each in methods])))
-    return [
-        {
-            "method": each.label,
-            "frames": frames,
-            "us": [round(us, 1) for us in of_method.tolist()],
-            "mean": float(of_method.mean()),
-            "std": float(of_method.std()),
-            "least": float(of_method.min()),
-            "most": float(of_method.max()),
-        }
-        for each, of_method in zip(methods, taken.T, strict=True)
-    ]
 
 
 def _with_texts(made: dict[str, Any], said: NewLesson) -> dict[str, Any]:

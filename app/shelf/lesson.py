@@ -58,13 +58,13 @@ class Looked(Part):
     """What a text looks at: near: beams whose points fill the stage where no decision is shown; none: all of them.
     names: words for beams, written beside their points.
 
-    show: something to try in the text: points and their fits, the noise of the recording, the times of two methods, or
-    another method step by step beside the one of the lesson (static/learn/shown.js).
+    show: something to try in the text: points and their fits, the noise of the recording, the times of two methods,
+    another method step by step beside the one of the lesson, or frames to label (static/learn/shown.js).
     """
 
     near: tuple[Beam, ...] = ()
     names: dict[Annotated[str, Field(max_length=40)], Beam] = {}
-    show: Literal["fits", "noise", "times", "beside"] | None = None
+    show: Literal["fits", "noise", "times", "beside", "label"] | None = None
 
 
 class Step(Looked):

@@ -273,6 +273,40 @@ class MethodTimes(TypedDict):
     most: float
 
 
+class TimesHere(TypedDict):
+    """machine: on which the times were measured, and when."""
+
+    machine: str
+    methods: list[MethodTimes]
+
+
+class LineToLabel(TypedDict):
+    """A line that was found. start, end: of it [m]."""
+
+    first: int
+    last: int
+    start: Point
+    end: Point
+
+
+class Counted(TypedDict):
+    """Numbers of true lines, of lines found, and of matches (Eqs. 9, 10)."""
+
+    true: int
+    found: int
+    matched: int
+
+
+class FrameToLabel(TypedDict):
+    """A frame with what was found in it. x, y: of each beam [m]; known: by the known walls, null if there are none."""
+
+    frame: int
+    x: list[float | None]
+    y: list[float | None]
+    lines: list[LineToLabel]
+    known: Counted | None
+
+
 class Worked(TypedDict):
     """Common fields of answers of long work. done: it has ended; stopped: on request; message: why it failed."""
 

@@ -93,6 +93,7 @@ class Page {
         closeUp: this.#closeUp,
         settled: () => !this.#waiting,
         session: () => "",
+        stored: true,
       },
     );
     this.#ranges = createRanges(text, pageText.tune, (params) => this.change({ params }));
@@ -163,7 +164,7 @@ class Page {
   }
 
   #mountBar() {
-    const { title, index } = this.#handout;
+    const { title, index, lesson } = this.#handout;
     const theme = createTheme((dark) => {
       this.#dark = dark;
       this.#drawLater();
@@ -172,6 +173,9 @@ class Page {
     place("topbar").append(
       h("h1", { class: "app-name" }, ...symbols(title)),
       h("span", { class: "spacer" }),
+      lesson
+        ? h("button", { type: "button", class: "button quiet", onclick: () => this.#learn.saveProgress() }, text.save)
+        : "",
       index ? h("a", { class: "button quiet", href: index }, text.index) : "",
       createThemeButton(pageText.top, theme.saved(), theme.set),
       h(
@@ -309,6 +313,8 @@ class Page {
       ...this.view,
       segments: segments.map((number) => this.#handout.segments[number]),
       framing: this.#framing(step),
+      place: this.#handout.recording,
+      steps: whole ? stand.trace.kind.length : 0,
       ahead: step === null ? null : this.#ahead(step + 1),
       nodes: picture.nodes.map(({ name }) => name),
     };

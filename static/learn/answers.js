@@ -4,7 +4,7 @@ import { h } from "../widgets/dom.js";
 
 /** @typedef {import("../wire.js").Task} Task */
 /** @typedef {typeof import("../text/learn.js").learnText.answers} Text */
-/** @typedef {(solved: boolean, words: string) => void} OnAnswer */
+/** words: why it is not right; answer: what was chosen or typed. @typedef {(solved: boolean, words: string, answer: string) => void} OnAnswer */
 
 // Of what was typed and what is right, so much may differ by rounding.
 const ROUNDING = 1e-9;
@@ -25,7 +25,7 @@ function choiceOf(choice, text, rich, onAnswer) {
     const button = h("button", { type: "button", class: "answer", "aria-pressed": "false" }, ...rich(option.text));
     button.addEventListener("click", () => {
       for (const each of buttons) each.setAttribute("aria-pressed", String(each === button));
-      onAnswer(option.right, option.right ? "" : option.why);
+      onAnswer(option.right, option.right ? "" : option.why, option.text);
     });
     return button;
   });
@@ -48,10 +48,11 @@ function numberField({ answer, within }, text, onAnswer) {
     event.preventDefault();
     const typed = field.value.trim().replace(",", ".").replace("−", "-");
     const value = typed === "" ? Number.NaN : Number(typed);
-    if (!Number.isFinite(value)) return onAnswer(false, text.noNumber);
+    if (!Number.isFinite(value)) return onAnswer(false, text.noNumber, "");
     const off = value - wanted;
-    if (Math.abs(off) <= within + ROUNDING * Math.max(1, Math.abs(wanted))) return onAnswer(true, "");
-    return onAnswer(false, off < 0 ? text.tooSmall : text.tooLarge);
+    const said = `${typed} ${unit}`.trim();
+    if (Math.abs(off) <= within + ROUNDING * Math.max(1, Math.abs(wanted))) return onAnswer(true, "", said);
+    return onAnswer(false, off < 0 ? text.tooSmall : text.tooLarge, said);
   });
   return form;
 }

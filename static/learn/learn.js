@@ -30,7 +30,7 @@ import { compared, variables } from "./values.js";
 /** @typedef {{stage: HTMLElement, view: PlanView, dock: HTMLElement, panel: HTMLElement}} Places */
 /** @typedef {{tune: typeof import("../text/page.js").pageText.tune, learn: typeof import("../text/learn.js").learnText, shown: typeof import("../text/shown.js").shownText}} Words */
 /** @typedef {{onChange: (patch: Patch, gesture?: string | null) => void,
- *            onDraw: () => void, onMissing?: (id: string) => void, closeUp: {toggle: () => void, ask: (asked: boolean) => void}, settled: () => boolean, session: () => string}} Handlers */
+ *            onDraw: () => void, onMissing?: (id: string) => void, closeUp: {toggle: () => void, ask: (asked: boolean) => void}, settled: () => boolean, session: () => string, stored?: boolean}} Handlers stored: whether the page stands alone */
 
 const VIEWS = /** @type {const} */ (["step", "all"]);
 
@@ -112,8 +112,8 @@ class Learn {
     const project = (/** @type {number} */ x, /** @type {number} */ y) => view.project(x, y);
     const box = () => (this.#event ? null : boxOnStage(project, stage));
     const onMake = () => openMaking(text.making, { session, box, onMade: (lessons) => this.takeLessons(lessons) });
-    const { onMissing } = handlers;
-    this.#lessons = new Lessons(words, this.#glossary, { onChange, onDraw, onGo, onMake, onMissing, session });
+    const { onMissing, stored } = handlers;
+    this.#lessons = new Lessons(words, this.#glossary, { onChange, onDraw, onGo, onMake, onMissing, session, stored });
     panel.setAttribute("aria-label", text.panel);
     const method = h(
       "div",
@@ -242,6 +242,17 @@ class Learn {
   /** Lessons of the user. @param {import("./lessons.js").Lesson[]} lessons */
   takeLessons(lessons) {
     this.#lessons.take(lessons);
+  }
+
+  /** Saves what was answered in lessons as a file. */
+  saveProgress() {
+    this.#lessons.saveProgress();
+  }
+
+  /** @param {string} text of a file that was saved so */
+  readProgress(text) {
+    this.#handlers.onChange({ mode: "learn" });
+    this.#lessons.readProgress(text);
   }
 
   /** Opens a lesson at its first page. @param {string} id */

@@ -1,32 +1,36 @@
 // @ts-check
 // The list of lessons, with a mark at completed ones.
-import { keep, recall } from "../kept.js";
 import { drawText } from "../text/draw.js";
 import { h } from "../widgets/dom.js";
 import { icon } from "../widgets/icon.js";
+import { download } from "../widgets/clipboard.js";
 import { symbols } from "../widgets/symbols.js";
+import { toast } from "../widgets/toast.js";
+import { Progress } from "./progress.js";
 
 /** @typedef {import("./lessons.js").Lesson} Lesson */
-
-const DONE_KEY = "lineseg.lessons";
 
 export class LessonList {
   /** @type {Lesson[]} */ #lessons = [];
   /** Says why there are no lessons. */
   trouble = h("div");
-  #done = new Set(load());
+  progress = new Progress();
+  #progressText;
   #text;
   #onOpen;
   #broken = h("div", { class: "panel-error", role: "alert" });
   #items = h("ol", { class: "lesson-list" });
 
   /**
-   * @param {typeof import("../text/learn.js").learnText.lesson} text
+   * @param {typeof import("../text/learn.js").learnText} words
    * @param {import("./glossary.js").Glossary} glossary
    * @param {{onOpen: (id: string) => void, onDraw: () => void, onMake: () => void}} handlers onDraw: the user wants to draw a world, onMake: to make a lesson
    */
-  constructor(text, glossary, { onOpen, onDraw, onMake }) {
+  constructor({ lesson: text, progress }, glossary, { onOpen, onDraw, onMake }) {
     this.#text = text;
+    this.#progressText = progress;
+    const quiet = (/** @type {string} */ label, /** @type {string} */ title, /** @type {() => void} */ onclick) =>
+      h("button", { type: "button", class: "button quiet", title, onclick }, label);
     this.#onOpen = onOpen;
     const other = (/** @type {string} */ title, /** @type {string} */ hint, /** @type {() => void} */ onclick) =>
       h(
@@ -45,6 +49,12 @@ export class LessonList {
       this.#items,
       other(drawText.open, drawText.openHint, onDraw),
       other(text.make, text.makeHint, onMake),
+      h(
+        "div",
+        { class: "overview-foot" },
+        quiet(progress.save, progress.saveHint, () => this.save()),
+        quiet(progress.open, "", () => chooseText((words) => this.read(words))),
+      ),
     );
   }
 
@@ -94,7 +104,7 @@ export class LessonList {
 
   /** @param {Lesson} lesson */
   #itemOf({ id, title, about }) {
-    const done = this.#done.has(id);
+    const done = this.progress.isDone(id);
     const mark = done ? [icon("check"), h("span", { class: "off-screen" }, this.#text.doneMark)] : [];
     return h(
       "button",
@@ -104,18 +114,29 @@ export class LessonList {
     );
   }
 
-  /** @param {string} id */
-  markDone(id) {
-    this.#done.add(id);
-    keep(DONE_KEY, JSON.stringify([...this.#done]));
+  /** What was answered, right or not. @param {Lesson} lesson @param {string} answer @param {boolean} right */
+  note(lesson, answer, right) {
+    this.progress.note(lesson, answer, right);
+  }
+
+  /** Saves what was answered as a file. */
+  save() {
+    download(this.#progressText.file, this.progress.file());
+  }
+
+  /** What was saved before. @param {string} text */
+  read(text) {
+    toast(this.progress.read(text, this.#progressText));
+    this.show();
   }
 }
 
-/** @returns {string[]} */
-function load() {
-  try {
-    return JSON.parse(recall(DONE_KEY) ?? "[]");
-  } catch {
-    return [];
-  }
+/** Lets a person choose a file. @param {(text: string) => void} onText */
+function chooseText(onText) {
+  const input = h("input", { type: "file", accept: ".json" });
+  input.addEventListener("change", async () => {
+    const [file] = input.files ?? [];
+    if (file) onText(await file.text());
+  });
+  input.click();
 }

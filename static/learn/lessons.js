@@ -20,7 +20,7 @@ import { Showing } from "./shown.js";
 /** @typedef {import("../wire.js").Step} LessonStep */
 /** @typedef {import("../wire.js").NamedLesson} Lesson */
 /** @typedef {import("../wire.js").Lessons} Told */
-/** @typedef {{onChange: (patch: Patch, gesture?: string | null) => void, onGo: (step: number | null) => void, onDraw: () => void, onMake: () => void, onMissing?: (id: string) => void, session: () => string}} Handlers */
+/** @typedef {{onChange: (patch: Patch, gesture?: string | null) => void, onGo: (step: number | null) => void, onDraw: () => void, onMake: () => void, onMissing?: (id: string) => void, session: () => string, stored?: boolean}} Handlers */
 
 // Every lesson is about this method; a step may show another for comparison.
 const METHOD = "region-growing";
@@ -39,6 +39,7 @@ export class Lessons {
   /** @type {Readonly<View> | null} */ #view = null;
   /** @type {Knob[]} */ #knobs = [];
   /** @type {Map<string, Threshold>} */ #sliders = new Map();
+  /** Frames that were labelled in a lesson itself. */ #labelled = 0;
   /** What must have loaded before a link with ?lesson=… is opened. */
   #awaited = new Set(["lessons", "knobs"]);
   #list;
@@ -49,16 +50,22 @@ export class Lessons {
     this.#words = words;
     this.#handlers = handlers;
     const text = words.learn.lesson;
-    this.#list = new LessonList(text, glossary, { ...handlers, onOpen: (id) => this.open(id) });
+    this.#list = new LessonList(words.learn, glossary, { ...handlers, onOpen: (id) => this.open(id) });
     this.#reader = new Reader(text, glossary, words.learn.answers, {
       onLeave: () => this.#leave(),
       onBack: () => this.#turn(this.#at - 1),
       onNext: () => this.#forward(),
       onHint: () => this.#lesson && this.#reader.hint(this.#lesson.task.hint),
       onLesson: (id) => this.open(id),
-      onAnswer: (solved, why) => this.#answered(solved, why),
+      onAnswer: (solved, why, answer) => this.#answered(solved, why, answer),
     });
-    this.showing = new Showing(words.shown, { session: handlers.session, knobs: () => this.#knobs });
+    const { session, stored = false } = handlers;
+    const onLabel = (/** @type {number} */ labelled) => {
+      this.#labelled = labelled;
+      const wanted = this.#lesson?.task.goal?.labelled;
+      if (wanted && this.#lesson && this.#at === this.#lesson.steps.length) this.#countLabels(wanted, labelled);
+    };
+    this.showing = new Showing(words.shown, { session, stored, knobs: () => this.#knobs, onLabel });
     this.element = h(
       "section",
       { class: "lesson", "aria-label": text.label },
@@ -266,7 +273,8 @@ export class Lessons {
   /** @param {State} state drawn, and nothing else under way @param {Trace} trace of it */
   settle(state, trace) {
     const lesson = this.#lesson;
-    if (lesson?.task.goal?.labelled && this.#at === lesson.steps.length) return void this.#checkLabels(lesson);
+    const labelling = lesson?.task.goal?.labelled && this.#at === lesson.steps.length;
+    if (lesson && labelling) this.#checkLabels(lesson);
     if (!lesson || state.recording !== lesson.recording || state.frame !== lesson.frame) return;
     this.showing.set(state);
     const { method, params } = this.#wanted();
@@ -276,12 +284,16 @@ export class Lessons {
       const index = target ? find(trace, target) : -1;
       this.#handlers.onGo(index >= 0 ? index : null);
     }
-    if (!this.#pending && this.#at === lesson.steps.length && !this.#solved && lesson.task.goal)
+    if (!this.#pending && this.#at === lesson.steps.length && !this.#solved && lesson.task.goal && !labelling)
       this.#check(lesson, state, trace, params);
   }
 
   /** Whether the task is done; nothing is said before the first attempt. @param {Lesson} lesson @param {State} state @param {Trace} trace @param {Params} start */
-  #check({ id, task: { goal, done }, accepted }, state, trace, start) {
+  #check(lesson, state, trace, start) {
+    const {
+      task: { goal, done },
+      accepted,
+    } = lesson;
     if (!goal) return;
     const { lesson: text, goals } = this.#words.learn;
     const lacks = missing({ goal, accepted }, state, trace, start, this.#knobs, goals);
@@ -292,30 +304,60 @@ export class Lessons {
       this.#solved,
       this.#solved ? `${text.right} ${done}` : [text.notYet, ...lacks.slice(0, 2)].join(" "),
     );
-    if (this.#solved) this.#list.markDone(id);
+    if (this.#solved) this.#list.note(lesson, this.#setBy(goal, state, start), true);
+  }
+
+  /** What solved a task. @param {import("../wire.js").Goal} goal @param {State} state @param {Params} start */
+  #setBy(goal, state, start) {
+    const { progress } = this.#words.learn;
+    if (goal.changed.length) {
+      const changed = this.#knobs.filter(
+        ({ name }) => goal.changed.includes(name) && state.params[name] !== start[name],
+      );
+      return changed.map(({ name, symbol }) => `${symbol} = ${state.params[name]}`).join(", ");
+    }
+    if (goal.selected.length && state.selected !== null) return progress.beam(state.selected);
+    return state.step !== null ? progress.decision(state.step) : "";
+  }
+
+  /** Saves what was answered as a file. */
+  saveProgress() {
+    this.#list.save();
+  }
+
+  /** @param {string} text of a file */
+  readProgress(text) {
+    this.#list.read(text);
   }
 
   /** Labels are made in other frames and another mode, so they are counted when someone comes back. @param {Lesson} lesson */
   async #checkLabels(lesson) {
     const wanted = lesson.task.goal?.labelled ?? 0;
+    if (this.#handlers.stored) return this.#countLabels(wanted, this.#labelled);
     const query = new URLSearchParams({ recording: lesson.recording });
     const { words, trouble } = await fetchText(`/api/labels?${query}`);
     if (this.#lesson !== lesson || this.#at !== lesson.steps.length || this.#solved) return;
     if (trouble !== null) return this.#reader.judge(false, trouble);
     const told = /** @type {import("../wire.js").LabelsOverview} */ (JSON.parse(words));
-    const done = Object.values(told.frames).filter(({ lines }) => lines !== null).length;
-    if (done < wanted) return this.#reader.judge(false, done ? this.#words.learn.goals.labelled(done, wanted) : "");
-    return this.#answered(true, "");
+    const inFile = Object.values(told.frames).filter(({ lines }) => lines !== null).length;
+    return this.#countLabels(wanted, Math.max(inFile, this.#labelled));
   }
 
-  /** What was chosen or typed. @param {boolean} solved @param {string} why it is not right, if anyone has said so */
-  #answered(solved, why) {
+  /** @param {number} wanted @param {number} done */
+  #countLabels(wanted, done) {
+    if (this.#solved) return;
+    if (done >= wanted) return this.#answered(true, "", this.#words.learn.progress.labelled(done));
+    this.#reader.judge(false, done ? this.#words.learn.goals.labelled(done, wanted) : "");
+  }
+
+  /** What was chosen or typed. @param {boolean} solved @param {string} why it is not right, if anyone has said so @param {string} answer */
+  #answered(solved, why, answer) {
     const text = this.#words.learn.lesson;
     const lesson = this.#lesson;
     if (!lesson) return;
     this.#solved = solved;
     this.#reader.judge(solved, solved ? `${text.right} ${lesson.task.done}` : `${text.notYet} ${why}`);
-    if (solved) this.#list.markDone(lesson.id);
+    if (answer) this.#list.note(lesson, answer, solved);
   }
 }
 

@@ -3,6 +3,7 @@
 import { h } from "../widgets/dom.js";
 import { Beside } from "./shown/beside.js";
 import { createFits } from "./shown/fits.js";
+import { createLabelling } from "./shown/label.js";
 import { createNoise } from "./shown/noise.js";
 import { createTimes } from "./shown/times.js";
 
@@ -10,14 +11,15 @@ import { createTimes } from "./shown/times.js";
 /** @typedef {import("../wire.js").State} State */
 /** @typedef {import("../wire.js").Knob} Knob */
 /** set: called with each drawn state while it is shown. @typedef {{element: HTMLElement, set?: (state: State) => void}} Shown */
-/** @typedef {{session: () => string, knobs: () => Knob[]}} Places */
+/** stored: whether the page stands alone; onLabel: so many frames are labelled. @typedef {{session: () => string, stored: boolean, knobs: () => Knob[], onLabel: (labelled: number) => void}} Places */
 
 /** @type {Record<string, (text: Text, places: Places) => Shown>} */
 const KINDS = {
   fits: (text) => createFits(text.fits),
   noise: (text, { session, knobs }) => createNoise(text.noise, session, knobs),
-  times: (text, { session }) => createTimes(text.times, session),
+  times: (text, { session, stored }) => createTimes(text.times, session, stored),
   beside: (text, { session }) => new Beside(text.beside, session),
+  label: (text, { session, onLabel }) => createLabelling(text.label, session, onLabel),
 };
 
 export class Showing {

@@ -2,6 +2,7 @@
 // Opens what a person chose or dropped: a recording, a table of a sweep, or parameters.
 import { isSweepTable } from "../tune/sweep_table.js";
 import { hasLesson, sendLessons } from "../learn/dropped.js";
+import { progressIn } from "../learn/progress.js";
 import { fetchText } from "../fetch.js";
 import { toast } from "../widgets/toast.js";
 import { catchDrops, chooseFile, hasScans, nameOfAll, pick, uploadAll } from "./files.js";
@@ -18,6 +19,8 @@ export function createOpening(page, { work, notices, tune, learn }, text, { rest
   /** @param {File[]} files */
   async function open(files) {
     if (await hasLesson(files)) return openLessons(files);
+    const progress = await progressIn(files);
+    if (progress) return learn.readProgress(progress);
     const picked = pick(files);
     if (!picked) return work.refuse(text.stage.nothingDropped);
     if (picked.kind === "recordings") {

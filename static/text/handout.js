@@ -9,6 +9,7 @@ export const handoutText = {
   frame: (/** @type {string} */ label, /** @type {number} */ frame) => `${label}, frame ${frame.toLocaleString("en")}`,
   restart: "Start again",
   index: "All lessons",
+  save: "Save my progress",
   missing: (/** @type {string} */ id) => `The lesson “${id}” is not in this file.`,
   zoomIn: "Zoom in",
   zoomOut: "Zoom out",

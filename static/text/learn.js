@@ -71,6 +71,18 @@ export const learnText = {
     notYet: "Not yet.",
     doneMark: "done",
   },
+  progress: {
+    save: "Save my progress",
+    saveHint: "A small file with what you answered, to hand in or to go on with elsewhere",
+    open: "Open saved progress",
+    file: "lineseg_progress.json",
+    notOne: "This file is no saved progress. It is written by “Save my progress”.",
+    read: (/** @type {number} */ lessons, /** @type {number} */ done) =>
+      `Progress in ${lessons} ${lessons === 1 ? "lesson" : "lessons"} was read; ${done} are done now.`,
+    decision: (/** @type {number} */ step) => `decision ${step + 1}`,
+    beam: (/** @type {number} */ beam) => `beam ${beam}`,
+    labelled: (/** @type {number} */ frames) => `${frames} frames labelled`,
+  },
   diagram: {
     label: "The method as blocks (Fig. 3); each leads to its lesson",
     blocks: {

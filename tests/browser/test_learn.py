@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from functools import partial
 
@@ -499,3 +500,38 @@ def test_every_lesson_has_a_task_in_these_tests():
     assert {*TASKS, "16_correctness"} == {
         path.stem for path in (data_folder("sample_scans") / "lessons").glob("*.json")
     }
+
+
+@pytest.mark.own_tab
+def test_what_was_answered_is_saved_as_a_file_and_read_back(new_tab):
+    tab = to_the_task(new_tab, "18_time")
+    for number, words in (("24", "Not yet."), ("25", "Done.")):
+        typed(number)(tab)
+        says(tab, words)
+    tab.page.get_by_role("button", name="Back to the list of lessons").click()
+    with tab.page.expect_download() as saved:
+        tab.page.get_by_role("button", name="Save my progress").click()
+    text = saved.value.path().read_text("utf-8")
+    lesson = json.loads(text)["lessons"]["18_time"]
+    assert [(each["answer"], each["right"]) for each in lesson["answers"]] == [("24 ms", False), ("25 ms", True)]
+    mark = tab.page.locator("[data-lesson='18_time'] .off-screen")
+    mark.wait_for(state="attached")
+    tab.page.evaluate("localStorage.clear()")
+    tab.page.reload()
+    tab.until("true")
+    tab.page.locator("[data-lesson='18_time']").wait_for()
+    assert mark.count() == 0
+    tab.drop("lineseg_progress.json", text)
+    tab.page.get_by_text("Progress in 1 lesson was read; 1 are done now.").wait_for()
+    mark.wait_for(state="attached")
+
+
+def test_ten_frames_labelled_in_the_lesson_give_tr_and_fr(new_tab):
+    tab = new_tab("#mode=learn&recording=sample:hallway&frame=5&lesson=16_correctness&page=3")
+    tab.page.get_by_role("button", name="Line 1, beams").click()
+    tab.page.get_by_role("button", name="One missed wall more").click()
+    for _ in range(10):
+        tab.page.get_by_role("button", name="Frame is labelled").click()
+    says(tab, "Done.")
+    tab.page.get_by_text("10 frames: TR = 97 / 98 = 99.0 %, FR = 1 / 98 = 1.0 %.").wait_for()
+    tab.page.get_by_text("By the known walls of the same frames: TR = ").wait_for()

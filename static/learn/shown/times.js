@@ -11,12 +11,12 @@ const COLOURS = ["--accent", "--failed"];
 const PAD = { left: 44, right: 6, top: 8, bottom: 18 };
 const TICKS = [1, 10, 100, 1000, 10_000, 100_000];
 
-/** @param {typeof import("../../text/shown.js").shownText.times} text @param {() => string} session */
-export function createTimes(text, session) {
+/** @param {typeof import("../../text/shown.js").shownText.times} text @param {() => string} session @param {boolean} stored whether they were measured when the page was made */
+export function createTimes(text, session, stored) {
   const canvas = h("canvas", { class: "times-canvas", role: "img", "aria-label": text.nothing });
   const table = h("table", { class: "table times-table", hidden: true });
   const says = h("p", { role: "status" });
-  const measure = h("button", { type: "button", class: "button" }, text.measure);
+  const measure = h("button", { type: "button", class: "button" }, stored ? text.stored : text.measure);
   /** @type {MethodTimes[]} */
   let times = [];
   measure.addEventListener("click", async () => {
@@ -25,9 +25,10 @@ export function createTimes(text, session) {
     const { words, trouble } = await fetchText(`/api/lessons/times?${new URLSearchParams({ session: session() })}`);
     measure.disabled = false;
     if (trouble !== null) return says.replaceChildren(trouble);
-    times = JSON.parse(words);
+    const { machine, methods } = /** @type {import("../../wire.js").TimesHere} */ (JSON.parse(words));
+    times = methods;
     const [one, other] = times;
-    says.textContent = text.says(one.method, other.method, other.mean / one.mean);
+    says.textContent = text.says(one.method, other.method, other.mean / one.mean, machine);
     canvas.setAttribute("aria-label", says.textContent);
     table.hidden = false;
     table.replaceChildren(headOf(text), ...times.map((each, k) => rowOf(each, COLOURS[k])));

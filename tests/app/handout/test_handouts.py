@@ -14,7 +14,8 @@ import pytest
 from lineseg_app.frame.findings import findings
 from lineseg_app.frame.geometry import bounds_of
 from lineseg_app.handout.bundle import script_of
-from lineseg_app.handout.handouts import frame_page, lesson_page, small_enough
+from lineseg_app.handout.content import Content
+from lineseg_app.handout.handouts import frame_page, lesson_page, shown_in, small_enough
 from lineseg_app.handout.packing import packed
 from lineseg_app.handout.page import page_of
 from lineseg_app.scene.flat import code_of, shapes_of
@@ -151,3 +152,20 @@ def test_modules_that_cannot_become_one_script_are_named(tmp_path):
     (tmp_path / "c.js").write_text("export default 3;\n")
     with pytest.raises(ValueError, match=r"c\.js: “export default 3;” cannot be put into one script"):
         script_of(tmp_path, "c.js", {})
+
+
+def test_what_texts_let_one_try_is_in_the_file():
+    asked = {
+        "15_laser": ["noise?session="],
+        "16_correctness": ["frames?session="],
+        "17_splitting": [
+            f"decisions?session=&method={method}" for method in ("iterative-end-point-fit", "split-and-merge")
+        ],
+        "18_time": ["times?session="],
+    }
+    for id, addresses in asked.items():
+        lesson = LESSONS.find(id)
+        assert lesson is not None
+        answers = shown_in(Content(LESSONS.scans_of(lesson), lesson.frame, 0), lesson)
+        assert list(answers) == [f"/api/lessons/{address}" for address in addresses]
+        assert all(json.loads(answer) for answer in answers.values())
