@@ -39,6 +39,7 @@ export class Lessons {
   /** @type {Readonly<View> | null} */ #view = null;
   /** @type {Knob[]} */ #knobs = [];
   /** @type {Map<string, Threshold>} */ #sliders = new Map();
+  /** The last of the states. @type {State | null} */ #drawn = null;
   /** Frames that were labelled in a lesson itself. */ #labelled = 0;
   /** What must have loaded before a link with ?lesson=… is opened. */
   #awaited = new Set(["lessons", "knobs"]);
@@ -222,6 +223,8 @@ export class Lessons {
       count: steps.length + 1,
       next: this.#nextWords(lesson),
     });
+    // What a link opens may have been drawn before its lesson came.
+    if (this.#drawn && isOf(lesson, this.#drawn)) this.showing.set(this.#drawn);
   }
 
   /** @param {Lesson} lesson @param {LessonStep | null} step @param {Readonly<View>} view @returns {Patch} */
@@ -273,9 +276,10 @@ export class Lessons {
   /** @param {State} state drawn, and nothing else under way @param {Trace} trace of it */
   settle(state, trace) {
     const lesson = this.#lesson;
+    this.#drawn = state;
     const labelling = lesson?.task.goal?.labelled && this.#at === lesson.steps.length;
     if (lesson && labelling) this.#checkLabels(lesson);
-    if (!lesson || state.recording !== lesson.recording || state.frame !== lesson.frame) return;
+    if (!lesson || !isOf(lesson, state)) return;
     this.showing.set(state);
     const { method, params } = this.#wanted();
     if (this.#pending && state.method === method && same(params, state.params)) {
@@ -359,6 +363,11 @@ export class Lessons {
     this.#reader.judge(solved, solved ? `${text.right} ${lesson.task.done}` : `${text.notYet} ${why}`);
     if (answer) this.#list.note(lesson, answer, solved);
   }
+}
+
+/** Whether a state shows what a lesson is about. @param {Lesson} lesson @param {State} state */
+function isOf({ recording, frame }, state) {
+  return state.recording === recording && state.frame === frame;
 }
 
 /** What a lesson changes. @param {Readonly<View>} view @returns {Patch} */

@@ -7,6 +7,7 @@ import gzip
 import hashlib
 import json
 import re
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -18,6 +19,7 @@ from lineseg_app.handout.content import Content
 from lineseg_app.handout.handouts import frame_page, lesson_page, shown_in, small_enough
 from lineseg_app.handout.packing import packed
 from lineseg_app.handout.page import page_of
+from lineseg_app.handout.sheet import sheet_page
 from lineseg_app.scene.flat import code_of, shapes_of
 from lineseg_app.scene.palette import DARK, LIGHT
 from lineseg_app.scene.picture import picture
@@ -169,3 +171,32 @@ def test_what_texts_let_one_try_is_in_the_file():
         answers = shown_in(Content(LESSONS.scans_of(lesson), lesson.frame, 0), lesson)
         assert list(answers) == [f"/api/lessons/{address}" for address in addresses]
         assert all(json.loads(answer) for answer in answers.values())
+
+
+def test_a_lesson_on_paper_has_a_picture_of_each_step_the_question_and_room(tmp_path: Path):
+    told = {
+        "title": "A <b> title",
+        "about": "A corner.",
+        "recording": "lesson:1_perfect_corner",
+        "steps": [
+            {"text": "*All* of <it>, S_num = {seed_points}.", "names": {"a & b": 60}},
+            {"text": "The seed.\n\n![A wall](wall.png)", "find": {"kind": "seed found"}},
+        ],
+        "task": {
+            "text": "How many?",
+            "hint": "Count.",
+            "done": "Yes.",
+            "choice": [{"text": "One", "right": True}, {"text": "Two"}],
+        },
+    }
+    (tmp_path / "mine.json").write_text(json.dumps(told), "utf-8")
+    (tmp_path / "wall.png").write_bytes(b"")
+    shelf = LessonShelf(tmp_path)
+    lesson = shelf.find("mine")
+    assert lesson is not None
+    page = sheet_page(shelf, lesson, lambda name: f"/picture?{name}&")
+    shelf.close()
+    assert page.count("<figure><svg") == 3
+    assert "seed found: beams" in page and "A &lt;b&gt; title" in page and "<em>All</em> of &lt;it&gt;" in page
+    assert "<i>S</i><sub>num</sub> = 6" in page and "a &amp; b" in page and 'src="/picture?wall.png&amp;"' in page
+    assert page.count('class="sheet-choice"') == 2 and page.count('class="sheet-line"') > 4
