@@ -3,7 +3,7 @@
 import { h } from "../widgets/dom.js";
 import { Beside } from "./shown/beside.js";
 import { createFits } from "./shown/fits.js";
-import { createLabelling } from "./shown/label.js";
+import { Labelling } from "./shown/label.js";
 import { createNoise } from "./shown/noise.js";
 import { createTimes } from "./shown/times.js";
 
@@ -19,7 +19,7 @@ const KINDS = {
   noise: (text, { session, knobs }) => createNoise(text.noise, session, knobs),
   times: (text, { session, stored }) => createTimes(text.times, session, stored),
   beside: (text, { session }) => new Beside(text.beside, session),
-  label: (text, { session, onLabel }) => createLabelling(text.label, session, onLabel),
+  label: (text, { session, onLabel }) => new Labelling(text.label, session, onLabel),
 };
 
 export class Showing {

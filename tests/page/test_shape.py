@@ -59,4 +59,6 @@ def test_few_files_stand_at_the_root_and_no_name_has_a_dash():
 def test_every_style_sheet_is_linked_and_none_is_twice():
     linked = re.findall(r'<link rel="stylesheet" href="/static/(.*?)"', (STATIC / "index.html").read_text("utf-8"))
     there = {path.relative_to(STATIC).as_posix() for path in STATIC.rglob("*.css")}
-    assert sorted(linked) == sorted(there - {"rerun/viewer.css", "handout/handout.css", "handout/list.css"})
+    assert sorted(linked) == sorted(
+        there - {"rerun/viewer.css", "handout/handout.css", "handout/list.css", "handout/sheet.css"}
+    )

@@ -15,128 +15,142 @@ const MOST_MISSED = 30;
 // How near to a line a click must be.
 const REACH_PX = 14;
 
-/** @param {typeof import("../../text/shown.js").shownText.label} text @param {() => string} session @param {(labelled: number) => void} onLabel */
-export function createLabelling(text, session, onLabel) {
-  /** @type {Frame[]} */
-  let frames = [];
-  /** @type {Label[]} */
-  let labels = [];
-  let [at, asked] = [0, false];
-  const canvas = h("canvas", { class: "label-canvas", role: "img" });
-  const chips = h("div", { class: "label-lines", role: "group", "aria-label": text.lines });
-  const place = h("span", { class: "muted" });
-  const missed = h("output", { class: "number" }, "0");
-  const says = h("p", { role: "status" }, text.loading);
-  const known = h("p", { class: "hint" });
-  const turn = (/** @type {number} */ by) => go(Math.min(Math.max(at + by, 0), frames.length - 1));
-  const button = (/** @type {string} */ words, /** @type {string} */ label, /** @type {() => void} */ onclick) =>
-    h("button", { type: "button", class: "button", "aria-label": label, onclick }, words);
-  const ready = h("button", { type: "button", class: "button", onclick: judged }, text.ready);
-  const [back, forth] = [button("‹", text.back, () => turn(-1)), button("›", text.forth, () => turn(1))];
-  const element = h(
-    "section",
-    { class: "shown-label", "aria-label": text.label },
-    h("div", { class: "beside-head" }, back, place, forth),
-    canvas,
-    chips,
-    h(
-      "div",
-      { class: "label-missed" },
-      text.missed,
-      button("−", text.less, () => miss(-1)),
-      missed,
-      button("+", text.more, () => miss(1)),
-      ready,
-    ),
-    says,
-    known,
-  );
-  canvas.addEventListener("click", ({ offsetX, offsetY }) => {
-    const line = frames[at] && lineAt(frames[at], [offsetX, offsetY], placeOf(frames[at], canvas));
-    if (line) toggle(line);
-  });
+export class Labelling {
+  #text;
+  #session;
+  #onLabel;
+  /** @type {Frame[]} */ #frames = [];
+  /** @type {Label[]} */ #labels = [];
+  #at = 0;
+  #asked = false;
+  #canvas = h("canvas", { class: "label-canvas", role: "img" });
+  #chips;
+  #place = h("span", { class: "muted" });
+  #missed = h("output", { class: "number" }, "0");
+  #says;
+  #known = h("p", { class: "hint" });
+  #back;
+  #forth;
+  #ready;
 
-  async function load() {
-    const { words, trouble } = await fetchText(`/api/lessons/frames?${new URLSearchParams({ session: session() })}`);
-    if (trouble !== null) return setText(says, trouble);
-    frames = JSON.parse(words);
-    labels = frames.map(() => ({ wrong: new Set(), missed: 0, done: false }));
-    return show();
+  /** @param {typeof import("../../text/shown.js").shownText.label} text @param {() => string} session @param {(labelled: number) => void} onLabel */
+  constructor(text, session, onLabel) {
+    this.#text = text;
+    this.#session = session;
+    this.#onLabel = onLabel;
+    this.#chips = h("div", { class: "label-lines", role: "group", "aria-label": text.lines });
+    this.#says = h("p", { role: "status" }, text.loading);
+    const button = (/** @type {string} */ words, /** @type {string} */ label, /** @type {() => void} */ onclick) =>
+      h("button", { type: "button", class: "button", "aria-label": label, onclick }, words);
+    this.#back = button("‹", text.back, () => this.#go(this.#at - 1));
+    this.#forth = button("›", text.forth, () => this.#go(this.#at + 1));
+    this.#ready = h("button", { type: "button", class: "button", onclick: () => this.#judged() }, text.ready);
+    const [less, more] = [button("−", text.less, () => this.#miss(-1)), button("+", text.more, () => this.#miss(1))];
+    this.element = h(
+      "section",
+      { class: "shown-label", "aria-label": text.label },
+      h("div", { class: "beside-head" }, this.#back, this.#place, this.#forth),
+      this.#canvas,
+      this.#chips,
+      h("div", { class: "label-missed" }, text.missed, less, this.#missed, more, this.#ready),
+      this.#says,
+      this.#known,
+    );
+    this.#canvas.addEventListener("click", ({ offsetX, offsetY }) => {
+      const frame = this.#frames[this.#at];
+      const line = frame && lineAt(frame, [offsetX, offsetY], placeOf(frame, this.#canvas));
+      if (line) this.#toggle(line);
+    });
+    onTheme(() => this.#draw());
+    new ResizeObserver(() => this.#draw()).observe(this.#canvas);
+  }
+
+  set() {
+    if (this.#asked) return this.#draw();
+    this.#asked = true;
+    return void this.#load();
+  }
+
+  async #load() {
+    const query = new URLSearchParams({ session: this.#session() });
+    const { words, trouble } = await fetchText(`/api/lessons/frames?${query}`);
+    if (trouble !== null) {
+      this.#asked = false;
+      return setText(this.#says, trouble);
+    }
+    this.#frames = JSON.parse(words);
+    this.#labels = this.#frames.map(() => ({ wrong: new Set(), missed: 0, done: false }));
+    return this.#show();
   }
 
   /** @param {number} to */
-  function go(to) {
-    at = to;
-    show();
+  #go(to) {
+    this.#at = Math.min(Math.max(to, 0), this.#frames.length - 1);
+    this.#show();
   }
 
   /** @param {Line} line */
-  function toggle(line) {
-    const { wrong } = labels[at];
+  #toggle(line) {
+    const { wrong } = this.#labels[this.#at];
     if (!wrong.delete(line)) wrong.add(line);
-    show();
+    this.#show();
   }
 
   /** @param {number} by */
-  function miss(by) {
-    if (!labels[at]) return;
-    labels[at].missed = Math.min(Math.max(labels[at].missed + by, 0), MOST_MISSED);
-    show();
+  #miss(by) {
+    const label = this.#labels[this.#at];
+    if (!label) return;
+    label.missed = Math.min(Math.max(label.missed + by, 0), MOST_MISSED);
+    this.#show();
   }
 
   /** This frame is labelled: on to the next that is not. */
-  function judged() {
-    if (!labels[at]) return;
-    labels[at].done = true;
-    const next = labels.findIndex((label, k) => !label.done && k > at);
-    const any = next >= 0 ? next : labels.findIndex((label) => !label.done);
-    go(any >= 0 ? any : at);
-    onLabel(labels.filter(({ done }) => done).length);
+  #judged() {
+    const labels = this.#labels;
+    if (!labels[this.#at]) return;
+    labels[this.#at].done = true;
+    const later = labels.findIndex(({ done }, k) => !done && k > this.#at);
+    const next = later >= 0 ? later : labels.findIndex(({ done }) => !done);
+    this.#go(next >= 0 ? next : this.#at);
+    this.#onLabel(labels.filter(({ done }) => done).length);
   }
 
-  function show() {
+  #show() {
+    const [text, frames, labels, at] = [this.#text, this.#frames, this.#labels, this.#at];
     const frame = frames[at];
     if (!frame) return;
     const label = labels[at];
-    setText(place, text.place(at + 1, frames.length, frame.frame, label.done));
-    setText(missed, String(label.missed));
-    back.disabled = at === 0;
-    forth.disabled = at === frames.length - 1;
-    ready.disabled = label.done && labels.every(({ done }) => done);
-    const held = chips.contains(document.activeElement)
-      ? [...chips.children].indexOf(/** @type {any} */ (document.activeElement))
-      : -1;
-    chips.replaceChildren(...frame.lines.map((line, k) => chipOf(line, k, label.wrong.has(line))));
+    setText(this.#place, text.place(at + 1, frames.length, frame.frame, label.done));
+    setText(this.#missed, String(label.missed));
+    this.#back.disabled = at === 0;
+    this.#forth.disabled = at === frames.length - 1;
+    this.#ready.disabled = labels.every(({ done }) => done);
+    const chips = this.#chips;
+    const held = [...chips.children].indexOf(/** @type {Element} */ (document.activeElement));
+    chips.replaceChildren(...frame.lines.map((line, k) => this.#chipOf(line, k, label.wrong.has(line))));
     /** @type {HTMLElement | undefined} */ (chips.children[held])?.focus();
     const done = labels.flatMap((each, k) => (each.done ? [countOf(frames[k], each)] : []));
-    setText(says, done.length ? text.says(done.length, sum(done)) : text.begin);
+    setText(this.#says, done.length ? text.says(done.length, sum(done)) : text.begin);
     const walls = frames.map((each) => each.known).filter((each) => each !== null);
-    setText(known, done.length === frames.length && walls.length === frames.length ? text.known(sum(walls)) : "");
-    draw();
+    const all = done.length === frames.length && walls.length === frames.length;
+    setText(this.#known, all ? text.known(sum(walls)) : "");
+    this.#draw();
   }
 
   /** @param {Line} line @param {number} k @param {boolean} wrong */
-  function chipOf(line, k, wrong) {
-    const words = text.line(k + 1, line.first, line.last, wrong);
+  #chipOf(line, k, wrong) {
+    const words = this.#text.line(k + 1, line.first, line.last, wrong);
     const attributes = { type: "button", class: "chip", "aria-pressed": String(wrong), "aria-label": words };
-    return h("button", { ...attributes, title: words, onclick: () => toggle(line) }, `${k + 1} ${wrong ? "✗" : "✓"}`);
+    const onclick = () => this.#toggle(line);
+    return h("button", { ...attributes, title: words, onclick }, `${k + 1} ${wrong ? "✗" : "✓"}`);
   }
 
-  function draw() {
-    if (frames[at] && canvas.isConnected) paint(canvas, frames[at], labels[at].wrong);
-    canvas.setAttribute("aria-label", text.picture(frames[at]?.frame ?? 0));
+  #draw() {
+    const frame = this.#frames[this.#at];
+    if (!frame || !this.#canvas.isConnected) return;
+    paint(this.#canvas, frame, this.#labels[this.#at].wrong);
+    this.#canvas.setAttribute("aria-label", this.#text.picture(frame.frame));
   }
-
-  onTheme(draw);
-  new ResizeObserver(draw).observe(canvas);
-  return {
-    element,
-    set() {
-      if (asked) return draw();
-      asked = true;
-      return void load();
-    },
-  };
 }
 
 /** @typedef {{true: number, found: number, matched: number}} Counted */
