@@ -62,6 +62,13 @@ class LaserScan(IdlStruct, typename="sensor_msgs::msg::dds_::LaserScan_"):
 
 
 @dataclass
+class OtherScan(IdlStruct, typename="sensor_msgs::msg::dds_::LaserScan_"):
+    ranges: sequence[float32]
+    angle_min: float64
+    header: Header
+
+
+@dataclass
 class String(IdlStruct, typename="std_msgs::msg::dds_::String_"):
     data: str
 
@@ -170,7 +177,7 @@ class PointCloud2(IdlStruct, typename="sensor_msgs::msg::dds_::PointCloud2_"):
     is_dense: bool
 
 
-TYPES = {each.__name__: each for each in (LaserScan, String, MarkerArray, PointCloud2)}
+TYPES = {each.__name__: each for each in (LaserScan, OtherScan, String, MarkerArray, PointCloud2)}
 
 
 # --- the program ------------------------------------------------------------------------------------------------------

@@ -39,6 +39,8 @@ MATCH_SECONDS = 1.0
 LEAVE_SECONDS = 1.0
 POLICIES = {2: "durability", 4: "deadline", 5: "latency budget", 6: "ownership", 8: "liveliness", 10: "partition",
             11: "reliability", 12: "destination order", 23: "data representation"}  # fmt: skip
+# Its definition, rather than a quality of service.
+TYPE_CONSISTENCY = 24
 ENCODED = Policy.DataRepresentation(use_cdrv0_representation=True)
 EITHER = Policy.DataRepresentation(use_cdrv0_representation=True, use_xcdrv2_representation=True)
 # Kept for those who come late: a reader of any kind can take it.
@@ -220,7 +222,7 @@ def _asked(offers: list[DdsOffer]) -> Qos:
 
 def _why_no_match(topic: str, reader: DataReader[Any]) -> str:
     status = reader.get_requested_incompatible_qos_status()
-    if status is not None and status.total_count:
+    if status is not None and status.total_count and status.last_policy_id != TYPE_CONSISTENCY:
         policy = POLICIES.get(status.last_policy_id, f"policy {status.last_policy_id}")
         return f"{topic} is published, but its {policy} does not fit; give it the usual QoS of sensor data"
     return f"{topic} is published, but with another definition of sensor_msgs/LaserScan, or in another partition"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 import json
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from typing import Any, TypeVar
 from xml.parsers import expat
 
@@ -14,6 +14,8 @@ from ..knobs import Thresholds
 from ..params import Params
 
 MOST_CHARACTERS = 1 << 20
+# Its parser, in Python, takes about a second for so many.
+MOST_YAML = 1 << 17
 ALIAS = re.compile(r"(?:^|[\s\[{,:])\*\w", re.MULTILINE)
 CALL = re.compile(r"^[^#\n]*Params\(", re.MULTILINE)
 COMMENT = re.compile(r"(?:^|(?<=\s))#.*")
@@ -50,10 +52,10 @@ def given_params(text: str, kind: type[Thresholds] = Params) -> dict[str, int | 
 
 def _read(text: str, start: str, kind: type[Thresholds]) -> dict[str, int | float]:
     known = {alias: name for name, _, knob in kind.knobs() for alias in (name, knob.ros) if alias}
-    found = list(_finder(text, start)(text.removeprefix("\ufeff"), known))
-    if not found:
+    values = _values(_finder(text, start)(text.removeprefix("\ufeff"), known), kind, known)
+    if not values:
         raise ValueError(f"there is no threshold in the text; give some of {_names(kind)}.")
-    return _values(found, kind, known)
+    return values
 
 
 def _finder(text: str, start: str) -> Callable[[str, Known], Iterator[Found]]:
@@ -64,7 +66,8 @@ def _finder(text: str, start: str) -> Callable[[str, Known], Iterator[Found]]:
     return _in_flags if re.search(r"(?<!\S)--[a-z]", COMMENT.sub("", text)) else _in_yaml
 
 
-def _values(found: list[Found], kind: type[Thresholds], known: Known) -> dict[str, int | float]:
+def _values(found: Iterable[Found], kind: type[Thresholds], known: Known) -> dict[str, int | float]:
+    """Raises ValueError for the first that cannot be, and looks no further: finding the line of each takes long."""
     values: dict[str, int | float] = {}
     for written, value, line in found:
         where = f"line {line}: " if line else ""
@@ -131,6 +134,8 @@ def _in_yaml(text: str, known: Known) -> Iterator[Found]:
     from ruamel.yaml import YAML
     from ruamel.yaml.error import MarkedYAMLError, YAMLError
 
+    if len(text) > MOST_YAML:
+        raise ValueError(f"this YAML has {len(text)} characters; with thresholds it has at most {MOST_YAML}.")
     if alias := ALIAS.search(text):
         raise ValueError(
             f"line {text.count(chr(10), 0, alias.start()) + 1}: aliases are not allowed; write the value out."

@@ -148,6 +148,7 @@ def test_a_whole_command_line_is_read():
         ("<launch>", "line 1: this is not a launch file"),
         ("<launch/>", "there is no threshold in the text"),
         ('<!DOCTYPE a [<!ENTITY b "c">]>\n<launch/>', "line 1: a document type is not allowed"),
+        ("".join(f"k{number}: 1\n" for number in range(20_000)), "this YAML has 1[0-9]+ characters; .* at most 131072"),
         ("x" * (1 << 21), "the text has 2097152 characters"),
         ("[" * 100_000, "this is not YAML|line 1"),
         ('{"a":' * 100_000, "this is not JSON"),

@@ -157,6 +157,12 @@ def test_a_quality_of_service_that_does_not_fit_is_told(peer: Obedient, topic: s
         said(told, f"{topic} is published, but its ownership does not fit")
 
 
+def test_another_definition_of_the_type_is_told(peer: Obedient, topic: str):
+    with running(Address(f"ros2:{topic}"), topic) as told:
+        peer.ask("open", topic=topic, kind="OtherScan", write=True)
+        said(told, f"{topic} is published, but with another definition of sensor_msgs/LaserScan")
+
+
 def test_a_publisher_may_die_and_return(peer: Obedient, topic: str):
     other = Obedient(dds_peer.start())
     with running(Address(f"ros2:{topic}"), topic) as told:
