@@ -1,4 +1,4 @@
-"""Estimates the noise of a laser from its scans: how much ranges scatter, and how much walls deviate from straight.
+"""Estimates the noise of a laser from its scans: how much ranges scatter about walls.
 
 Along a straight line 1/ρ = a·cos φ + b·sin φ, which is linear in the ray u of the beam. So for three beams with the
 rays u₁, u₂, u₃ on one wall, at whatever angle they meet it,
@@ -6,9 +6,8 @@ rays u₁, u₂, u₃ on one wall, at whatever angle they meet it,
     e = [u₂u₃]/ρ₁ − [u₁u₃]/ρ₂ + [u₁u₂]/ρ₃ = 0,
 
 with [uv] the cross product. If ranges have the standard deviation σ, e has the variance σ²·Σ (wᵢ/ρᵢ²)², where w are the
-three cross products; so e divided by the root of that sum has the standard deviation σ. For neighbouring beams this is
-the white part of the noise, because a wall bends little within three beams. For beams that hit the wall some length
-apart it also contains the wall's deviation from straight over that length.
+three cross products; so e divided by the root of that sum has the standard deviation σ. This is the white part of the
+noise, because a wall bends little within three neighbouring beams. Its line tells how much it bends (`propose`).
 
 A mixture model separates walls from edges, corners and clutter: measurements on walls have a known distribution with
 one unknown scale, and everything else lies above it (Dempster, Laird, Rubin: *Maximum likelihood from incomplete
@@ -39,18 +38,12 @@ LEAST = 40
 TRUSTED = 0.2
 # No laser scatters by more [m]; a bin above this holds no walls.
 MOST = 0.3
-# Lengths over which walls are examined [m], the number of scans, and the step between starting beams.
-LENGTHS = (0.3, 0.6, 1.0)
+# The number of scans that are looked at.
 FRAMES = 300
-ROUGH_FRAMES = 30
-ROUGH_STRIDE = 3
-ROUGH_TRUSTED = 0.4
 # Quantiles of the values at which the search for their scale starts.
 STARTS = (0.2, 0.5, 0.8)
 # Width of the cells in which values are counted: a twentieth of the scale.
 GRAIN = 0.05
-# What deviates by more [m] is not a wall.
-MOST_ROUGH = 0.05
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,8 +53,6 @@ class RangeNoise:
     edges: (bins + 1,) of the ranges [m]; sigma: (bins,) standard deviation of a range in each bin [m], NaN if unknown;
     walls: (bins,) share of what was measured there that lies on walls; windows: (bins,) number of measurements.
     base [m], growth: σ² = base² + (growth·ρ)² through these.
-    lengths: (lengths,) [m]; rough: (lengths,) standard deviation of a wall from straight over each length [m], without
-    the white part; NaN if unknown.
     """
 
     edges: Floats
@@ -70,8 +61,6 @@ class RangeNoise:
     windows: NDArray[np.int64]
     base: float
     growth: float
-    lengths: Floats
-    rough: Floats
 
     def at(self, ranges: Floats | float) -> Floats:
         """σ at these ranges [m]; NaN if the recording does not show its noise."""
@@ -82,11 +71,6 @@ class RangeNoise:
         """Whether the scans show their noise at all."""
         return math.isfinite(self.base)
 
-    @property
-    def roughness(self) -> float:
-        """The largest of `rough` [m]; 0 if unknown."""
-        return float(np.nanmax(self.rough)) if np.isfinite(self.rough).any() else 0.0
-
 
 def noise(recording: Recording) -> RangeNoise:
     """The noise of a recording, from up to 300 of its scans, evenly spread.
@@ -96,8 +80,7 @@ def noise(recording: Recording) -> RangeNoise:
     ranges, departures = _neighbouring(recording)
     edges, sigma, walls, windows = _by_range(ranges, departures)
     base, growth = _law(edges, sigma, windows)
-    rough = _credible(np.array([_rough(recording, length, base, growth) for length in LENGTHS]))
-    return RangeNoise(edges, sigma, walls, windows, base, growth, np.array(LENGTHS), rough)
+    return RangeNoise(edges, sigma, walls, windows, base, growth)
 
 
 def _spread(recording: Recording, most: int) -> list[int]:
@@ -166,23 +149,22 @@ def _by_range(ranges: Floats, departures: Floats) -> tuple[Floats, Floats, Float
     return edges, sigma, walls, np.array([len(part) for part in parts])
 
 
-def _scale(values: Floats, dof: float, least: float = 0.0) -> tuple[float, float]:
-    """The scale of those values (n,) > 0 that lie on walls, not below `least`, and their share.
+def _scale(values: Floats, dof: float) -> tuple[float, float]:
+    """The scale of those values (n,) > 0 that lie on walls, and their share.
 
     A value on a wall is scale·√(χ²/dof) with `dof` degrees of freedom; another may have any size above the scale, each
     order of magnitude as likely as the next. The likelihood has several maxima; the highest of those found counts.
     """
-    logs, lowest = np.log(values), math.log(least) if least else -math.inf
-    starts = np.maximum(np.quantile(logs, STARTS), lowest)
+    logs = np.log(values)
     places = np.linspace(float(logs.min()), top := float(logs.max()), max(math.ceil(np.ptp(logs) / GRAIN), 1) + 1)
     counts, _ = np.histogram(logs, places)
     cells = (places[:-1] + places[1:]) / 2
-    _, log_scale, share = max(_mixture(cells, counts, dof, top, lowest, start) for start in starts.tolist())
+    _, log_scale, share = max(_mixture(cells, counts, dof, top, start) for start in np.quantile(logs, STARTS).tolist())
     return math.exp(log_scale), share
 
 
 def _mixture(
-    logs: Floats, counts: NDArray[np.int64], dof: float, top: float, lowest: float, log_scale: float
+    logs: Floats, counts: NDArray[np.int64], dof: float, top: float, log_scale: float
 ) -> tuple[float, float, float]:
     """(log-likelihood, log of the scale, share on walls) of counted logarithms, from one start of the search."""
     share, half, likelihood = 0.5, dof / 2, -math.inf
@@ -195,7 +177,7 @@ def _mixture(
         weight = counts * on_wall / (on_wall + elsewhere)
         share = float(weight.sum() / counts.sum())
         mean = float(weight @ np.exp(2 * logs)) / float(weight.sum())
-        before, log_scale = log_scale, max(0.5 * math.log(mean), lowest)
+        before, log_scale = log_scale, 0.5 * math.log(mean)
         if abs(log_scale - before) < 1e-4:
             break
     return likelihood, log_scale, share
@@ -215,62 +197,3 @@ def _law(edges: Floats, sigma: Floats, windows: NDArray[np.int64]) -> tuple[floa
         value = float(rows[:, only] @ goal / (rows[:, only] @ rows[:, only]))
         constant, slope = (value, 0.0) if only == 0 else (0.0, value)
     return math.sqrt(constant), math.sqrt(slope)
-
-
-def _rough(recording: Recording, length: float, base: float, growth: float) -> float:
-    """How much walls deviate from straight over a length [m], beyond the white noise."""
-    if not math.isfinite(base):
-        return math.nan
-    found = []
-    for frame in _spread(recording, ROUGH_FRAMES):
-        scan = recording[frame]
-        beams = np.flatnonzero(scan.valid)
-        ranges, rays = scan.ranges[beams].astype(np.float64), np.ascontiguousarray(scan.rays[:, beams])
-        out = np.empty((2, len(beams) // ROUGH_STRIDE + 1))
-        used = departures_over(ranges, rays, length, ROUGH_STRIDE, out)
-        found.append(out[:, :used])
-    ranges, values = np.hstack(found) if found else np.empty((2, 0))
-    if np.count_nonzero(values) < LEAST:
-        return math.nan
-    white = np.hypot(base, growth * ranges)[values != 0.0]
-    # A wall deviates by its white noise at the least: without this bound, the fit may end at a few values near 0.
-    scale, share = _scale(np.abs(values[values != 0.0]) / white, 1.0, least=1.0)
-    return float(np.median(white)) * math.sqrt(scale**2 - 1.0) if share >= ROUGH_TRUSTED else math.nan
-
-
-def _credible(rough: Floats) -> Floats:
-    """(lengths,) limited to what a wall can do: its deviation grows with length, at most in proportion.
-
-    Anything that grows faster is clutter within the white noise of a wall. So is everything if what lies some length
-    apart deviates more than walls do, or if only one length shows a deviation.
-    """
-    kept = rough.copy()
-    if np.nanmax(rough, initial=0.0) > MOST_ROUGH:
-        return np.full_like(rough, math.nan)
-    for k in range(1, len(kept)):
-        kept[k] = min(kept[k], kept[k - 1] * LENGTHS[k] / LENGTHS[k - 1])
-    return kept if np.isfinite(kept).sum() > 1 else np.full_like(kept, math.nan)
-
-
-@entry_kernel
-def departures_over(ranges, rays, length, stride, out):
-    """(range, e) of points and the two that lie `length` to its sides on a straight way: their number."""
-    used = before = after = 0
-    for k in range(0, len(ranges), stride):
-        while before < k and apart(ranges, rays, before + 1, k) >= length:
-            before += 1
-        after = max(after, k)
-        while after < len(ranges) - 1 and apart(ranges, rays, k, after) < length:
-            after += 1
-        left, right = apart(ranges, rays, before, k), apart(ranges, rays, k, after)
-        around = min(left, right) >= length and max(left, right) < 1.3 * length
-        if around and k - before > 2 and after - k > 2 and apart(ranges, rays, before, after) > 0.95 * (left + right):
-            out[0, used], out[1, used] = ranges[k], departure(ranges, rays, before, k, after)
-            used += 1
-    return used
-
-
-@kernel
-def apart(ranges, rays, i, k):
-    """The distance of two points [m]."""
-    return math.hypot(ranges[i] * rays[0, i] - ranges[k] * rays[0, k], ranges[i] * rays[1, i] - ranges[k] * rays[1, k])

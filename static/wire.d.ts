@@ -1024,16 +1024,15 @@ export interface Tuned {
 /**
  * How ranges scatter. edges: of bins of the range [m]; sigma: standard deviation in each bin [m], null if unknown.
  *
- * base [m], growth: σ² = base² + (growth·ρ)² through these. rough: how much walls deviate from straight over a
- * length of roughOver [m].
+ * base [m], growth: σ² = base² + (growth·ρ)² through these. bend: how much walls deviate from straight [m], null if
+ * unknown.
  */
 export interface Noise {
   edges: number[];
   sigma: (number | null)[];
   base: number;
   growth: number;
-  rough: number;
-  roughOver: number;
+  bend: number | null;
 }
 
 /**

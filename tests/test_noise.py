@@ -9,6 +9,8 @@ from lineseg.noise import noise
 from lineseg.scan import Recording, Scan
 from lineseg.simulate.laser import UTM_30LX, drive, record
 from lineseg.simulate.world import World, box, chair, circle, room
+from lineseg.simulate.worlds import WORLDS
+from lineseg.tuning.proposal import propose
 
 FRAMES = 24
 
@@ -66,9 +68,14 @@ def bent_walls(recording, depth, over):
 def test_walls_that_are_not_straight_are_told_from_the_noise_of_the_laser():
     straight = drive_with(room([(0, 0), (8, 0), (8, 6), (0, 6)]), sigma=0.005)
     bent = bent_walls(straight, depth=0.02, over=2.0)
-    assert noise(straight).roughness < 0.004
+    assert propose(straight).bend < 0.004
     assert noise(bent).at(2.5) == pytest.approx(0.005, rel=0.2)
-    assert 0.006 < noise(bent).roughness < 0.05
+    assert 0.006 < propose(bent).bend < 0.02
+
+
+@pytest.mark.parametrize("name", ["office", "corridor"])
+def test_doors_in_their_frames_do_not_make_walls_bend(name):
+    assert propose(WORLDS[name].recording(name, FRAMES)).bend < 0.006
 
 
 def scans_of(*ranges):
@@ -88,4 +95,3 @@ def test_without_a_straight_wall_the_noise_is_unknown(recording):
     found = noise(recording)
     assert not found.known
     assert np.isnan(found.at(2.0))
-    assert found.roughness == 0.0

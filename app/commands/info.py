@@ -8,10 +8,9 @@ from pathlib import Path
 import numpy as np
 from tyro.conf import OmitArgPrefixes, Positional
 
-from lineseg.noise import RangeNoise
 from lineseg.poses import said_of
 from lineseg.scan import Recording, are_valid
-from lineseg.tuning.proposal import propose
+from lineseg.tuning.proposal import Proposal, propose
 
 from .flag_types import Files
 from .progress import open_with_progress
@@ -72,7 +71,7 @@ def _facts(recording: Recording) -> Iterator[tuple[str, object]]:
         yield "duration", f"{np.ptp(recording.stamps):.3f} s"
     yield "poses", said_of(recording.poses, recording.pose_source)
     found = propose(recording)
-    yield "noise", _noise(found.noise, longest)
+    yield "noise", _noise(found, longest)
     yield "thresholds", found.text or "The defaults fit this recording."
 
 
@@ -110,7 +109,8 @@ def _returns(recording: Recording) -> tuple[int, list[float]]:
     return number, longest
 
 
-def _noise(noise: RangeNoise, longest: list[float]) -> str:
+def _noise(found: Proposal, longest: list[float]) -> str:
+    noise = found.noise
     if not noise.known:
         return "unknown, because no straight wall was found"
     near, far = noise.at(1.0), noise.at(np.median(longest))
@@ -119,7 +119,6 @@ def _noise(noise: RangeNoise, longest: list[float]) -> str:
     text = f"{1e3 * near:.0f} mm"
     if far > 1.2 * near:
         text += f" at 1 m, {1e3 * far:.0f} mm at {np.median(longest):.0f} m"
-    if noise.roughness > 0.5 * near:
-        length = noise.lengths[np.nanargmax(noise.rough)]
-        text += f"; walls deviate from a straight line by {1e3 * noise.roughness:.0f} mm over {length:g} m"
+    if found.bend > 0.5 * near:
+        text += f"; walls deviate from a straight line by {1e3 * found.bend:.0f} mm more"
     return text

@@ -234,16 +234,15 @@ class Tuned(TypedDict, total=False):
 class Noise(TypedDict):
     """How ranges scatter. edges: of bins of the range [m]; sigma: standard deviation in each bin [m], null if unknown.
 
-    base [m], growth: σ² = base² + (growth·ρ)² through these. rough: how much walls deviate from straight over a length
-    of roughOver [m].
+    base [m], growth: σ² = base² + (growth·ρ)² through these. bend: how much walls deviate from straight [m], null
+    if unknown.
     """
 
     edges: list[float]
     sigma: list[float | None]
     base: float
     growth: float
-    rough: float
-    roughOver: float
+    bend: float | None
 
 
 class Fitted(TypedDict, total=False):

@@ -29,7 +29,7 @@ def fit(recording: Recording, params: Thresholds, method: str, stop: NDArray[np.
         "better": found.changed,
         "text": found.text,
         "scatter": _number(found.scatter),
-        "noise": _told(known),
+        "noise": _told(known, found.bend),
     }
 
 
@@ -43,7 +43,7 @@ def _changes(params: Thresholds, found: Proposal) -> dict[str, int | float]:
     return {name: values[name] for name in dict.fromkeys([*follows, *(n for n in values if values[n] != present[n])])}
 
 
-def _told(found: RangeNoise) -> Noise | None:
+def _told(found: RangeNoise, bend: float) -> Noise | None:
     if not found.known:
         return None
     return {
@@ -51,8 +51,7 @@ def _told(found: RangeNoise) -> Noise | None:
         "sigma": [_number(sigma) for sigma in found.sigma.tolist()],
         "base": float(f"{found.base:.4g}"),
         "growth": float(f"{found.growth:.4g}"),
-        "rough": float(f"{found.roughness:.4g}"),
-        "roughOver": float(found.lengths[np.nanargmax(found.rough)]) if found.roughness else 0.0,
+        "bend": _number(bend),
     }
 
 

@@ -12,12 +12,11 @@ from numpy.typing import NDArray
 
 from ..extractors import EXTRACTORS, Extractor
 from ..knobs import Thresholds
-from ..noise import noise
 from ..params import Params
 from ..scan import Recording
 from ..truth import Agreement
 from ..tuning.objective import Objective
-from ..tuning.proposal import scaled
+from ..tuning.proposal import propose, scaled
 from .halves import Halves, Judge, halves
 from .search import WISHES, search, tunable
 from .timing import Timed, times_of
@@ -73,12 +72,9 @@ def score_of(agreement: Agreement, neutral: bool = False) -> float:
 
 def laser_of(recording: Recording) -> str:
     """The laser of a recording in a few words: its beams, its field of view, and how much its points scatter."""
-    scan, found = recording[0], noise(recording)
+    scan, found = recording[0], propose(recording)
     beams = f"{len(scan)} beams over {np.degrees(np.ptp(scan.bearings)):.0f}°"
-    if not found.known or not scan.valid.any():
-        return beams
-    scatter = math.hypot(float(found.at(float(np.median(scan.ranges[scan.valid])))), found.roughness)
-    return f"{beams}, points scatter by {1000 * scatter:.0f} mm"
+    return f"{beams}, points scatter by {1000 * found.scatter:.0f} mm" if found.fitting else beams
 
 
 class Comparison:

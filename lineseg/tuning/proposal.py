@@ -69,9 +69,10 @@ class Proposal:
 
     params: the proposed ones, or the present ones if these are as good or if nothing can be proposed. changed: whether
     they differ. fitting: those that fit best, also if the present ones are as good; None if nothing can be proposed.
-    scatter: standard deviation of points from their walls [m]. pieces: number of segments into which a wall breaks at
-    the present values, on average. tried: (k,) values of ε, or of the method's counterpart [m]; steady: (k,) score of
-    the lines there, with the lines at 1.4 times that value as the truth, 0 to 1.
+    scatter: standard deviation of points at the median range from a wall that faces the laser [m]; bend: the part of it
+    that the noise of the ranges does not explain, because walls are not straight; NaN if unknown. pieces: number of segments into which a
+    wall breaks at the present values, on average. tried: (k,) values of ε, or of the method's counterpart [m]; steady:
+    (k,) score of the lines there, with the lines at 1.4 times that value as the truth, 0 to 1.
     text: what is proposed, or why nothing can be; "" if the present values are as good.
     """
 
@@ -80,6 +81,7 @@ class Proposal:
     fitting: Thresholds | None
     noise: RangeNoise
     scatter: float
+    bend: float
     pieces: float
     tried: Floats
     steady: Floats
@@ -147,7 +149,7 @@ class _Search:
         ranges = np.concatenate([scan.ranges[scan.valid] for scan in self._scans]) if self._scans else np.empty(0)
         self._middle, self._far = np.percentile(ranges, (50, 95)).tolist() if len(ranges) else (math.nan, math.nan)
         self._white, self._growth = float(self.noise.at(self._middle)), 0.0
-        self.scatter = math.hypot(self._white, self.noise.roughness)
+        self.scatter = self._white
 
     def why_not(self) -> str:
         """Why nothing can be proposed, in a sentence; "" if something can."""
@@ -172,7 +174,8 @@ class _Search:
         return scaled(present, scale).but(**rises)
 
     def nothing(self, why: str) -> Proposal:
-        return Proposal(self.present, False, None, self.noise, self.scatter, math.nan, np.empty(0), np.empty(0), why)
+        nan = math.nan
+        return Proposal(self.present, False, None, self.noise, self.scatter, nan, nan, np.empty(0), np.empty(0), why)
 
     def judged(self) -> Proposal:
         suits = self._suiting()
@@ -193,7 +196,9 @@ class _Search:
         around = [self._extracted(rescaled(proposed, factor)) for factor in BESIDE]
         lacking = np.mean([_agreement(found, other) - _agreement(present, other) for other in around])
         pieces = _pieces(present, found)
-        answer = replace(self.nothing(""), fitting=proposed, pieces=pieces, tried=tried, steady=steady)
+        bend = self._bend(found)
+        self.scatter = math.hypot(self._white, bend)
+        answer = replace(self.nothing(""), fitting=proposed, bend=bend, pieces=pieces, tried=tried, steady=steady)
         if lacking <= AS_GOOD:
             return answer
         return replace(answer, params=proposed, changed=True, text=self._text(proposed, pieces))
@@ -203,6 +208,20 @@ class _Search:
         walls = np.minimum.accumulate(scatter <= max(math.hypot(self._white, BEND), scatter[0]))
         worth = WORTH * max(suits / SHARE_AT, 1.0) ** 2
         return int(np.argmax((steady - worth * np.log(scatter / scatter[0]))[walls]))
+
+    def _bend(self, found: list[Extraction]) -> float:
+        """The rms distance of points from their lines that the noise of the ranges does not explain [m], by length."""
+        beyond = lengths = 0.0
+        for scan, one in zip(self._scans, found, strict=True):
+            for number, line in enumerate(one.segments):
+                ranges = scan.ranges[one.labels == number].astype(np.float64)
+                if not len(ranges):
+                    continue
+                # A range that is wrong by 1 moves its point by the cosine of its incidence away from the line.
+                white = self.noise.at(ranges) * np.abs(line.line[2]) / ranges
+                beyond += line.length * (line.rms**2 - float(np.mean(white**2)))
+                lengths += line.length
+        return math.sqrt(max(beyond / lengths, 0.0)) if lengths else math.nan
 
     def _suiting(self) -> float:
         """The ε [m] that suits the scatter, which also tells whether ε grows with the range; NaN if it is too large."""

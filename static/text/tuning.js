@@ -30,8 +30,7 @@ export const tuningText = {
     m: (/** @type {number} */ metres) => `${metres < 10 ? metres.toFixed(1) : metres.toFixed(0)} m`,
     noise: (/** @type {string} */ near, /** @type {string} */ far, /** @type {string} */ reach) =>
       `Standard deviation of a range: ${near} at 1 m, ${far} at ${reach}.`,
-    rough: (/** @type {string} */ rough, /** @type {string} */ over) =>
-      `Pale: with the walls’ own deviation from straight, ${rough} over ${over}.`,
+    bend: (/** @type {string} */ value) => `Pale: with the walls’ own deviation from their lines, ${value}.`,
     limit: (/** @type {string} */ symbol, /** @type {string} */ value) => `Dashed: ${symbol}, now ${value}.`,
     proposed: (/** @type {string} */ value) => `Solid: what fits, ${value}.`,
   },

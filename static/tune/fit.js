@@ -93,11 +93,11 @@ export class Fit {
     const better = this.#better;
     const knob = this.#knobs.find(({ name }) => name === Object.keys(fits ?? {})[0]);
     if (!noise || !fits || !knob) return;
-    const { mm, m, noise: scatter, rough, limit, proposed } = this.#text;
+    const { mm, m, noise: scatter, bend, limit, proposed } = this.#text;
     const reach = reachOf(noise);
     const [now, then] = [this.#params, { ...this.#params, ...fits }].map((params) => limitAt(knob.name, params, reach));
     const parts = [scatter(mm(sigmaAt(noise, 1)), mm(sigmaAt(noise, reach)), m(reach))];
-    if (noise.rough) parts.push(rough(mm(noise.rough), m(noise.roughOver)));
+    if (noise.bend) parts.push(bend(mm(noise.bend)));
     parts.push(limit(knob.symbol.replace("_", " "), mm(now)));
     if (better) parts.push(proposed(mm(then)));
     this.#picture.set({ noise, knob, params: this.#params, fits: better ? fits : null }, parts.join("\n"));

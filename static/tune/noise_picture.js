@@ -39,7 +39,7 @@ export function createNoisePicture(text) {
 /** @param {Drawn} drawn @param {typeof import("../text/tuning.js").tuningText.fit} text */
 function shapes({ noise, knob, params, fits }, text) {
   const reach = reachOf(noise);
-  const total = (/** @type {number} */ range) => Math.hypot(sigmaAt(noise, range), noise.rough);
+  const total = (/** @type {number} */ range) => Math.hypot(sigmaAt(noise, range), noise.bend ?? 0);
   const limit = (/** @type {number} */ range) => limitAt(knob.name, params, range);
   const fit = (/** @type {number} */ range) => limitAt(knob.name, { ...params, ...fits }, range);
   const top = roundUp(1.12 * Math.max(total(reach), limit(reach), fit(reach)));
