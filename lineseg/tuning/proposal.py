@@ -70,9 +70,9 @@ class Proposal:
     params: the proposed ones, or the present ones if these are as good or if nothing can be proposed. changed: whether
     they differ. fitting: those that fit best, also if the present ones are as good; None if nothing can be proposed.
     scatter: standard deviation of points at the median range from a wall that faces the laser [m]; bend: the part of it
-    that the noise of the ranges does not explain, because walls are not straight; NaN if unknown. pieces: number of segments into which a
-    wall breaks at the present values, on average. tried: (k,) values of ε, or of the method's counterpart [m]; steady:
-    (k,) score of the lines there, with the lines at 1.4 times that value as the truth, 0 to 1.
+    that the noise of the ranges does not explain, because walls are not straight; NaN if unknown. pieces: number of
+    segments into which a wall breaks at the present values, on average. tried: (k,) values of ε, or of the method's
+    counterpart [m]; steady: (k,) score of the lines there, with the lines at 1.4 times that value as the truth, 0 to 1.
     text: what is proposed, or why nothing can be; "" if the present values are as good.
     """
 
