@@ -83,7 +83,8 @@ def _agreements(recording: Recording, params: Thresholds, method: str, truth: Pa
     known = () if truth is None else _labelled(truth, recording)
     if truth is None and recording.wall is None:
         raise ValueError(
-            f"{recording.name} has no truth; give a file of labels with --truth, or use an NPZ with `wall`."
+            f"{recording.name} has no truth; give a file of labels with --truth, or an NPZ with `wall`; "
+            "for scans with poses, `lineseg truth` makes one."
         )
     found = counted(agreements(recording, params, method, *known), len(recording), "score")
     return {recording.number(frame): each for frame, each in enumerate(found) if each is not None}

@@ -15,7 +15,8 @@ from .cells import cells_of
 from .checks import check, trust
 from .growing import Walls, grown_walls
 from .labelling import nearest_walls
-from .merging import merged_walls, without_shadows
+from .merging import merged_walls, pieces_of, without_shadows
+from .openings import divided_at_openings
 from .profiles import is_even, is_straight, profiles_of, stretches_of
 from .refining import refined
 from .returns import Returns, views_of
@@ -25,10 +26,15 @@ LEAST_VIEWS = 3
 # Side of the squares in which the views of a place are counted [m].
 PLACE = 0.20
 # Points lie within so many standard deviations of their wall; bounds of that distance [m].
-DEVIATIONS, NEAREST, FARTHEST = 4.0, 0.06, 0.10
+DEVIATIONS, NEAREST, FARTHEST = 3.0, 0.06, 0.10
+# Where a wall bends, its surface is at most this far from its line [m].
+BENT = 0.12
 # A curve that is shorter is a pillar or the like [m].
 LONG = 1.0
 ROUNDS = 3
+# Of a longer recording, so many returns make the walls; then each return gets its wall.
+MOST_RETURNS = 1_500_000
+# Squares of one surface follow each other within this distance, and so do pieces of one wall [m].
 BAND = 0.04
 
 Floats = NDArray[np.float64]
@@ -83,27 +89,36 @@ def truth_by_many_views(recording: Recording, progress: Progress | None = None) 
     given = np.ascontiguousarray(given[returns.frames])
     scan, views = returns.scan, views_of(given)
     poses, before = given, np.nan
+    placed = returns.in_world(poses)
     say(1, ROUNDS + 2)
+    walls, wall_of = walls_of(placed, scan, poses, views)
+    height = np.empty(0, np.float32)
     for turn in range(ROUNDS):
-        placed = returns.in_world(poses)
-        walls = walls_of(placed, scan, poses, views)
+        if turn:
+            placed = returns.in_world(poses)
+            walls, wall_of = walls_of(placed, scan, poses, views)
         _, height = nearest_walls(placed, scan, poses, walls, FARTHEST)
         thickness = _rms(height)
         before = thickness if turn == 0 else before
         say(turn + 2, ROUNDS + 2)
         if turn < ROUNDS - 1:
             poses = refined(returns, given, poses, walls, 0.20 / (turn + 1), max(thickness, 0.01))
-    wall = labels_of(placed, scan, poses, views, walls)
-    return _result(recording, returns, given, poses, walls, wall, height, before)
+    piece = labels_of(placed, scan, poses, views, walls)
+    wall_of = divided_at_openings(walls, wall_of, placed, scan, poses)
+    wall = np.where(piece >= 0, wall_of[piece] if len(wall_of) else -1, piece).astype(np.int32)
+    return _result(recording, returns, given, poses, ends_of(walls, wall_of, piece), wall, height, before)
 
 
-def walls_of(placed: NDArray[np.float32], scan: NDArray[np.int32], poses: Floats, views: NDArray[np.int64]) -> Walls:
-    """The walls in the points (n, 2) of all scans in the world."""
-    cells = cells_of(placed, scan, poses, views, 1)
+def walls_of(
+    placed: NDArray[np.float32], scan: NDArray[np.int32], poses: Floats, views: NDArray[np.int64]
+) -> tuple[Walls, NDArray[np.int64]]:
+    """The uninterrupted pieces of walls in the points (n, 2) of all scans in the world, and the wall of each piece."""
+    every = -(-len(placed) // MOST_RETURNS)
+    cells = cells_of(placed[::every], scan[::every], poses, views, 1)
     walls, owner = grown_walls(cells, BAND)
     walls, owner = without_shadows(cells, walls, owner)
     walls, owner = merged_walls(cells, walls, owner, BAND)
-    return without_shadows(cells, walls, owner)[0]
+    return pieces_of(cells, *without_shadows(cells, walls, owner))
 
 
 def labels_of(
@@ -111,33 +126,54 @@ def labels_of(
 ) -> NDArray[np.int32]:
     """(n,) the wall of each return, −1 for none, UNKNOWN where fewer than LEAST_VIEWS views saw the place.
 
-    Long curves and rough surfaces are UNKNOWN too: whoever finds lines there is neither right nor wrong.
+    Long curves are UNKNOWN too: whoever finds lines there is neither right nor wrong. Rough surfaces, such as a hedge,
+    are no walls.
     """
-    found, height = nearest_walls(placed, scan, poses, walls, FARTHEST)
+    found, height = nearest_walls(placed, scan, poses, walls, BENT)
     wall, near = np.full(len(placed), -1, np.int32), np.flatnonzero(found >= 0)
     if len(near):
         spots, own, heights = placed[near], found[near], height[near]
         profiles = profiles_of(spots, own, heights, views[scan[near]], walls)
         straight, even = is_straight(spots, own, heights, walls), is_even(profiles)
-        limit = np.clip(DEVIATIONS * walls.rms, NEAREST, FARTHEST)
-        good = np.abs(heights) < limit[own]
+        limit = np.clip(4 * walls.rms, NEAREST, FARTHEST)
+        stretch = stretches_of(spots, own, walls, profiles.starts)
+        bent = np.abs(heights - profiles.mean[stretch]) < DEVIATIONS * profiles.scatter[stretch]
+        good = (np.abs(heights) < limit[own]) | bent
         wall[near[good]] = own[good]
         long = walls.high - walls.low > LONG
         wall[near[good & ~(straight & even)[own]]] = -1
-        wall[near[~straight[own] & long[own] | ~even[own]]] = UNKNOWN
-        few = profiles.views[stretches_of(spots, own, walls, profiles.starts)] < LEAST_VIEWS
+        wall[near[(~straight & long)[own] & good]] = UNKNOWN
+        few = profiles.views[stretch] < LEAST_VIEWS
         wall[near[few & good]] = UNKNOWN
     elsewhere = wall == -1
     wall[elsewhere & (views_at(placed, views[scan]) < LEAST_VIEWS)] = UNKNOWN
     return wall
 
 
+def ends_of(pieces: Walls, wall_of: NDArray[np.int64], piece: NDArray[np.int32]) -> Floats:
+    """(w, 4) x1, y1, x2, y2 [m] of each wall, from the first to the last of its pieces that are in use."""
+    ends = np.full((int(wall_of.max(initial=-1)) + 1, 4), np.nan)
+    used = np.unique(piece[piece >= 0])
+    for wall in range(len(ends)):
+        of = used[wall_of[used] == wall]
+        if len(of):
+            first = of[:1]
+            low, high = pieces.low[of].min(keepdims=True), pieces.high[of].max(keepdims=True)
+            whole = Walls(pieces.normal[first], pieces.offset[first], low, high, pieces.rms[first])
+            ends[wall] = whole.ends[0]
+    return ends
+
+
 def views_at(placed: NDArray[np.float32], view: NDArray[np.int64]) -> NDArray[np.int64]:
     """(n,) from how many views something was seen in the square of each point."""
+    every = -(-len(placed) // MOST_RETURNS)
     square = np.floor((placed - placed.min(axis=0)) / PLACE).astype(np.int64) @ np.array([1 << 24, 1])
-    _, square = np.unique(square, return_inverse=True)
-    pairs = np.unique(square.astype(np.int64) * (int(view.max()) + 1) + view)
-    return np.bincount(pairs // (int(view.max()) + 1))[square]
+    squares, number = np.unique(square[::every], return_inverse=True)
+    kinds = int(view.max()) + 1
+    pairs = np.unique(number.astype(np.int64) * kinds + view[::every])
+    counts, at = np.bincount(pairs // kinds), np.searchsorted(squares, square)
+    at = np.minimum(at, len(squares) - 1)
+    return np.where(squares[at] == square, counts[at], 0)
 
 
 def _rms(height: NDArray[np.floating]) -> float:
@@ -146,7 +182,7 @@ def _rms(height: NDArray[np.floating]) -> float:
 
 
 def _result(
-    recording: Recording, returns: Returns, given: Floats, poses: Floats, walls: Walls, wall: NDArray[np.int32],
+    recording: Recording, returns: Returns, given: Floats, poses: Floats, walls: Floats, wall: NDArray[np.int32],
     height: NDArray[np.float32], before: float,
 ) -> ManyViews:  # fmt: skip
     used, numbers = np.unique(wall[wall >= 0], return_inverse=True)
@@ -162,7 +198,7 @@ def _result(
     shift, turn = np.hypot(*(poses - given)[:, :2].T), np.abs(poses - given)[:, 2]
     explained = float(np.mean(wall >= 0)) if len(wall) else 0.0
     found = ManyViews(
-        replace(recording, wall=of_beams, walls=walls.ends[used], track=Track.of(all_poses, source)),
+        replace(recording, wall=of_beams, walls=walls[used], track=Track.of(all_poses, source)),
         _rms(height[wall >= 0]), before, explained, float(np.mean(wall == UNKNOWN)), shift, turn,
     )  # fmt: skip
     trusted, reason = trust(recording.name, found.thickness, explained, found.unknown, shift, turn)

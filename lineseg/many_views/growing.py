@@ -16,7 +16,7 @@ BIN = 0.05
 GAP = 0.30
 # A surface may bend this far from the straight line [m]; from one stretch to the next it steps by less than the band.
 BEND = 0.08
-LEAST_BAND, MOST_BAND = 0.025, 0.06
+
 # Squares whose own normal is turned by more than this belong to another surface [cosine].
 TURNED = 0.80
 LEAST_LENGTH = 0.30

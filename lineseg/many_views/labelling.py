@@ -14,6 +14,8 @@ from .growing import Walls
 SQUARE = 0.25
 # A wall is looked for at most so far from a point [m], and reaches so far past its ends.
 REACH, PAST = 0.25, 0.03
+# Where a long wall and a short one compete for a point, the long one may be farther away by this [m].
+PREFERRED = 0.04
 Floats = NDArray[np.float64]
 
 
@@ -71,15 +73,16 @@ def find_nearest(placed, scan, poses, rows, keys, starts, walls, origin, reach, 
 def nearest(x, y, px, py, rows, keys, starts, walls, origin, reach):
     """The nearest wall to (x, y) that faces the laser at (px, py), or −1, and how far the point lies in front of it."""
     k = square_of(x, y, keys, origin)
-    best, wall, height = reach, -1, 0.0
+    best, wall, height = np.inf, -1, 0.0
     if k >= 0:
         for j in range(starts[k], starts[k + 1]):
             row = rows[walls[j]]
             across = row[0] * x + row[1] * y - row[2]
             at = -row[1] * x + row[0] * y
             inside = row[3] - PAST <= at <= row[4] + PAST
-            if inside and abs(across) < best and row[0] * px + row[1] * py > row[2]:
-                best, wall, height = abs(across), walls[j], across
+            distance = abs(across) - PREFERRED * min(row[4] - row[3], 1.0)
+            if inside and abs(across) < reach and distance < best and row[0] * px + row[1] * py > row[2]:
+                best, wall, height = distance, walls[j], across
     return wall, height
 
 

@@ -18,11 +18,13 @@ RISE, FLOOR = 1.25, 0.012
 # The heights of two pieces are compared over so much of each [m].
 COMPARED = 0.4
 STRETCH = 0.10
+# A wall is interrupted where nothing lies for this long [m]; shorter pieces are left out.
+BREAK, LEAST_PIECE = 0.20, 0.25
 
 # A weaker surface so near in front of or behind a stronger one [m] is made of its outliers, if most of it lies there.
 # Farther away, it has to be far weaker.
 SHADOW, MOSTLY = 0.12, 0.6
-FAR_SHADOW, FAR_WEAKER = 0.25, 0.08
+FAR_SHADOW, FAR_WEAKER = 0.25, 0.20
 
 Floats = NDArray[np.float64]
 
@@ -88,6 +90,28 @@ def merged_walls(cells: Cells, walls: Walls, owner: NDArray[np.int32], band: flo
         owner[parts[k]] = number
     table = table[kept]
     return Walls(np.ascontiguousarray(table[:, :2]), *(table[:, k].copy() for k in range(2, 6))), owner
+
+
+def pieces_of(cells: Cells, walls: Walls, owner: NDArray[np.int32]) -> tuple[Walls, NDArray[np.int64]]:
+    """The parts of the walls that something was seen on without a break, and the wall of each.
+
+    A piece lies on the line of its wall; rms is its own.
+    """
+    wall = np.flatnonzero(owner >= 0)
+    of = owner[wall]
+    at = (cells.xy[wall] * walls.along[of]).sum(axis=1)
+    order = np.lexsort((at, of))
+    wall, of, at = wall[order], of[order], at[order]
+    begins = (np.diff(of, prepend=-1) != 0) | (np.diff(at, prepend=-np.inf) > BREAK)
+    first = np.flatnonzero(begins)
+    last = np.append(first[1:], len(of)) - 1 if len(first) else first
+    number = np.cumsum(begins) - 1
+    across = (cells.xy[wall] * walls.normal[of]).sum(axis=1) - walls.offset[of]
+    rms = np.sqrt(np.bincount(number, across**2, len(first)) / np.maximum(last - first + 1, 1))
+    owners = of[first]
+    pieces = Walls(walls.normal[owners], walls.offset[owners], at[first], at[last], rms)
+    long = pieces.high - pieces.low >= LEAST_PIECE
+    return pieces.only(long), owners[long].astype(np.int64)
 
 
 def fitted(xy: Floats, weights: Floats, normal: Floats) -> Floats:

@@ -14,7 +14,7 @@ STRETCH = 0.20
 # A wall whose middle stands out by more than this share of its length, and by more than this [m], is a curve.
 CURVED, LEAST_SAGITTA = 0.025, 0.015
 # A surface that scatters by so many times what most do, and by more than this [m], is rough: a hedge, books, people.
-ROUGH, LEAST_SCATTER = 2.0, 0.035
+ROUGH, LEAST_SCATTER = 2.0, 0.025
 
 Floats = NDArray[np.float64]
 
@@ -87,6 +87,9 @@ def is_straight(
     count = len(walls)
     middle, half = (walls.low + walls.high) / 2, (walls.high - walls.low) / 2
     square = (((placed * walls.along[found]).sum(axis=1) - middle[found]) / half[found]) ** 2
+    # Near the ends, and far from the line, lie points of other walls.
+    inner = (np.abs(height) < np.maximum(2.5 * walls.rms, 0.02)[found]) & (square < 0.8)
+    found, height, square = found[inner], height[inner], square[inner]
     points = np.maximum(np.bincount(found, minlength=count), 1)
     square -= (np.bincount(found, square, count) / points)[found]
     sagitta = np.bincount(found, square * height, count) / np.maximum(np.bincount(found, square**2, count), 1e-9)
