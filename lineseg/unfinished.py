@@ -33,7 +33,8 @@ def whole_file(path: Path) -> Iterator[Path]:
             yield part
         part.replace(path)
     except OSError as error:
-        part.unlink(missing_ok=True)
+        with contextlib.suppress(OSError):  # a file system that is read-only
+            part.unlink(missing_ok=True)
         if error.errno is None or error.filename not in (None, str(part)):
             raise
         raise type(error)(error.errno, error.strerror, str(path)) from None

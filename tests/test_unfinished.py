@@ -84,6 +84,12 @@ def test_a_full_disk_is_called_so_and_nothing_is_left_on_it(tiny, capsys, comman
     assert list(tiny.iterdir()) == []
 
 
+def test_a_read_only_disk_is_told_with_the_name_of_the_file_that_was_asked_for(tiny, capsys):
+    subprocess.run(["mount", "-o", "remount,ro", tiny], check=True)
+    assert main(["extract", str(WALLS), "-o", str(tiny / "out.jsonl")]) == 2
+    assert capsys.readouterr().err.strip() == f"lineseg: {tiny / 'out.jsonl'}: Read-only file system."
+
+
 def test_labels_for_which_the_disk_has_no_space_name_their_file_and_the_former_ones_stay(tiny):
     walls = Recording.from_scans([Scan.regular(np.ones(9), 0.0, 0.01)])
     path = tiny / "walls.npz.lineseg.json"
