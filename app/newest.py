@@ -41,6 +41,11 @@ class Newest(Generic[T]):
                 self._thread.start()
             self._changed.notify_all()
 
+    def hold(self, due: float) -> None:
+        """Do not begin the piece that waits, if any, before `due`."""
+        with self._changed:
+            self._due = max(self._due, due)
+
     def drop(self) -> None:
         """Forget the piece that waits, if any."""
         with self._changed:

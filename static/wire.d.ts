@@ -638,8 +638,7 @@ export interface World {
  * outcome; null where the whole plan is shown. nodes: what the scene shows. references: available references;
  * judgedBy: the one in use, "" without truth. mayHavePoses: whether poses were or can be looked for; poses: what is
  * said of them, "" if nobody asked. world: null if the scene shows the frame of the laser. extent: box around the
- * points of the frame, bounds: of what the scene shows [m]; square: side of the grid's squares [m]. extractionUs:
- * time of the extraction [µs].
+ * points of the frame, bounds: of what the scene shows [m]. extractionUs: time of the extraction [µs].
  */
 export interface Scene {
   view: View;
@@ -677,7 +676,6 @@ export interface Scene {
   difference: Record<string, number> | null;
   extent: [number, number, number, number];
   bounds: [number, number, number, number];
-  square: number;
   segments: Segment[];
   dropped: Dropped[];
   decision: Decision | null;
@@ -746,7 +744,6 @@ export interface DrawnState {
   difference: Record<string, number> | null;
   extent: [number, number, number, number];
   bounds: [number, number, number, number];
-  square: number;
   segments: Segment[];
   dropped: Dropped[];
   decision: Decision | null;
@@ -1337,10 +1334,10 @@ export interface Stand {
 /**
  * A page that stands alone: a lesson, or one frame.
  *
- * lesson: its id, or "". step: the decision to begin with, or null. box: what the whole plan shows [m]; square:
- * side of the grid's squares [m]; unit: of the stored coordinates [m]. x, y: of every beam [m]. light, dark: the
- * palette. pages: the view of the whole result on each page of the lesson. answers: what the page would ask the
- * server for, by address. next, index: addresses of other pages, or "".
+ * lesson: its id, or "". step: the decision to begin with, or null. box: what the whole plan shows [m]; unit: of
+ * the stored coordinates [m]. x, y: of every beam [m]. light, dark: the palette. pages: the view of the whole
+ * result on each page of the lesson. answers: what the page would ask the server for, by address. next, index:
+ * addresses of other pages, or "".
  */
 export interface Handout {
   title: string;
@@ -1349,7 +1346,6 @@ export interface Handout {
   lesson: string;
   step: number | null;
   box: [number, number, number, number];
-  square: number;
   unit: number;
   x: (number | null)[];
   y: (number | null)[];

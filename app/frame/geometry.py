@@ -14,20 +14,26 @@ from lineseg.region_growing.points import TIMES
 # x₁, y₁, x₂, y₂
 Bounds = tuple[float, float, float, float]
 FRAMES_FOR_BOUNDS = 60
+# How many points of a frame may lie outside of each side of the bounds, and how many frames should lie inside [%].
+STRAY, MOST_FRAMES = 1.0, 75.0
 # Narrower voids are not shown [m].
 LEAST_VOID = 0.1
 
 
 def bounds_of(recording: Recording) -> Bounds:
-    """A box around the laser and nearly all points of the recording; ignores stray far points."""
+    """A box around the laser and what it sees in most frames; ignores stray far points.
+
+    Each side is as far out as nearly all points of a frame, in most of the frames.
+    """
     frames = np.unique(np.linspace(0, len(recording) - 1, FRAMES_FOR_BOUNDS).astype(int)) if len(recording) else []
-    scans = [recording[int(frame)] for frame in frames]
-    xy = np.concatenate([scan.xy[scan.valid] for scan in scans]) if scans else np.empty((0, 2))
-    if not len(xy):
+    each = [scan.xy[scan.valid] for scan in (recording[int(frame)] for frame in frames)]
+    boxes = np.array([np.percentile(xy, [STRAY, 100 - STRAY], axis=0) for xy in each if len(xy)])
+    if not len(boxes):
         return -5.0, -5.0, 5.0, 5.0
-    low, high = np.percentile(xy, [2, 98], axis=0)
-    margin = 0.05 * max(float((high - low).max()), 1.0)
-    low, high = np.minimum(low, 0.0) - margin, np.maximum(high, 0.0) + margin
+    low = np.minimum(np.percentile(boxes[:, 0], 100 - MOST_FRAMES, axis=0), 0.0)
+    high = np.maximum(np.percentile(boxes[:, 1], MOST_FRAMES, axis=0), 0.0)
+    margin = 0.02 * max(float((high - low).max()), 1.0)
+    low, high = low - margin, high + margin
     return float(low[0]), float(low[1]), float(high[0]), float(high[1])
 
 

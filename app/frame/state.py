@@ -21,7 +21,7 @@ from ..told.words import words_of
 from ..view import View
 from .findings import Findings, Histogram
 from .framing import Framing, framing_near, framing_of
-from .geometry import Bounds, extent_of, square_of
+from .geometry import Bounds, extent_of
 from .judge import Judged, Reference, agreement_told
 
 
@@ -87,7 +87,6 @@ def state_of(
         "difference": difference(pinned.extraction, found.extraction).counts if pinned is not None else None,
         "extent": extent_of(scan, bounds),
         "bounds": bounds,
-        "square": square_of(bounds),
         "segments": segments_told(found),
         "dropped": _dropped_once(found),
         "decision": _decision(chosen, type(view.params)) if chosen is not None else None,

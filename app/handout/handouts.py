@@ -15,7 +15,7 @@ from lineseg import EXTRACTORS, Params, Recording, Thresholds
 from lineseg.tracing.glossary import TERMS
 
 from ..frame.framing import framing_near
-from ..frame.geometry import extent_of, square_of, united
+from ..frame.geometry import extent_of, united
 from ..frame.state import framing_told
 from ..places import data_folder
 from ..shelf.lesson import Lessons, NamedLesson, Step, Task
@@ -140,7 +140,6 @@ def _page(
         "lesson": "",
         "step": None,
         "box": (x1, y1, x2, y2),
-        "square": square_of(content.bounds),
         "unit": 1 / SCALE,
         "x": content.x,
         "y": content.y,

@@ -40,22 +40,22 @@ class Theme:
 
 
 LIGHT = Theme(
-    point=(140, 145, 152), invalid=(178, 183, 190), strong=(20, 22, 26), faint=(150, 155, 162),
-    grid=(232, 234, 237), axis=(205, 208, 213), truth=(170, 170, 60), laser=(20, 22, 26),
+    point=(118, 123, 130), invalid=(139, 144, 151), strong=(20, 22, 26), faint=(139, 144, 151),
+    grid=(232, 234, 237), axis=(205, 208, 213), truth=(140, 140, 20), laser=(20, 22, 26),
     accepted=(0, 136, 85), refused=(204, 51, 17), candidate=(238, 51, 119),
     predicted=(110, 70, 215), other=(0, 119, 187),
-    pinned=(208, 213, 221), changed=(178, 102, 210),
-    matched=(0, 119, 187), missed=(20, 22, 26), false=(238, 119, 51), ghost=(110, 70, 215),
-    past=(196, 200, 206), past_line=(150, 186, 214), trajectory=(238, 119, 51),
+    pinned=(140, 147, 158), changed=(178, 102, 210),
+    matched=(0, 119, 187), missed=(20, 22, 26), false=(222, 105, 20), ghost=(110, 70, 215),
+    past=(142, 147, 154), past_line=(95, 145, 190), trajectory=(222, 105, 20),
 )  # fmt: skip
 DARK = Theme(
-    point=(128, 134, 142), invalid=(92, 98, 107), strong=(245, 246, 248), faint=(120, 126, 134),
+    point=(150, 156, 164), invalid=(100, 106, 115), strong=(245, 246, 248), faint=(120, 126, 134),
     grid=(56, 60, 67), axis=(92, 98, 107), truth=(150, 150, 60), laser=(235, 237, 240),
     accepted=(60, 200, 140), refused=(255, 110, 80), candidate=(255, 110, 170),
     predicted=(170, 140, 255), other=(51, 160, 238),
-    pinned=(70, 76, 86), changed=(150, 88, 190),
+    pinned=(100, 106, 118), changed=(150, 88, 190),
     matched=(51, 160, 238), missed=(245, 246, 248), false=(255, 140, 70), ghost=(170, 140, 255),
-    past=(78, 84, 93), past_line=(50, 92, 128), trajectory=(255, 140, 70),
+    past=(100, 106, 115), past_line=(66, 112, 155), trajectory=(255, 140, 70),
 )  # fmt: skip
 # In place of both themes: the colour of a field is its number, as no segment has it.
 NUMBERED = Theme(*((number, 1, 254) for number in range(len(fields(Theme)))))

@@ -67,7 +67,7 @@ def picture_in_world(view: View, drawn: Picture, world: World, survey: Survey | 
     pose = world.pose(frame)
     points, lines = (drawn.points, drawn.lines) if pose is not None else ({}, {})
     points, lines = dict(points), {name: shape for name, shape in lines.items() if name != "grid"}
-    if layers.grid:
+    if has_grid(view):
         lines["grid"] = grid(world.bounds, theme)
     if layers.trajectory:
         lines["trajectory"] = world.trajectory(theme)
@@ -131,7 +131,7 @@ def _lines(
     view: View, recording: Recording, found: Findings, state: State, bounds: Bounds, theme: Theme
 ) -> dict[str, Lines]:
     layers, lines = view.layers, {}
-    if layers.grid:
+    if has_grid(view):
         lines["grid"] = grid(bounds, theme)
     if layers.laser:
         lines["laser"] = laser(bounds, theme)
@@ -249,6 +249,11 @@ def laser(bounds: Bounds, theme: Theme) -> Lines:
     size = 0.012 * max(bounds[2] - bounds[0], bounds[3] - bounds[1])
     tip, left, notch, right = size * np.array([(1.4, 0.0), (-0.9, 0.8), (-0.4, 0.0), (-0.9, -0.8)])
     return lines_between([tip, left, notch, right], [left, notch, right, tip], theme.laser)
+
+
+def has_grid(view: View) -> bool:
+    """Whether the picture has a grid; that of the plan is drawn by the page at any zoom (static/stage/grid.js)."""
+    return view.layers.grid and view.camera == "free"
 
 
 @lru_cache(maxsize=CACHED)

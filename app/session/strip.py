@@ -38,6 +38,8 @@ GLANCE_BEAMS = 400_000
 LEAST_STRIDE = 4
 # Time between updates of the scores of a growing recording [s].
 LIVE_EVERY = 1.0
+# Between them, it rests this many times as long as they took.
+LIVE_REST = 2.0
 # Changes that follow each other faster belong to one drag, and a survey that takes long waits for its end [s].
 DRAG = 0.15
 # Quick surveys of all tabs together take this share of the time, so that many tabs can be dragged at once.
@@ -59,8 +61,8 @@ class Key(NamedTuple):
 
 
 def key_of(view: View) -> Key:
-    # The committee and stability need many surveys: compute them only if shown, and not while growing.
-    deep = (view.mode == "inspect" or view.score in DEEP) and not view.recording.startswith("live:")
+    # The committee and stability need many surveys: compute them only if shown.
+    deep = view.mode == "inspect" or view.score in DEEP
     return Key(view.recording, view.place, view.method, view.params, view.against, view.weights, deep)
 
 
@@ -119,7 +121,7 @@ class Strip:
         self._pinned: tuple[Recording, Thresholds, Survey] | None = None
         self._lock = threading.Condition()
         self._subject: Subject | None = None
-        self._begun: Subject | None = None
+        self._begun_at = -math.inf
         self._asked_at = -math.inf
         self._closing = False
         self._rest_until = 0.0
@@ -164,11 +166,20 @@ class Strip:
                 for part in self._parts(subject, turn.close):
                     if self._stands(subject):
                         self._send(part)
+                self._rest(subject)
             except Cancelled:
                 pass
             except Exception as error:
                 log.exception("surveying %s failed", subject.key)
                 self._send(surveyed(subject, message=f"no scores: {_one_line(error)}"))
+
+    def _rest(self, subject: Subject) -> None:
+        """Before what a recording has grown to is surveyed, rest for longer if that takes long."""
+        with self._lock:
+            now = time.monotonic()
+            self._rest_until = max(self._rest_until, now + LIVE_REST * (now - self._begun_at))
+            if self._subject is not None and self._subject.key == subject.key:
+                self._surveying.hold(self._rest_until)
 
     def _begins(self, asked: Subject) -> Subject | None:
         """What to survey now: this, or the newer one that came while it waited for its turn; None if none is wanted."""
@@ -180,7 +191,8 @@ class Strip:
             else:
                 # What the recording has grown to.
                 self._subject = asked
-            self._rest_until = time.monotonic() + LIVE_EVERY
+            self._begun_at = time.monotonic()
+            self._rest_until = self._begun_at + LIVE_EVERY
             return self._subject
 
     def _stands(self, subject: Subject) -> bool:
@@ -226,7 +238,10 @@ class Strip:
             whole = disputed(recording, whole, committee, np.arange(len(recording)))
         end_turn()
         known = Known(key._replace(weights=()), recording, whole.need_scores(), np.empty((len(recording), 0)), None)
-        yield told(subject, known)
+        # While a recording grows, its suspicion as it was stays until it is known anew.
+        grown = key.deep and self._known is not None and self._known.key == known.key
+        if not grown:
+            yield told(subject, known)
         if key.against is not None:
             fates = differences(self._pinned_survey(subject, key.against.params), whole, recording)
             changed = fates.sum(axis=1, keepdims=True) - fates[:, [KEPT]]

@@ -251,7 +251,7 @@ class Scene(TypedDict):
     shown. nodes: what the scene shows. references: available references; judgedBy: the one in use, "" without truth.
     mayHavePoses: whether poses were or can be looked for; poses: what is said of them, "" if nobody asked.
     world: null if the scene shows the frame of the laser. extent: box around the points of the frame, bounds: of what
-    the scene shows [m]; square: side of the grid's squares [m].
+    the scene shows [m].
     extractionUs: time of the extraction [µs].
     """
 
@@ -290,7 +290,6 @@ class Scene(TypedDict):
     difference: dict[str, int] | None
     extent: Box
     bounds: Box
-    square: float
     segments: list[Segment]
     dropped: list[Dropped]
     decision: Decision | None

@@ -73,8 +73,8 @@ class Stand(TypedDict):
 class Handout(TypedDict):
     """A page that stands alone: a lesson, or one frame.
 
-    lesson: its id, or "". step: the decision to begin with, or null. box: what the whole plan shows [m]; square: side
-    of the grid's squares [m]; unit: of the stored coordinates [m]. x, y: of every beam [m]. light, dark: the palette.
+    lesson: its id, or "". step: the decision to begin with, or null. box: what the whole plan shows [m]; unit: of the
+    stored coordinates [m]. x, y: of every beam [m]. light, dark: the palette.
     pages: the view of the whole result on each page of the lesson. answers: what the page would ask the server for, by
     address. next, index: addresses of other pages, or "".
     """
@@ -85,7 +85,6 @@ class Handout(TypedDict):
     lesson: str
     step: int | None
     box: Box
-    square: float
     unit: float
     x: list[float | None]
     y: list[float | None]

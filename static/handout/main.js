@@ -71,7 +71,6 @@ class Page {
     this.view = this.#firstView();
     const holder = place("stage");
     this.#stage = new CanvasStage(holder, pageText.stage, { onPick: (at) => this.#pick(at) });
-    this.#stage.square = handout.square;
     const names = createNames(holder, this.#stage);
     this.#key = createKey(holder, pageText.stage.key);
     this.#overlay = createOverlay(holder, this.#stage);

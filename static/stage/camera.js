@@ -6,6 +6,9 @@ import { iconButton } from "../widgets/icon.js";
 /** @typedef {import("../view/store.js").Look} Look */
 /** @typedef {import("../wire.js").Framing} Framing */
 
+// How much larger the fitted box may become for the frame that is drawn.
+const MOST_LARGER = 1.35;
+
 /**
  * @param {import("../page.js").Page} page
  * @param {import("./kinds.js").AnyStage} stage
@@ -28,8 +31,7 @@ export function createCamera(page, stage, text, { drawing, names, onLook, onFram
   });
 
   function fit() {
-    const box = page.drawn?.bounds ?? page.drawn?.extent;
-    if (box) stage.fit(box);
+    if (page.drawn) stage.fit(withFrame(page.drawn));
   }
 
   function toggle() {
@@ -52,8 +54,8 @@ export function createCamera(page, stage, text, { drawing, names, onLook, onFram
       freeButton.setAttribute("aria-label", camera === "free" ? text.plan : text.free);
     },
     /** @param {import("../wire.js").State} state */
-    setState({ recording, place: scans, framing, square, world, view }) {
-      stage.square = square;
+    setState({ recording, place: scans, framing, layers, world, view }) {
+      stage.gridded = layers.grid;
       stage.place(world, view.ride === "on");
       // A drawn world stays where it is while it changes.
       const place = drawing() ? "drawn" : `${scans} ${world ? "world" : ""}`;
@@ -70,4 +72,18 @@ export function createCamera(page, stage, text, { drawing, names, onLook, onFram
     /** @param {import("../wire.js").Welcome} welcome */
     setWelcome: ({ viser }) => stage.open(viser),
   };
+}
+
+/** The box of the recording, made larger for the frame that is drawn where that does not take much. @param {import("../wire.js").State} state @returns {import("../wire.js").Box} */
+function withFrame({ bounds, extent, world }) {
+  if (world) return bounds;
+  const [x1, y1, x2, y2] = bounds;
+  const both = /** @type {const} */ ([
+    Math.min(x1, extent[0]),
+    Math.min(y1, extent[1]),
+    Math.max(x2, extent[2]),
+    Math.max(y2, extent[3]),
+  ]);
+  const larger = Math.max((both[2] - both[0]) / (x2 - x1), (both[3] - both[1]) / (y2 - y1));
+  return larger > MOST_LARGER ? bounds : [...both];
 }

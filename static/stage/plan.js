@@ -9,7 +9,7 @@ import { stretched } from "./viser.js";
  * @typedef {{x: number, y: number, pxPerMetre: number, width: number, height: number, stretch: Stretch | null}} Sight */
 
 /** Around a whole plan; the smallest half of one [m]. */
-export const WHOLE = { margin: 1.12, least: 0.5 };
+export const WHOLE = { margin: 1.08, least: 0.5 };
 /** Around a close-up there is room for names. */
 export const CLOSE = { margin: 1.35, least: 0.02 };
 // What is gone to fills this share of the stage, unless it can be seen already.

@@ -2,6 +2,7 @@
 // What both kinds of stage have in common: where things of the plan are on the stage, and who is told that it moved.
 import { CLOSE, project, towards, unproject, WHOLE } from "./plan.js";
 import { placed, placedBox, seenFrom } from "./placed.js";
+import { createGrid } from "./grid.js";
 import { createScale } from "./scale.js";
 
 /** @typedef {import("../wire.js").Box} Box */
@@ -17,7 +18,7 @@ export class PlanStage {
   fitted = null;
   /** Whether the plan is no longer where a close-up put it. */
   away = true;
-  #square = 0;
+  #gridded = true;
   /** Where the laser stands; null: the plan is its own. @type {import("../wire.js").World | null} */
   #world = null;
   #riding = false;
@@ -26,11 +27,13 @@ export class PlanStage {
   /** @type {((at: Point | null) => void)[]} */
   #hoverListeners = [];
   #scaleMark;
+  #grid;
 
   /** @param {HTMLElement} holder @param {HTMLElement} element that shows the scene @param {(factor: number) => string} across words of the scale */
   constructor(holder, element, across) {
     this.element = element;
     this.#scaleMark = createScale(across);
+    this.#grid = createGrid(holder);
     holder.append(element, this.#scaleMark.element);
   }
 
@@ -71,11 +74,11 @@ export class PlanStage {
     return this.away || this.look !== null;
   }
 
-  /** @param {number} square side of the grid's squares [m] */
-  set square(square) {
-    if (square === this.#square) return;
-    this.#square = square;
-    this.tellMoved();
+  /** @param {boolean} shown whether the plan has a grid */
+  set gridded(shown) {
+    if (shown === this.#gridded) return;
+    this.#gridded = shown;
+    this.#drawMarks();
   }
 
   /** Shows the whole box. @param {Box} box */
@@ -138,6 +141,13 @@ export class PlanStage {
 
   tellMoved() {
     for (const listener of this.#moveListeners) listener();
-    this.#scaleMark.set(this.sight?.pxPerMetre ?? null, this.stretch, this.#square);
+    this.#drawMarks();
+  }
+
+  /** Draws grid and scale. */
+  #drawMarks() {
+    const sight = this.sight;
+    this.#grid.draw(this.#gridded ? sight : null);
+    this.#scaleMark.set(sight?.pxPerMetre ?? null, this.stretch);
   }
 }

@@ -1,12 +1,10 @@
 // @ts-check
 // How long things in the scene are: a bar, or a cross where distances across a line are exaggerated.
 import { h, setText, svg } from "../widgets/dom.js";
+import { niceLength, squareOf } from "./grid.js";
 
 /** @typedef {import("./viser.js").Stretch} Stretch */
 
-const BAR_PX = 110;
-// Widths at which a square of the grid serves as the bar.
-const SQUARE_PX = [30, 180];
 const ARM_PX = 70;
 const CORNER = 46;
 
@@ -26,17 +24,16 @@ export function createScale(across) {
 
   return {
     element,
-    /** @param {number | null} pxPerMetre null: the scene has no scale @param {Stretch | null} stretch @param {number} square side of the grid's squares [m] */
-    set(pxPerMetre, stretch, square) {
+    /** @param {number | null} pxPerMetre null: the scene has no scale @param {Stretch | null} stretch */
+    set(pxPerMetre, stretch) {
       element.hidden = pxPerMetre === null;
       if (pxPerMetre === null) return;
       bar.hidden = stretch !== null;
       cross.style.display = stretch ? "" : "none";
       words.hidden = !stretch;
       if (stretch) return drawCross(pxPerMetre, stretch);
-      const [narrow, wide] = SQUARE_PX.map((px) => px / pxPerMetre);
-      const metres = narrow <= square && square <= wide ? square : niceLength(BAR_PX / pxPerMetre);
-      bar.style.width = `${Math.round(metres * pxPerMetre)}px`;
+      const metres = squareOf(pxPerMetre);
+      bar.style.width = `${metres * pxPerMetre}px`;
       setText(barWords, lengthWords(metres));
     },
   };
@@ -62,11 +59,4 @@ function arm([x, y], pxPerMetre) {
 function lengthWords(metres) {
   if (metres >= 1) return `${metres} m`;
   return metres >= 0.01 ? `${Math.round(metres * 100)} cm` : `${Number((metres * 1000).toPrecision(1))} mm`;
-}
-
-/** The largest of 1, 2, 5 · 10ⁿ that is at most `most`. @param {number} most */
-function niceLength(most) {
-  const power = 10 ** Math.floor(Math.log10(most));
-  const factor = most / power >= 5 ? 5 : most / power >= 2 ? 2 : 1;
-  return Number((factor * power).toPrecision(1));
 }

@@ -31,10 +31,13 @@ import {
 // How near to a point a finger must rest.
 const FINGER_PX = 30;
 const CAMERA_KEYS = new Set(["KeyW", "KeyA", "KeyS", "KeyD", "KeyQ", "KeyE"]);
-// viser's own panel and notices go, because the page shows connection and values; its slow fade-in goes, too.
+// viser's own panel and notices go, because the page shows connection and values; its slow fade-in goes, too; the grid
+// below it is seen through it.
 const OVERRULED = `
   [data-floating-window], .mantine-Paper-root:has(.mantine-ScrollArea-root), .mantine-Notifications-root { display: none !important; }
   canvas { opacity: 1 !important; }
+  :root { color-scheme: light !important; }
+  body, body div { background-color: transparent !important; }
 `;
 const TAN = Math.tan(rad(PLAN_FOV_DEG / 2));
 

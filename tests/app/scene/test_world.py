@@ -81,7 +81,7 @@ def test_the_last_scans_are_drawn_the_newest_on_top(world):
 def test_a_frame_without_a_pose_is_left_out(world):
     drawn = draw(world, View(frame=3))
     assert drawn.place is not None and drawn.place.pose is None
-    assert set(drawn.nodes) == {"past", "grid", "trajectory"}
+    assert set(drawn.nodes) == {"past", "trajectory"}
 
 
 @pytest.mark.parametrize("upside_down", [False, True])
