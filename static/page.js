@@ -116,9 +116,7 @@ export class Page {
   setMode = (mode) => {
     if (mode === this.view.mode) return;
     // Inspect starts with the most suspicious frames, Learn with the first decision.
-    // While a laser is live, suspicion is not computed.
-    const live = this.view.recording.startsWith("live:");
-    const score = mode === "inspect" && !live && this.view.score === "coverage" ? { score: "suspicion" } : {};
+    const score = mode === "inspect" && this.view.score === "coverage" ? { score: "suspicion" } : {};
     this.change({ mode, step: mode === "learn" ? 0 : null, ...score });
   };
 

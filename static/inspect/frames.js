@@ -36,6 +36,7 @@ class Frames {
   /** @type {Score[]} */ #scores = [];
   #frame = 0;
   /** The last frame that was opened from the list. */ #led = -1;
+  /** Whether the first frame of the list is to be opened once it is known. */ #leads = false;
   /** The score and the recording of the range. */ #ranged = "";
   /** Range of the listed scores. */ #low = -Infinity;
   #high = Infinity;
@@ -146,6 +147,11 @@ class Frames {
     if (order.length) this.#go(order[at < 0 ? 0 : clamp(at + by, 0, order.length - 1)]);
   }
 
+  /** Opens the first frame of the list once it is known, unless a person chose a frame. */
+  lead() {
+    this.#leads = this.#frame === this.#number(0);
+  }
+
   /** @param {Score[]} scores */
   setScores(scores) {
     this.#scores = scores;
@@ -162,12 +168,17 @@ class Frames {
     if (scored) this.#select.value = scored.score;
     this.#extra.hidden = scored?.score !== "suspicion";
     this.sort();
+    if (this.#leads && scored?.complete && scored.score === "suspicion") {
+      this.#leads = false;
+      this.next(1);
+    }
   }
 
   /** @param {Readonly<import("../wire.js").View>} view */
   setView({ frame }) {
     if (frame === this.#frame) return;
     this.#frame = frame;
+    this.#leads = false;
     this.#list.setFrame(frame);
   }
 }

@@ -1,5 +1,6 @@
 // @ts-check
 // Values by beam and a threshold; pointer and keyboard can highlight and select a beam.
+import { tooltip } from "../widgets/tooltip.js";
 import { createWalk } from "../widgets/walk.js";
 import { colour } from "../widgets/colours.js";
 import { Plot } from "./plot.js";
@@ -36,6 +37,7 @@ export class DotChart {
       onTake: (at) => beams.onRun(this.#dots[at].x),
     });
     canvas.addEventListener("pointermove", (event) => this.#point(this.#under(event)));
+    tooltip(canvas, (event) => this.#valueAt(event), "left");
     canvas.addEventListener("pointerleave", () => this.#point(null));
     canvas.addEventListener("click", (event) => {
       const at = this.#under(event);
@@ -49,6 +51,12 @@ export class DotChart {
     this.#pointed = at;
     this.#beams.onBeam(at === null ? null : this.#dots[at].x);
     if (this.#dots.length) this.#draw();
+  }
+
+  /** @param {Event} event */
+  #valueAt(event) {
+    const at = event instanceof PointerEvent ? this.#under(event) : null;
+    return at === null ? "" : this.#beams.say(this.#dots[at].x, this.#dots[at].y);
   }
 
   /** The dot under the pointer. @param {MouseEvent} event */

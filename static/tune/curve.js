@@ -2,6 +2,7 @@
 // A curve of the results over the range of one threshold.
 import { h, svg } from "../widgets/dom.js";
 import { placeOf, valueAt, withUnit } from "../widgets/scale.js";
+import { tooltip } from "../widgets/tooltip.js";
 
 /** @typedef {import("../wire.js").Knob} Knob */
 /** @typedef {import("../wire.js").Curve} Curve */
@@ -39,9 +40,9 @@ export function createCurve(knob, text, onSet) {
     return Math.min(1, Math.max(0, (event.clientX - left) / width));
   };
   element.addEventListener("click", (event) => onSet(valueAt(knob, placeAt(event))));
-  element.addEventListener("pointermove", (event) => {
-    element.title = curve ? words(knob, curve, placeAt(event), text) : "";
-  });
+  const said = (/** @type {Event} */ event) =>
+    curve && event instanceof PointerEvent ? words(knob, curve, placeAt(event), text) : "";
+  tooltip(element, said, "left");
   const paint = (/** @type {Curve} */ { values, ...lines }) => {
     const most = Math.max(1e-9, ...lines.segments.map((value) => value ?? 0));
     for (const [line, path] of paths)
