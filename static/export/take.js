@@ -99,7 +99,9 @@ export function createTake(text, { session, state, note, work }) {
  */
 function pages(text, lesson, save) {
   const frame = { label: text.page, run: () => save("frame") };
-  return lesson ? [frame, { label: text.lessonPage, run: () => save("lesson") }] : [frame];
+  if (!lesson) return [frame];
+  const print = () => void open(`/lessons/${encodeURIComponent(lesson)}/print`, "_blank", "noopener");
+  return [frame, { label: text.lessonPage, run: () => save("lesson") }, { label: text.sheet, run: print }];
 }
 
 /** @param {Work} work @param {typeof import("../text/export.js").exportText} text @param {string} url */

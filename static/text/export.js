@@ -7,6 +7,7 @@ export const exportText = {
   svg: "Picture (SVG)",
   page: "Interactive page (HTML)",
   lessonPage: "This lesson as an interactive page (HTML)",
+  sheet: "This lesson as a sheet to print",
   pack: "Failure pack…",
   all: "Segments of all frames",
   formats: /** @type {Record<string, string>} */ ({ jsonl: "JSON lines", csv: "CSV", geojson: "GeoJSON" }),
