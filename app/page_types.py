@@ -13,7 +13,7 @@ from lineseg.what_if import WhatIf
 
 from . import view, view_field, wire
 from .live.node_params import Sent
-from .routes import labels, lessons, robot, tuning
+from .routes import class_list, labels, lessons, robot, tuning
 from .shelf import lesson
 from .told import answers, drawn, handout, messages, words
 from .told.typescript import alias, interface
@@ -69,7 +69,7 @@ def page_types() -> str:
     shared = [alias(name, annotation) for name, annotation in SHARED.items()]
     sent = [
         interface(each, sent=True)
-        for module in (view, wire, labels, lessons, tuning, robot)
+        for module in (view, wire, class_list, labels, lessons, tuning, robot)
         for each in _declared(module)
     ]
     told = [

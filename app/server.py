@@ -35,6 +35,7 @@ from .live.hub import Live
 from .memory import keep_together, settle
 from .places import data_folder, user_folder
 from .routes.api import add_api
+from .routes.class_list import add_class
 from .routes.export import add_export
 from .routes.inspection import add_inspection
 from .routes.labels import add_labels
@@ -144,6 +145,7 @@ def create_app(settings: Settings) -> FastAPI:
     add_inspection(app, sessions, files)
     add_labels(app, library, files)
     add_lessons(app, library, sessions)
+    add_class(app, library, sessions)
     add_rereading(app, library)
     add_sockets(app, library, sessions, bool(settings.reading.given()))
     add_sweep_table(app)

@@ -32,6 +32,8 @@ const place = (id) => /** @type {HTMLElement} */ (document.getElementById(id));
 const following = createFollow(text.follow, {
   presenter: presenterIn(session.hash),
   onFollow: (presenter) => (page.link?.follow(presenter), address.write()),
+  session: sessionId,
+  done: () => learn.done,
 });
 store.allows = following.allows;
 const address = createAddress(page, text, {

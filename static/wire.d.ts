@@ -123,6 +123,12 @@ export interface Follow {
   id: string | null;
 }
 
+/** What a tab in a class says of itself. */
+export interface PupilSays {
+  name: string;
+  done?: number;
+}
+
 /** A true line; missing ends are taken from its points. */
 export interface SaidLine {
   first: number;
@@ -1088,6 +1094,23 @@ export interface FrameToLabel {
   y: (number | null)[];
   lines: LineToLabel[];
   known: Counted | null;
+}
+
+/**
+ * Where someone in a class is. name: chosen by themselves, or ""; follows: whether the tab mirrors the teacher's.
+ *
+ * lesson: its title, "" if none is open; page, pages: from 1, 0 without a lesson; recording: its label; done:
+ * number of lessons.
+ */
+export interface PupilPlace {
+  name: string;
+  follows: boolean;
+  lesson: string;
+  page: number;
+  pages: number;
+  recording: string;
+  frame: number;
+  done: number;
 }
 
 /** Common fields of answers of long work. done: it has ended; stopped: on request; message: why it failed. */

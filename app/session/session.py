@@ -31,7 +31,7 @@ from ..told.drawn import DrawnState, Timings
 from ..told.messages import Drawn, Failure, Loading, Refused, Traced
 from ..view import View
 from .composing import Composer, Content
-from .following import Presence, Presenter, mirrored
+from .following import Presence, Presenter, Pupil, mirrored
 from .strip import Strip, key_of
 from .turns import InOrder, Rounds
 from .warm_up import WarmUp
@@ -159,6 +159,9 @@ class Session:
         self.presenter = Presenter()
         self._leave_presenter: Callable[[], None] | None = None
         self._presence: Presence | None = None
+        # The class that it came to by a link, also while it goes its own way.
+        self.teacher: Presenter | None = None
+        self.pupil = Pupil()
         self._forget_live = library.live.on_scan(self._keep_up)
         self._forget_labels = files.on_change(self._relabelled)
 
@@ -206,6 +209,7 @@ class Session:
         self.presenter_is(None)
         if presenter is not None and presenter is not self.presenter:
             self._leave_presenter = presenter.join(self)
+            self.teacher = presenter
 
     def mirror(self, view: View) -> None:
         with self._lock:

@@ -80,6 +80,14 @@ class Sessions:
                 return session.presenter
         raise ValueError("the presenter of this link is gone; ask for a new link")
 
+    def class_of(self, teacher: Session) -> list[Session]:
+        """The tabs that came by the link of this one and whose page is there."""
+        return [
+            session
+            for session in self._sessions.values()
+            if session.teacher is teacher.presenter and session.detached_at is None
+        ]
+
     def resume(self, id: str | None) -> Session | None:
         """An earlier session whose page has disconnected; a session with a page is never shared."""
         session = self._sessions.get(id or "")

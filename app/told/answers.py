@@ -306,6 +306,23 @@ class FrameToLabel(TypedDict):
     known: Counted | None
 
 
+class PupilPlace(TypedDict):
+    """Where someone in a class is. name: chosen by themselves, or ""; follows: whether the tab mirrors the teacher's.
+
+    lesson: its title, "" if none is open; page, pages: from 1, 0 without a lesson; recording: its label; done: number
+    of lessons.
+    """
+
+    name: str
+    follows: bool
+    lesson: str
+    page: int
+    pages: int
+    recording: str
+    frame: int
+    done: int
+
+
 class Worked(TypedDict):
     """Common fields of answers of long work. done: it has ended; stopped: on request; message: why it failed."""
 

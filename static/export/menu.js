@@ -3,6 +3,7 @@
 import { showPublish, showSend, stopPublishing } from "../live/robot.js";
 import { addressOf, record } from "../rerun/run.js";
 import { createExchange } from "../tune/exchange.js";
+import { openClass } from "../view/class_list.js";
 import { h } from "../widgets/dom.js";
 import { createTake } from "./take.js";
 
@@ -50,8 +51,15 @@ export function createExportMenu(page, text, { status, work, note, onImport, onF
 
   /** @returns {Group} */
   function follow() {
-    const { title, copy } = text.page.follow;
-    return { title, items: [{ label: copy, run: onFollowLink }] };
+    const { title, copy, list } = text.page.follow;
+    const show = () => openClass(list, page.sessionId);
+    return {
+      title,
+      items: [
+        { label: copy, run: onFollowLink },
+        { label: list.open, run: show },
+      ],
+    };
   }
 
   const { groups } = createTake(text.export, {

@@ -244,6 +244,11 @@ class Learn {
     this.#lessons.take(lessons);
   }
 
+  /** How many lessons are done. */
+  get done() {
+    return this.#lessons.done;
+  }
+
   /** Saves what was answered in lessons as a file. */
   saveProgress() {
     this.#lessons.saveProgress();

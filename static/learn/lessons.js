@@ -324,6 +324,10 @@ export class Lessons {
     return state.step !== null ? progress.decision(state.step) : "";
   }
 
+  get done() {
+    return this.#list.progress.done;
+  }
+
   /** Saves what was answered as a file. */
   saveProgress() {
     this.#list.save();

@@ -1,5 +1,7 @@
 // @ts-check
 // Mirroring another tab: the bar that says so, and the gate that keeps this tab from changing what it mirrors.
+import { fetchText } from "../fetch.js";
+import { keep, recall } from "../kept.js";
 import { h, setText } from "../widgets/dom.js";
 import { OWN } from "./fields.js";
 
@@ -9,6 +11,8 @@ import { OWN } from "./fields.js";
 const HASH = /^#follow=([\w-]+)$/;
 // The server accepts no longer id; a shortened id belongs to nobody.
 const LONGEST_ID = 64;
+const LONGEST_NAME = 40;
+const NAME_KEY = "lineseg.name";
 
 /** The presenter in a link. @param {string} hash @returns {string | null} */
 export function presenterIn(hash) {
@@ -17,21 +21,42 @@ export function presenterIn(hash) {
 
 /**
  * @param {typeof import("../text/page.js").pageText.follow} text
- * @param {{presenter: string | null, onFollow: (presenter: string | null) => void}} handlers onFollow: null to stop
+ * @param {{presenter: string | null, onFollow: (presenter: string | null) => void, session: () => string, done: () => number}} handlers
+ *   onFollow: null to stop; done: number of lessons that are done
  */
-export function createFollow(text, { presenter, onFollow }) {
+export function createFollow(text, { presenter, onFollow, session, done }) {
   let active = presenter !== null;
   /** @type {Presence | null} */
   let presence = null;
   const words = h("span", { role: "status" });
   const button = h("button", { type: "button", class: "button", onclick: () => turn(!active) });
-  const element = h("div", { class: "follow", hidden: presenter === null }, words, button);
+  const name = h("input", { type: "text", maxLength: LONGEST_NAME, "aria-label": text.name, placeholder: text.name });
+  name.value = recall(NAME_KEY) ?? "";
+  name.addEventListener("change", () => {
+    keep(NAME_KEY, name.value);
+    tellTeacher();
+  });
+  const element = h("div", { class: "follow", hidden: presenter === null }, words, name, button);
+  /** What the teacher's tab knows. */
+  let told = "";
   show();
+
+  /** Says who is here, if that has changed. */
+  async function tellTeacher() {
+    const said = JSON.stringify({ name: name.value.trim(), done: done() });
+    if (presence === null || presence === "gone" || `${session()} ${said}` === told) return;
+    told = `${session()} ${said}`;
+    await fetchText(`/api/class/me?${new URLSearchParams({ session: session() })}`, {
+      method: "POST",
+      headers: { "Content-Type": "application/json" },
+      body: said,
+    });
+  }
 
   /** @param {boolean} on */
   function turn(on) {
     active = on;
-    presence = null;
+    if (on) presence = null;
     show();
     onFollow(on ? presenter : null);
   }
@@ -66,8 +91,9 @@ export function createFollow(text, { presenter, onFollow }) {
     },
     /** @param {{following: Presence | null}} state */
     setState({ following: next }) {
-      if (next === null && presence !== "gone") return;
+      if (next === null && presence !== "gone") return void (told && tellTeacher());
       presence = next ?? presence;
+      tellTeacher();
       if (presence === "gone") active = false;
       show();
     },

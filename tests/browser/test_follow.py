@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import pytest
+
 
 def test_a_class_follows_its_teacher_leaves_and_returns(new_tab):
     teacher = new_tab("#mode=learn&step=0&recording=lesson:1_perfect_corner")
@@ -38,3 +40,21 @@ def test_a_class_follows_its_teacher_leaves_and_returns(new_tab):
     teacher.page.close()
     pupil.until("s.following === 'away'")
     pupil.page.get_by_text("who is away at the moment").wait_for()
+
+
+@pytest.mark.own_tab
+def test_a_teacher_sees_who_is_where(new_tab):
+    teacher = new_tab("#mode=learn&recording=sample:hallway")
+    link = teacher.page.evaluate("window.lineseg.followLink")
+    pupil = new_tab(link[link.index("#") :])
+    pupil.until("s.following === 'here'")
+    name = pupil.page.get_by_label("Your name for the teacher")
+    name.fill("Ada <b>L.</b>")
+    name.press("Enter")
+    teacher.page.get_by_role("button", name="Export").click()
+    teacher.page.get_by_role("menuitem", name="Who is where").click()
+    row = teacher.page.locator(".class-list tbody tr")
+    row.get_by_text("Ada <b>L.</b>").wait_for()
+    row.get_by_text("follows").wait_for()
+    pupil.page.close()
+    teacher.page.get_by_text("Nobody has opened the link of this tab yet.").wait_for()
