@@ -20,7 +20,7 @@ from .applying import applied
 from .arrays import Npy
 from .carmen import CarmenLog
 from .clouds import PointCloud
-from .dialect import labels_of
+from .dialect import LONG_LIST, labels_of
 from .folder import bag_of_metadata, recording_in
 from .foreign import foreign
 from .matlab import Matlab
@@ -147,8 +147,11 @@ def _recognised(head: bytes) -> type[Reader] | None:
 
 def _has_numbers(head: bytes) -> bool:
     """Whether a line starts like a number, or has numbers with labels, so that a .log may be a table after all."""
-    return labels_of(head.splitlines()[:MOST_LINES]) is not None or any(
-        line.lstrip(b" \t[(")[:1] in b"+-.0123456789" for line in head.splitlines() if line.strip()
+    lines = head.splitlines()[:MOST_LINES]
+    return (
+        labels_of(lines) is not None
+        or LONG_LIST.search(head) is not None
+        or any(line.lstrip(b" \t[(")[:1] in b"+-.0123456789" for line in head.splitlines() if line.strip())
     )
 
 

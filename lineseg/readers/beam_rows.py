@@ -27,6 +27,8 @@ from .turns import regularity, turns
 LEAST_REGULAR = 0.5
 # Fewer beams show nothing about their columns.
 FEW_ROWS = 8
+# Of so many rows, most turns have more than FEW_ROWS.
+LEAST_ROWS = 30
 LONGEST_NAME = 24
 CLOCKWISE = re.compile(r"(?<!counter_)(?<!anti_)(?:clockwise|(?<![^_])cw(?![^_]))")
 # What poses have beside x and y; the first column of the quaternion in TUM's rows.
@@ -291,6 +293,18 @@ def _polar(source: Source, reading: Reading, angles: Floats, distances: Floats) 
     return angles * RADIANS[guess_angle_unit(angles, reading, source.notes)], distances
 
 
+def _in_order(source: Source, bearings: Floats) -> NDArray[np.int64]:
+    """The order in which shuffled beams rise, which is told. Raises ValueError if they are not those of one scan."""
+    order = np.argsort(bearings)
+    steps = np.diff(bearings[order])
+    if not (steps > 0).all() or regularity(bearings[order]) > LEAST_REGULAR:
+        raise ValueError(
+            f"{source.name}: the angles of {len(bearings)} rows neither rise nor fall, as those of a scan do."
+        )
+    source.notes.notice("order", "The rows were in no order, and were sorted by their angles.")
+    return order
+
+
 def _from_points(x: Floats, y: Floats) -> tuple[Floats, Floats]:
     return np.arctan2(y, x), np.hypot(x, y)
 
@@ -303,6 +317,10 @@ def _recording(
         edges = [0, *(np.flatnonzero(np.diff(table[:, roles.scan]) != 0) + 1).tolist(), len(table)]
     else:
         edges = turns(bearings)
+        if len(table) >= LEAST_ROWS and (len(edges) - 1) * FEW_ROWS > len(table):
+            order = _in_order(source, bearings)
+            table, bearings, ranges = table[order], bearings[order], ranges[order]
+            edges = turns(bearings)
     stamps = np.zeros(len(table))
     if roles.stamp is not None and np.isfinite(table[:, roles.stamp]).all():
         unit = TIMES.get(names[roles.stamp].unit) if names else None

@@ -32,6 +32,10 @@ IN_NAME = re.compile(
     "[^\\[({]*[\\[({](?:\\d+[\\])}]\\s*(?:[,;\t]|$)|\\s*[\\d./]+\\s?(?!nan|inf)(?:[a-zµ]{1,12}|°)\\s*[\\])}])".encode(),
     re.IGNORECASE,
 )
+# A list of ten numbers or more.
+LONG_LIST = re.compile(
+    rb"\[((?:\s*(?:[-+]?\d*\.?\d+(?:e[-+]?\d+)?|[-+.]?inf|\.?nan|null|none)\s*,){9}[^\[\]]*)\]", re.IGNORECASE
+)
 WORDS = {
     rb"float\(['\"]([-+\w]+)['\"]\)": rb"\1",
     rb"\b(?:np|numpy|math)\.": b"",
@@ -225,6 +229,11 @@ def is_list(line: bytes) -> bool:
     """Whether a line begins a list in brackets, perhaps after numbers or a name, and not a header with brackets."""
     brackets = b"[" in line or b"(" in line or b"{" in line
     return brackets and LIST.fullmatch(line.strip()) is not None and not IN_NAME.match(line)
+
+
+def in_log(lines: list[bytes]) -> bool:
+    """Whether most lines have a list of numbers among words, as logs of a node have."""
+    return b"[" in lines[0] and 2 * sum(LONG_LIST.search(line) is not None for line in lines) > len(lines)
 
 
 def bracketed(rows: Iterable[Row], name: str) -> Iterator[Row]:

@@ -83,6 +83,8 @@ def name_of(cell: str) -> Name:
     text, unit, scale = _without_unit(
         re.sub(r"(?<=(?i:xyz))\W?([012])\W?$", lambda found: "_" + "xyz"[int(found[1])], text)
     )
+    if not unit and (after := re.search(r"(?<=\d)[_ ](mm|cm|m)$", text)):
+        text, unit = text[: after.start()], after[1]
     index = re.search(r"(?:\[(\d+)\]|[._/ ](\d+)|(?<=[A-Za-z])(\d+))\s*$", text)
     if index:
         text = text[: index.start()]

@@ -14,11 +14,13 @@ from ..scan import Recording
 from .beam_rows import columns_beside, read_beams, table_of
 from .dialect import (
     COMMENTS,
+    LONG_LIST,
     Dialect,
     Row,
     begins_with_number,
     bracketed,
     dialect_of,
+    in_log,
     is_list,
     labels_of,
     text_of,
@@ -160,6 +162,10 @@ def _read(source: Source, reading: Reading, head: list[Row], rows: Iterable[Row]
     """Decides what the rows hold, from the first of them."""
     lines = [row.text for row in head]
     source.notes.kind = "text"
+    if not is_list(lines[0]) and in_log(lines):
+        lists = (Row(row.number, found[1]) for row in rows if (found := LONG_LIST.search(row.text)))
+        head = list(islice(lists, SAMPLE))
+        return _read_numbers(source, reading, head, chain(head, lists), Dialect(b","), None)
     if is_list(lines[0]):
         rows, dialect = bracketed(rows, source.name), Dialect(b" ")
         head = list(islice(rows, SAMPLE))
@@ -291,6 +297,8 @@ def _read_beams(
     if any(map(is_distance, names)) and any(map(is_angle, names)):
         return read_beams(source, reading, rows, dialect, names)
     if {"x", "y"} <= {name.plain.split("_")[-1] for name in names}:
+        if len([name for name in names if name.element >= 0 and name.plain == "x"]) > 1:
+            raise ValueError(f"{source.name} has lines from one point to another, not scans; {TEXT_FORMS}")
         return read_beams(source, reading, rows, dialect, names)
     if any(map(is_angle, names)) and len(names) > 2:
         angle = next(at for at, name in enumerate(names) if is_angle(name))
