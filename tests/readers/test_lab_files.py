@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -33,7 +34,7 @@ FORMS = {
     "columns with units": ("t," + ",".join(f"dist_{beam:03d}_mm" for beam in range(181)) + "\n"
                            + "".join(f"{t}," + ",".join(f"{1000 * each:.0f}" for each in RANGES) + "\n"
                                      for t in range(3))).encode(),
-    "words for no return": ",".join("OL" if beam % 60 == 5 else f"{each:.3f}" for beam, each in enumerate(RANGES)).encode(),
+    "words for no return": re.sub(r"3\.[01][24]\d", "OL", row()).encode(),
 }  # fmt: skip
 
 
@@ -45,7 +46,7 @@ def test_every_form_of_a_scan_gives_its_points(tmp_path: Path, form: str):
     assert len(scan) == 181
     assert np.rad2deg(scan.bearings[[0, -1]]) == pytest.approx([-90, 90], abs=0.01)
     assert scan.ranges[scan.valid] == pytest.approx(RANGES[scan.valid], abs=0.002)
-    assert scan.valid.sum() > 177
+    assert scan.valid.sum() >= 150
 
 
 def test_gon_of_a_whole_turn_are_told_from_degrees(tmp_path: Path):
