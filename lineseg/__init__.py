@@ -58,10 +58,10 @@ from .tracing.decisions import Decision, Explanation, Trace, TracedLine
 from .truth import Agreement, Matching, agreement, agreements, match, near_lines, true_ends, true_lines
 from .truth.label_file import ConflictError, label_file, read_labels, save_labels
 from .truth.labels import FrameLabels, TrueLine
-from .version import __version__
 from .what_if import WhatIf, what_if
 from .writers import figure_svg, params_text, read_params, write_segments
 from .writers.pack import write_pack
+from .writers.version import __version__
 
 __all__ = [
     "EXTRACTORS",

@@ -31,7 +31,7 @@ def test_each_name_has_a_docstring_of_its_own(name: str):
 def test_the_version_is_the_same_everywhere():
     project = tomllib.loads((ROOT / "pyproject.toml").read_text())
     assert project["project"]["dynamic"] == ["version"]
-    assert project["tool"]["setuptools"]["dynamic"]["version"] == {"attr": "lineseg.version.__version__"}
+    assert project["tool"]["setuptools"]["dynamic"]["version"] == {"attr": "lineseg.writers.version.__version__"}
     assert YAML(typ="safe").load(ROOT / "CITATION.cff")["version"] == lineseg.__version__
     (newest, *_) = re.findall(r"^## (\S+)", (ROOT / "CHANGELOG.md").read_text(), re.MULTILINE)
     assert newest == lineseg.__version__

@@ -16,13 +16,13 @@ from lineseg.tracing.glossary import TERMS
 
 from ..frame.framing import framing_near
 from ..frame.geometry import extent_of, united
+from ..frame.lesson_shown import BESIDE, decisions_of, frames_to_label, times_here
 from ..frame.state import framing_told
 from ..places import data_folder
 from ..shelf.lesson import Lessons, NamedLesson, Step, Task
 from ..shelf.lesson_markup import MEDIA, links
 from ..shelf.lesson_numbers import METHOD
 from ..shelf.lesson_shelf import LessonShelf
-from ..shelf.lesson_shown import BESIDE, decisions_of, frames_to_label, times_here
 from ..told.answers import ExplainedTerm
 from ..told.drawn import Framing
 from ..told.handout import Handout, Stand

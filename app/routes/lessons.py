@@ -16,12 +16,12 @@ from starlette.exceptions import HTTPException
 from lineseg import EXTRACTORS, Params
 
 from ..bounds import Message, Number
+from ..frame.lesson_shown import decisions_of, frames_to_label, times_here
 from ..handout.sheet import sheet_page
 from ..session.sessions import Sessions
 from ..shelf.lesson import USUAL, Lessons, NamedLesson
 from ..shelf.lesson_draft import drafted
 from ..shelf.lesson_markup import MEDIA
-from ..shelf.lesson_shown import decisions_of, frames_to_label, times_here
 from ..shelf.library import Library
 from ..told.answers import Fitted, FrameToLabel, TimesHere
 from ..told.messages import TraceColumns

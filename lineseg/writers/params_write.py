@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from ..extractors import method_of
 from ..knobs import Knob, Thresholds
 from ..params import Params
-from ..version import __version__
+from .version import __version__
 
 EXTENSION = "extension of lineseg; not in the authors' program"
 

@@ -8,9 +8,9 @@ from functools import partial
 
 import numpy as np
 import pytest
+from lineseg_app.frame.lesson_shown import frames_to_label
 from lineseg_app.places import data_folder
 from lineseg_app.shelf.lesson import USUAL
-from lineseg_app.shelf.lesson_shown import frames_to_label
 
 from lineseg import Params, open_recording, trace
 

@@ -14,10 +14,10 @@ from lineseg import EXTRACTORS, Params, Recording, Scan, Thresholds, extract
 from lineseg.compare.timing import times_of
 from lineseg.truth import agreement, true_lines
 
-from ..frame.findings import findings_in
-from ..frame.stepping import columns_of
 from ..told.answers import FrameToLabel, LineToLabel, MethodTimes, TimesHere
 from ..told.drawn import TraceColumns
+from .findings import findings_in
+from .stepping import columns_of
 
 # Those of the paper's Fig. 9 and Table 3.
 TIMED = ("region-growing", "split-and-merge")
