@@ -73,4 +73,4 @@ def trust(
         reasons.append(f"{bounded:.0%} of the poses needed the largest correction")
     if reasons:
         return False, f"Do not trust this truth: {'; '.join(reasons)}."
-    return True, "This truth can be used to judge methods."
+    return True, "The walls hold together; on clutter, rates measured with them may be several points off."

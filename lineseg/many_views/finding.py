@@ -86,7 +86,7 @@ def truth_by_many_views(recording: Recording, progress: Progress | None = None) 
     say(0, ROUNDS + 2)
     given = check(recording)
     returns = Returns.of(recording, given)
-    given = np.ascontiguousarray(given[returns.frames])
+    given = np.ascontiguousarray(given[returns.frames], dtype=np.float64)
     scan, views = returns.scan, views_of(given)
     poses, before = given, np.nan
     placed = returns.in_world(poses)
