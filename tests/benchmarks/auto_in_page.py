@@ -13,7 +13,8 @@ import time
 from pathlib import Path
 
 from lineseg_app.server import Settings
-from websockets.sync.client import ClientConnection, connect
+from websockets.sync.client import connect
+from websockets.sync.connection import Connection
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 from live import SECONDS, page_of, serving
@@ -41,7 +42,7 @@ def main(recording: str, trials: int) -> None:
                 )
 
 
-def _searched(socket: ClientConnection, trials: int) -> list[float]:
+def _searched(socket: Connection, trials: int) -> list[float]:
     """When each trial came, and at last the end."""
     wish = {"objective": "label-free", "thresholds": THRESHOLDS, "trials": trials, "anew": True}
     socket.send(json.dumps({"type": "auto", "job": 1, "params": {}} | wish))
