@@ -44,16 +44,19 @@ def write_site(
     if INDEX in names.values():
         raise ValueError(f"{INDEX} is the list of the lessons; rename the lesson “index”")
     check_folder(folder)
-    pages = {INDEX: index_page(lessons, names)}
-    following = [*(quote(names[lesson.id]) for lesson in lessons[1:]), ""]
-    for done, (lesson, after) in enumerate(zip(lessons, following, strict=True), 1):
-        pages[names[lesson.id]] = lesson_page(shelf, lesson, after, INDEX)
-        advance(done, len(lessons))
     folder.mkdir(parents=True, exist_ok=True)
+    following = [*(quote(names[lesson.id]) for lesson in lessons[1:]), ""]
+    # Each is written when it is made, so that a disk that says no is told after the first, not after the last.
+    for done, (lesson, after) in enumerate(zip(lessons, following, strict=True), 1):
+        _write(folder / names[lesson.id], lesson_page(shelf, lesson, after, INDEX))
+        advance(done, len(lessons))
     # The list comes last, so that each lesson in it is there.
-    for name in (*names.values(), INDEX):
-        with whole_file(folder / name) as part:
-            part.write_text(pages[name], encoding="utf-8")
+    _write(folder / INDEX, index_page(lessons, names))
+
+
+def _write(path: Path, page: str) -> None:
+    with whole_file(path) as part:
+        part.write_text(page, encoding="utf-8")
 
 
 def check_folder(folder: Path) -> None:
