@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from html import escape
 
@@ -18,6 +19,7 @@ INK, GROUND = "#14161a", "#ffffff"
 EDGE, LETTER = 6.0, 6.4
 LINE = 14.0
 NOT_PRINTED = {"invalid"}
+INDEX = re.compile(r"(?<=[^\W_])_(\w+)(.*)")
 
 
 def print_svg(picture: Picture, framing: Framing, words: str) -> str:
@@ -95,9 +97,15 @@ def _word(words: str, x: float, y: float, taken: list[tuple[float, float, float]
     y = next((y + by for by in steps if LINE <= y + by <= HEIGHT - EDGE and free(y + by)), y)
     taken.append((x, x + wide, y))
     return (
-        f'<text x="{x:.1f}" y="{y:.1f}" paint-order="stroke" stroke="{GROUND}" stroke-width="3">'
-        f"{escape(words, quote=False)}</text>"
+        f'<text x="{x:.1f}" y="{y:.1f}" paint-order="stroke" stroke="{GROUND}" stroke-width="5"'
+        f' stroke-linejoin="round">'
+        f"{INDEX.sub(_lowered, escape(words, quote=False))}</text>"
     )
+
+
+def _lowered(index: re.Match[str]) -> str:
+    """An index below the line; what follows goes back up."""
+    return f'<tspan dy="3" font-size="75%">{index[1]}</tspan><tspan dy="-3">{index[2]}</tspan>'
 
 
 def _bar(place: _Place) -> Iterator[str]:

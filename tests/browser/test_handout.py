@@ -111,7 +111,7 @@ def test_a_lesson_is_read_and_its_task_solved_on_a_phone(open_file):
     file = open_file(lesson_page(LESSONS, lesson), 480, 800)
     page = file.page
     forward = page.locator(".lesson-foot button").last
-    page.get_by_text(lesson.steps[0].text[:40]).wait_for()
+    page.get_by_role("region", name="Lesson").get_by_text(lesson.steps[0].text[:40]).wait_for()
     forward.click()
     file.until(lambda drawn: drawn[2] is not None)
     page.locator(".scene-name", has_text="P, beam").wait_for()

@@ -118,7 +118,7 @@ def test_the_replay_says_each_decision_and_jumps_to_the_next_of_a_kind(tab):
 
 def test_the_card_does_not_lie_on_the_point_that_it_explains(new_tab):
     xy = open_recording(SAMPLES / "laboratory.npz")[223].xy
-    high, low = int(np.nanargmax(xy[:, 1])), 275
+    high, low = int(np.nanargmax(xy[:, 1])), int(np.nanargmin(xy[:, 1]))
     tops = []
     for beam in (high, low):
         tab = new_tab(f"#recording=sample:laboratory&frame=223&beam={beam}")
