@@ -40,10 +40,8 @@ class Cells(NamedTuple):
     origin: Floats
 
 
-def cells_of(
-    placed: NDArray[np.floating], scan: NDArray[np.integer], poses: Floats, views: NDArray[np.int64], least_views: int
-) -> Cells:
-    """The squares that `least_views` or more views see something in.
+def cells_of(placed: NDArray[np.floating], scan: NDArray[np.integer], poses: Floats, views: NDArray[np.int64]) -> Cells:
+    """The squares that something is seen in.
 
     placed: (n, 2) points in the world; scan: (n,) scan of each; poses: (m, 3), views: (m,) of each scan.
     Within a square each view counts alike, however many points it has there.
@@ -66,8 +64,7 @@ def cells_of(
     counts = np.diff(starts, append=len(key))
     means = np.add.reduceat(of_views, starts) / counts[:, None]
     strength = np.add.reduceat(strength, starts)
-    kept = counts >= least_views
-    key, means, counts = key[starts][kept], means[kept], counts[kept].astype(np.float64)
+    key, counts = key[starts], counts.astype(np.float64)
     surface = np.zeros((len(key), 4))
     xy, looking = np.ascontiguousarray(means[:, :2]), np.ascontiguousarray(means[:, 2:])
     surfaces(key, xy, looking, np.minimum(counts, MOST_VIEWS), ROW, QUARTERS, AROUND, surface)
@@ -75,7 +72,7 @@ def cells_of(
         xy,
         looking,
         counts,
-        strength[kept],
+        strength,
         np.ascontiguousarray(surface[:, :2]),
         surface[:, 2].copy(),
         surface[:, 3].copy(),
@@ -121,11 +118,17 @@ def surfaces(keys, xy, toward, weights, row, quarters, around, surface):
                     syy += w * y * y
                 j += 1
         a, b, c = sxx / n - sx * sx / n / n, sxy / n - sx * sy / n / n, syy / n - sy * sy / n / n
-        angle = 0.5 * np.arctan2(2 * b, a - c)
-        half = np.sqrt((a - c) * (a - c) / 4 + b * b)
-        nx, ny = -np.sin(angle), np.cos(angle)
-        if nx * toward[i, 0] + ny * toward[i, 1] < 0:
-            nx, ny = -nx, -ny
-        surface[i, 0], surface[i, 1] = nx, ny
-        surface[i, 2] = np.sqrt(max((a + c) / 2 - half, 0.0))
-        surface[i, 3] = np.sqrt((a + c) / 2 + half)
+        surface[i, 0], surface[i, 1], surface[i, 2], surface[i, 3] = across_and_along(
+            a, b, c, toward[i, 0], toward[i, 1]
+        )
+
+
+@kernel
+def across_and_along(a, b, c, x, y):
+    """Normal (two numbers, towards (x, y)), rms across and rms along of points with the scatter ((a, b), (b, c))."""
+    angle = 0.5 * np.arctan2(2 * b, a - c)
+    half = np.sqrt((a - c) * (a - c) / 4 + b * b)
+    nx, ny = -np.sin(angle), np.cos(angle)
+    if nx * x + ny * y < 0:
+        nx, ny = -nx, -ny
+    return nx, ny, np.sqrt(max((a + c) / 2 - half, 0.0)), np.sqrt((a + c) / 2 + half)

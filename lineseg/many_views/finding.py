@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -87,26 +88,38 @@ def truth_by_many_views(recording: Recording, progress: Progress | None = None) 
     given = check(recording)
     returns = Returns.of(recording, given)
     given = np.ascontiguousarray(given[returns.frames], dtype=np.float64)
-    scan, views = returns.scan, views_of(given)
-    poses, before = given, np.nan
-    placed = returns.in_world(poses)
+    scan, views, poses = returns.scan, views_of(given), given
     say(1, ROUNDS + 2)
-    walls, wall_of = walls_of(placed, scan, poses, views)
-    height = np.empty(0, np.float32)
-    for turn in range(ROUNDS):
-        if turn:
-            placed = returns.in_world(poses)
-            walls, wall_of = walls_of(placed, scan, poses, views)
-        _, height = nearest_walls(placed, scan, poses, walls, FARTHEST)
-        thickness = _rms(height)
-        before = thickness if turn == 0 else before
+    first = fit = _fit(returns, scan, poses, views)
+    say(2, ROUNDS + 2)
+    for turn in range(1, ROUNDS):
+        poses = refined(returns, given, poses, fit.walls, 0.20 / turn, max(fit.thickness, 0.01))
+        fit = _fit(returns, scan, poses, views)
         say(turn + 2, ROUNDS + 2)
-        if turn < ROUNDS - 1:
-            poses = refined(returns, given, poses, walls, 0.20 / (turn + 1), max(thickness, 0.01))
-    piece = labels_of(placed, scan, poses, views, walls)
-    wall_of = divided_at_openings(walls, wall_of, placed, scan, poses)
+    piece = labels_of(fit.placed, scan, poses, views, fit.walls)
+    wall_of = divided_at_openings(fit.walls, fit.wall_of, fit.placed, scan, poses)
     wall = np.where(piece >= 0, wall_of[piece] if len(wall_of) else -1, piece).astype(np.int32)
-    return _result(recording, returns, given, poses, ends_of(walls, wall_of, piece), wall, height, before)
+    ends = ends_of(fit.walls, wall_of, piece)
+    return _result(recording, returns, given, poses, ends, wall, fit.height, first.thickness)
+
+
+class _Fit(NamedTuple):
+    """What the returns make with some poses: their places in the world, the pieces of walls, the wall of each piece,
+    the height of each return over its piece [m], and the rms of these.
+    """
+
+    placed: NDArray[np.float32]
+    walls: Walls
+    wall_of: NDArray[np.int64]
+    height: NDArray[np.float32]
+    thickness: float
+
+
+def _fit(returns: Returns, scan: NDArray[np.int32], poses: Floats, views: NDArray[np.int64]) -> _Fit:
+    placed = returns.in_world(poses)
+    walls, wall_of = walls_of(placed, scan, poses, views)
+    _, height = nearest_walls(placed, scan, poses, walls, FARTHEST)
+    return _Fit(placed, walls, wall_of, height, _rms(height))
 
 
 def walls_of(
@@ -114,7 +127,7 @@ def walls_of(
 ) -> tuple[Walls, NDArray[np.int64]]:
     """The uninterrupted pieces of walls in the points (n, 2) of all scans in the world, and the wall of each piece."""
     every = -(-len(placed) // MOST_RETURNS)
-    cells = cells_of(placed[::every], scan[::every], poses, views, 1)
+    cells = cells_of(placed[::every], scan[::every], poses, views)
     walls, owner = grown_walls(cells, BAND)
     walls, owner = without_shadows(cells, walls, owner)
     walls, owner = merged_walls(cells, walls, owner, BAND)

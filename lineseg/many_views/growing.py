@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..kernel import entry_kernel, kernel
-from .cells import MOST_VIEWS, QUARTERS, ROW, SIDE, Cells, first_from
+from .cells import MOST_VIEWS, QUARTERS, ROW, SIDE, Cells, across_and_along, first_from
 
 # Length of the stretches into which a wall is divided [m].
 BIN = 0.05
@@ -33,6 +33,11 @@ class Walls(NamedTuple):
     low: NDArray[np.float64]
     high: NDArray[np.float64]
     rms: NDArray[np.float64]
+
+    @classmethod
+    def of(cls, rows: NDArray[np.float64]) -> Walls:
+        """From rows (w, 6) of normal, offset, low, high and rms."""
+        return cls(np.ascontiguousarray(rows[:, :2]), *(rows[:, k].copy() for k in range(2, 6)))
 
     def __len__(self) -> int:
         return len(self.offset)
@@ -70,8 +75,7 @@ def grown_walls(cells: Cells, band: float) -> tuple[Walls, NDArray[np.int32]]:
     count = grow_all(
         cells.xy, cells.toward, cells.normal, weights, cells.key, cells.origin, seeds, owner, *memory, band, rows
     )
-    rows = rows[:count]
-    return Walls(np.ascontiguousarray(rows[:, :2]), *(rows[:, k].copy() for k in range(2, 6))), owner
+    return Walls.of(rows[:count]), owner
 
 
 class Memory(NamedTuple):
@@ -211,10 +215,7 @@ def refitted(xy, weights, local, links, used, row):
         return False
     mx, my = sx / n, sy / n
     a, b, c = sxx / n - mx * mx, sxy / n - mx * my, syy / n - my * my
-    angle = 0.5 * np.arctan2(2 * b, a - c)
-    nx, ny = -np.sin(angle), np.cos(angle)
-    if nx * row[0] + ny * row[1] < 0:
-        nx, ny = -nx, -ny
+    nx, ny, row[5], _ = across_and_along(a, b, c, row[0], row[1])
     row[0], row[1] = nx, ny
     row[2] = nx * (mx + x0) + ny * (my + y0)
     row[3], row[4] = np.inf, -np.inf
@@ -223,5 +224,4 @@ def refitted(xy, weights, local, links, used, row):
             j = links[i, 0]
             at = -ny * xy[j, 0] + nx * xy[j, 1]
             row[3], row[4] = min(row[3], at), max(row[4], at)
-    row[5] = np.sqrt(max((a + c) / 2 - np.sqrt((a - c) * (a - c) / 4 + b * b), 0.0))
     return True

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..kernel import entry_kernel, kernel
+from .cells import first_from
 from .growing import Walls
 
 # Side of a square of the table in which the walls near a point are looked up [m].
@@ -90,11 +91,5 @@ def nearest(x, y, px, py, rows, keys, starts, walls, origin, reach):
 def square_of(x, y, keys, origin):
     """The position of the square around a point, or −1."""
     key = int(np.floor((x - origin[0]) / SQUARE)) * (1 << 32) + int(np.floor((y - origin[1]) / SQUARE))
-    low, high = 0, len(keys)
-    while low < high:
-        middle = (low + high) // 2
-        if keys[middle] < key:
-            low = middle + 1
-        else:
-            high = middle
-    return low if low < len(keys) and keys[low] == key else -1
+    k = first_from(keys, key)
+    return k if k < len(keys) and keys[k] == key else -1

@@ -31,8 +31,7 @@ Floats = NDArray[np.float64]
 
 def without_shadows(cells: Cells, walls: Walls, owner: NDArray[np.int32]) -> tuple[Walls, NDArray[np.int32]]:
     """The walls without those that outliers of a stronger wall form next to it."""
-    order = np.argsort(owner, kind="stable")
-    parts = np.split(order, np.searchsorted(owner[order], np.arange(len(walls))))[1:]
+    parts = parts_of(walls, owner)
     table = np.column_stack((walls.normal, walls.offset, walls.low, walls.high, walls.rms))
     strength = [np.bincount(*_bins(cells, part, wall)) for part, wall in zip(parts, table, strict=True)]
     alive = np.ones(len(parts), np.bool_)
@@ -44,6 +43,12 @@ def without_shadows(cells: Cells, walls: Walls, owner: NDArray[np.int32]) -> tup
                 alive[weak] = False
     numbers = np.where(alive, np.cumsum(alive) - 1, -1).astype(np.int32)
     return walls.only(alive), np.where(owner >= 0, numbers[owner], -1)
+
+
+def parts_of(walls: Walls, owner: NDArray[np.int32]) -> list[NDArray[np.intp]]:
+    """The squares of each wall."""
+    order = np.argsort(owner, kind="stable")
+    return np.split(order, np.searchsorted(owner[order], np.arange(len(walls))))[1:]
 
 
 def _bins(cells: Cells, part: NDArray, wall: Floats) -> tuple[NDArray[np.int64], Floats]:
@@ -66,8 +71,7 @@ def _is_shadow(cells: Cells, part: NDArray, wall: Floats, strength: Floats) -> b
 def merged_walls(cells: Cells, walls: Walls, owner: NDArray[np.int32], band: float) -> tuple[Walls, NDArray[np.int32]]:
     """The walls after all merges, longest first, and the wall of each square or −1."""
     weights = np.minimum(cells.views, MOST_VIEWS)
-    order = np.argsort(owner, kind="stable")
-    parts = np.split(order, np.searchsorted(owner[order], np.arange(len(walls))))[1:]
+    parts = parts_of(walls, owner)
     fits = [fitted(cells.xy[part], weights[part], normal) for part, normal in zip(parts, walls.normal, strict=True)]
     waiting = sorted(range(len(parts)), key=lambda k: fits[k][3] - fits[k][4])
     alive = np.ones(len(parts), np.bool_)
@@ -88,8 +92,7 @@ def merged_walls(cells: Cells, walls: Walls, owner: NDArray[np.int32], band: flo
     owner = np.full(len(weights), -1, np.int32)
     for number, k in enumerate(kept.tolist()):
         owner[parts[k]] = number
-    table = table[kept]
-    return Walls(np.ascontiguousarray(table[:, :2]), *(table[:, k].copy() for k in range(2, 6))), owner
+    return Walls.of(table[kept]), owner
 
 
 def pieces_of(cells: Cells, walls: Walls, owner: NDArray[np.int32]) -> tuple[Walls, NDArray[np.int64]]:

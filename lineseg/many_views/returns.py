@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,7 +11,6 @@ from ..scan import Recording
 
 # Scans taken within a square of this side count as one view [m].
 VIEW = 0.3
-Progress = Callable[[float], None]
 
 
 @dataclass(frozen=True, eq=False)
