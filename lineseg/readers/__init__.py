@@ -147,11 +147,11 @@ def _recognised(head: bytes) -> type[Reader] | None:
 
 def _has_numbers(head: bytes) -> bool:
     """Whether a line starts like a number, or has numbers with labels, so that a .log may be a table after all."""
-    lines = head.splitlines()[:MOST_LINES]
+    lines = head.splitlines()
     return (
-        labels_of(lines) is not None
+        labels_of(lines[:MOST_LINES]) is not None
         or LONG_LIST.search(head) is not None
-        or any(line.lstrip(b" \t[(")[:1] in b"+-.0123456789" for line in head.splitlines() if line.strip())
+        or any(line.lstrip(b" \t[(")[:1] in b"+-.0123456789" for line in lines if line.strip())
     )
 
 

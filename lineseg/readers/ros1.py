@@ -30,9 +30,7 @@ class Ros1Bag(Reader):
         _check_version(source)
         with ExitStack() as stack:
             try:
-                from .indexed_bag import IndexedBag  # rosbags takes a while to import
-
-                bag = stack.enter_context(IndexedBag(source.path))
+                bag = stack.enter_context(_with_index(source))
             except Exception as error:  # rosbags has errors of its own, and needs an index
                 return _without_index(source, detail(error))
             streams = [Stream(each.topic, each.msgtype, each.msgcount, each, "ros1") for each in bag.connections]
@@ -46,9 +44,7 @@ def messages_of(source: Source, wanted: Callable[[Stream], bool]) -> Iterator[tu
     hint = "`rosbag reindex` or `rosbag fix` may repair it."
     with ExitStack() as stack, cut_off(source, "ROS bag", hint):
         try:
-            from .indexed_bag import IndexedBag
-
-            bag = stack.enter_context(IndexedBag(source.path))
+            bag = stack.enter_context(_with_index(source))
         except Exception:  # rosbags has errors of its own, and needs an index
             for connection, nanoseconds, data in scan_records(source.path):
                 stream = Stream(connection.topic, _modern(connection.type), 0, connection, "ros1")
@@ -77,6 +73,12 @@ def _check_version(source: Source) -> None:
             f"{source.name}: a ROS bag of version {match[1]}; versions 2.0 and newer can be read. "
             "`rosbag migrate` upgrades it."
         )
+
+
+def _with_index(source: Source) -> Any:
+    from .indexed_bag import IndexedBag  # rosbags takes a while to import
+
+    return IndexedBag(source.path)
 
 
 def _messages(source: Source, bag: Any, streams: list[Stream]) -> Iterator[tuple[Decoder, int, bytes]]:
