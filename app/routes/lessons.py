@@ -64,9 +64,7 @@ def add_lessons(app: FastAPI, library: Library, sessions: Sessions) -> None:
     @app.get("/lessons/{id:path}/print")
     async def sheet(id: str) -> HTMLResponse:
         """A lesson to print."""
-        lesson = await run_in_threadpool(shelf.find, id)
-        if lesson is None:
-            raise HTTPException(404, f"there is no lesson {id[:60]!r} on this server")
+        lesson = await run_in_threadpool(one, id)
 
         def address(name: str) -> str:
             return f"/api/lessons/picture?{urlencode({'id': id, 'name': name})}"

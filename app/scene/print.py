@@ -9,6 +9,8 @@ from html import escape
 import numpy as np
 from numpy.typing import NDArray
 
+from lineseg.writers.figure import bar_length
+
 from ..frame.framing import Framing
 from .flat import code_of, look_of, shapes_of
 from .picture import Picture
@@ -110,9 +112,7 @@ def _lowered(index: re.Match[str]) -> str:
 
 def _bar(place: _Place) -> Iterator[str]:
     """The scale along the line."""
-    metres = next(
-        each for each in (10.0, 5.0, 2.0, 1.0, 0.5, 0.2, 0.1, 0.05, 0.02, 0.01, 0.005, 1e-3) if each * place.scale < 160
-    )
+    metres = bar_length(160 / place.scale)
     words = f"{metres:g} m" if metres >= 1 else f"{100 * metres:g} cm"
     y = HEIGHT - 2 * EDGE
     yield f'<path d="M{EDGE:g} {y:g}h{metres * place.scale:.1f}" stroke="{INK}" stroke-width="2"/>'

@@ -1,5 +1,6 @@
 // @ts-check
 // The list of lessons, with a mark at completed ones.
+import { chooseFile } from "../open/files.js";
 import { drawText } from "../text/draw.js";
 import { h } from "../widgets/dom.js";
 import { icon } from "../widgets/icon.js";
@@ -53,7 +54,7 @@ export class LessonList {
         "div",
         { class: "overview-foot" },
         quiet(progress.save, progress.saveHint, () => this.save()),
-        quiet(progress.open, "", () => chooseText((words) => this.read(words))),
+        quiet(progress.open, "", () => chooseFile(async ([file]) => file && this.read(await file.text()))),
       ),
     );
   }
@@ -129,14 +130,4 @@ export class LessonList {
     toast(this.progress.read(text, this.#progressText));
     this.show();
   }
-}
-
-/** Lets a person choose a file. @param {(text: string) => void} onText */
-function chooseText(onText) {
-  const input = h("input", { type: "file", accept: ".json" });
-  input.addEventListener("change", async () => {
-    const [file] = input.files ?? [];
-    if (file) onText(await file.text());
-  });
-  input.click();
 }

@@ -81,7 +81,7 @@ export const shownText = {
   },
 };
 
-/** @typedef {{true: number, found: number, matched: number}} Counted */
+/** @typedef {import("../wire.js").Counted} Counted */
 
 /** TR and FR with their numbers. @param {Counted} counted */
 function rates({ true: walls, found, matched }) {

@@ -8,11 +8,11 @@ import { h, setText } from "../../widgets/dom.js";
 import { foot } from "../geometry.js";
 import { SplitListing } from "../split_listing.js";
 import { Trace } from "../trace.js";
+import { placeOn } from "./place.js";
 
 /** @typedef {import("../trace.js").Event} Event */
 /** @typedef {[number, number]} Point */
 
-const MARGIN = 12;
 /** After these decisions there is a line. */
 const STANDS = new Set(["stretch kept", "line kept", "line fitted", "lines merged"]);
 
@@ -105,13 +105,7 @@ function paint(canvas, trace, event, lines) {
   const points = Array.from({ length: trace.beams }, (_, beam) => trace.point(beam));
   const there = points.filter((point) => point !== null);
   const [xs, ys] = [0, 1].map((axis) => there.map((point) => point[axis]));
-  const [left, right, low, high] = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];
-  const scale = Math.min(
-    (width - 2 * MARGIN) / Math.max(right - left, 0.1),
-    (height - 2 * MARGIN) / Math.max(high - low, 0.1),
-  );
-  const at = (/** @type {Point} */ [x, y]) =>
-    /** @type {Point} */ ([width / 2 + scale * (x - (left + right) / 2), height / 2 - scale * (y - (low + high) / 2)]);
+  const at = placeOn({ width, height }, xs, ys);
   const tested = new Set(trace.span(event.first, event.last));
   points.forEach((point, beam) => {
     if (!point) return;

@@ -4,13 +4,14 @@ import { fetchText } from "../../fetch.js";
 import { freshCanvas } from "../../widgets/canvas.js";
 import { colour, onTheme } from "../../widgets/colours.js";
 import { h, setText } from "../../widgets/dom.js";
+import { placeOn } from "./place.js";
 
 /** @typedef {import("../../wire.js").FrameToLabel} Frame */
 /** @typedef {import("../../wire.js").LineToLabel} Line */
+/** @typedef {import("../../wire.js").Counted} Counted */
 /** @typedef {[number, number]} Point */
 /** wrong: lines that are no walls; missed: walls without a line; done: whether a person has said so. @typedef {{wrong: Set<Line>, missed: number, done: boolean}} Label */
 
-const MARGIN = 14;
 const MOST_MISSED = 30;
 // How near to a line a click must be.
 const REACH_PX = 14;
@@ -153,8 +154,6 @@ export class Labelling {
   }
 }
 
-/** @typedef {{true: number, found: number, matched: number}} Counted */
-
 /** What a person says of a frame. @param {Frame} frame @param {Label} label @returns {Counted} */
 function countOf({ lines }, { wrong, missed }) {
   const matched = lines.length - wrong.size;
@@ -167,18 +166,10 @@ function sum(counts) {
   return { true: of("true"), found: of("found"), matched: of("matched") };
 }
 
-/** Where places of the plan are on a canvas. @param {Frame} frame @param {HTMLCanvasElement} canvas @returns {(at: Point) => Point} */
+/** Where places of the plan are on a canvas. @param {Frame} frame @param {HTMLCanvasElement} canvas */
 function placeOf({ x, y }, { clientWidth: width, clientHeight: height }) {
   const [xs, ys] = [x, y].map((values) => values.filter((value) => value !== null));
-  const [left, right, low, high] = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];
-  const scale = Math.min(
-    (width - 2 * MARGIN) / Math.max(right - left, 0.1),
-    (height - 2 * MARGIN) / Math.max(high - low, 0.1),
-  );
-  return ([across, up]) => [
-    width / 2 + scale * (across - (left + right) / 2),
-    height / 2 - scale * (up - (low + high) / 2),
-  ];
+  return placeOn({ width, height }, xs, ys);
 }
 
 /** The line that was clicked. @param {Frame} frame @param {Point} spot @param {(at: Point) => Point} on */
