@@ -39,6 +39,7 @@ store.allows = following.allows;
 const address = createAddress(page, text, {
   following: () => following.presenter,
   onLook: (look) => camera.want(look),
+  onLead: () => inspect.frames.lead(),
 });
 // On the stage, later elements lie over earlier ones.
 const scene = mountScene(page, place("stage"), text, {
@@ -74,6 +75,7 @@ const { live, timeline, plots, status } = mountBars(page, place, words, { onScor
 const work = createWork(notices, text.stage, () => page.drawn !== null);
 const opening = createOpening(page, { work, notices, tune, learn }, text, address.linked);
 const reread = createReread(page, words.reading, notices);
+stage.keepClearOf([following.element, reread.notice, packCard.element, inspect.ab.element]);
 const exports = createExportMenu(page, words, {
   status: () => live.status,
   work,

@@ -1,7 +1,7 @@
 // @ts-check
 // What the parts of this tab share: its View, its session, the last drawn state, and the calls that inform every part.
 import { tell } from "./parts.js";
-import { overlaid } from "./view/fields.js";
+import { overlaid, usualScore } from "./view/fields.js";
 import { Link } from "./view/link.js";
 import { keepSessionOnLeave, takeSession } from "./view/session.js";
 import { Store } from "./view/store.js";
@@ -112,12 +112,12 @@ export class Page {
   /** @param {boolean} on whether the newest frame of a live recording is followed */
   follow = (on) => this.change(on ? { live: true, step: null, selected: null } : { live: false });
 
-  /** @param {string} mode */
+  /** @param {import("./wire.js").View["mode"]} mode */
   setMode = (mode) => {
     if (mode === this.view.mode) return;
     // Inspect starts with the most suspicious frames, Learn with the first decision.
-    const score = mode === "inspect" && this.view.score === "coverage" ? { score: "suspicion" } : {};
-    this.change({ mode, step: mode === "learn" ? 0 : null, ...score });
+    const usual = mode === "inspect" && this.view.score === usualScore(this.view.mode);
+    this.change({ mode, step: mode === "learn" ? 0 : null, ...(usual && { score: usualScore(mode) }) });
   };
 
   /** Opens the initial world for drawing. */

@@ -46,7 +46,7 @@ export function mountPanels(page, place, words, { scene, inspect, labelling }) {
   const modes = createModes(words.learn.modes, place("main"), pages, {
     onMode(mode) {
       rerun.close();
-      if (mode === "inspect" && page.view.mode !== mode && !page.drawn?.live) inspect.frames.lead();
+      if (mode === "inspect" && page.view.mode !== mode) inspect.frames.lead();
       page.setMode(mode);
     },
     onEntered: inspect.showScored,

@@ -34,6 +34,7 @@ class Frames {
   #onFrame;
   /** @type {Scored | null} */ #scored = null;
   /** @type {Score[]} */ #scores = [];
+  #recording = "";
   #frame = 0;
   /** The last frame that was opened from the list. */ #led = -1;
   /** Whether the first frame of the list is to be opened once it is known. */ #leads = false;
@@ -168,14 +169,16 @@ class Frames {
     if (scored) this.#select.value = scored.score;
     this.#extra.hidden = scored?.score !== "suspicion";
     this.sort();
-    if (this.#leads && scored?.complete && scored.score === "suspicion") {
+    if (this.#leads && scored?.complete && scored.score === "suspicion" && scored.recording === this.#recording) {
       this.#leads = false;
       this.next(1);
     }
   }
 
   /** @param {Readonly<import("../wire.js").View>} view */
-  setView({ frame }) {
+  setView({ recording, frame, selected, step }) {
+    this.#recording = recording;
+    if (recording.startsWith("live:") || selected !== null || step !== null) this.#leads = false;
     if (frame === this.#frame) return;
     this.#frame = frame;
     this.#leads = false;

@@ -54,6 +54,8 @@ export function createReread(page, text, notices) {
   }
 
   return {
+    /** What was noticed. */
+    notice: noticed.element,
     openShown,
     /** The way on from an error. @param {import("../wire.js").Refused} refused @param {string} note */
     way: (refused, note) => ({ note, label: text.readAs, run: () => open(refused) }),

@@ -5,6 +5,9 @@ import { stretched } from "./viser.js";
 /** @typedef {import("../wire.js").Box} Box */
 /** @typedef {import("./viser.js").Stretch} Stretch */
 /** @typedef {[number, number]} Point */
+/** @typedef {{width: number, height: number}} Size of a stage [px] */
+/** @typedef {Size & {left: number, top: number}} Part of a stage [px] */
+/** What lies over the upper left corner of a stage: how far it reaches [px]. @typedef {{right: number, bottom: number}} Cover */
 /** The plan on a stage: its middle [m], its scale, and the size of the stage [px].
  * @typedef {{x: number, y: number, pxPerMetre: number, width: number, height: number, stretch: Stretch | null}} Sight */
 
@@ -17,11 +20,50 @@ const SHARE = 0.25;
 const EASILY_SEEN_PX = 60;
 // And it is not as near as this to an edge.
 const EDGE_PX = 30;
+// Beside what covers the stage a plan is shown only where there is at least this much room.
+const LEAST_ROOM_PX = 90;
 
-/** The middle of a box and the height of a stage [m] that shows all of it. @param {Box} box @param {{width: number, height: number}} size @param {{margin: number, least: number}} room */
-export function around([xmin, ymin, xmax, ymax], { width, height }, { margin, least }) {
+/**
+ * Where to look to see all of a box, beside what covers the stage: the middle of the stage and its height [m].
+ * @param {Box} box @param {Size} size @param {{margin: number, least: number}} room @param {Cover | null} cover
+ */
+export function around(box, size, room, cover = null) {
+  const whole = within(box, size, { left: 0, top: 0, ...size }, room);
+  const sight = { ...whole, pxPerMetre: size.height / whole.span, ...size, stretch: null };
+  if (!cover || !hides(cover, sight, box)) return whole;
+  return roomsBeside(cover, size)
+    .map((part) => within(box, size, part, room))
+    .reduce((best, each) => (best === whole || each.span < best.span ? each : best), whole);
+}
+
+/** The same in a part of the stage. @param {Box} box @param {Size} size @param {Part} part @param {{margin: number, least: number}} room */
+function within([xmin, ymin, xmax, ymax], size, part, { margin, least }) {
+  const { width, height } = part;
   const half = margin * Math.max((ymax - ymin) / 2, ((xmax - xmin) / 2 / width) * Math.max(1, height), least);
-  return { x: (xmin + xmax) / 2, y: (ymin + ymax) / 2, span: 2 * half };
+  return seenIn(part, size, [(xmin + xmax) / 2, (ymin + ymax) / 2], (2 * half) / Math.max(1, height));
+}
+
+/** Where to look to see a place in the middle of a part of the stage. @param {Part} part @param {Size} size @param {Point} place @param {number} scale [m/px] */
+function seenIn({ left, top, width, height }, size, [x, y], scale) {
+  return {
+    x: x - (left + (width - size.width) / 2) * scale,
+    y: y + (top + (height - size.height) / 2) * scale,
+    span: scale * Math.max(1, size.height),
+  };
+}
+
+/** Below and to the right of what covers the upper left corner. @param {Cover} cover @param {Size} size */
+function roomsBeside({ right, bottom }, { width, height }) {
+  return [
+    { left: 0, top: bottom, width, height: height - bottom },
+    { left: right, top: 0, width: width - right, height },
+  ].filter((part) => Math.min(part.width, part.height) >= LEAST_ROOM_PX);
+}
+
+/** Whether a part of a box, all of which is on the stage, is covered. @param {Cover | null} cover @param {Sight} sight @param {Box} box */
+function hides(cover, sight, [xmin, , , ymax]) {
+  const [left, top] = project(sight, xmin, ymax);
+  return cover !== null && left < cover.right && top < cover.bottom;
 }
 
 /** Where a point of the plan is [px]. @param {Sight} sight @param {number} x @param {number} y @returns {Point} */
@@ -38,8 +80,10 @@ export function unproject(sight, left, top) {
   return stretched(sight.stretch, drawn, true);
 }
 
-/** Where to look to see a box well, from nearer by if it is too small; null if it can be seen well. @param {Sight | null} sight @param {{width: number, height: number}} size @param {Box} box */
-export function towards(sight, { width, height }, [xmin, ymin, xmax, ymax]) {
+/** Where to look to see a box well, from nearer by if it is too small; null if it can be seen well. @param {Sight | null} sight @param {Size} size @param {Box} box @param {Cover | null} cover */
+export function towards(sight, size, box, cover = null) {
+  const { width, height } = size;
+  const [xmin, ymin, xmax, ymax] = box;
   const [wide, high] = [xmax - xmin, ymax - ymin];
   const scale = sight?.pxPerMetre ?? 0;
   const large = Math.max(wide, high) * scale > EASILY_SEEN_PX && wide * scale < width && high * scale < height;
@@ -48,7 +92,11 @@ export function towards(sight, { width, height }, [xmin, ymin, xmax, ymax]) {
     [project(sight, xmin, ymin), project(sight, xmax, ymax)].every((at) =>
       at.every((place, k) => place > EDGE_PX && place < [width, height][k] - EDGE_PX),
     );
-  if (large && inside) return null;
+  if (large && inside && !hides(cover, sight, box)) return null;
   const near = Math.max(high, (wide * height) / Math.max(1, width), 0.5) / SHARE;
-  return { x: (xmin + xmax) / 2, y: (ymin + ymax) / 2, span: large ? height / scale : near };
+  const span = large ? height / scale : near;
+  const middle = /** @type {Point} */ ([(xmin + xmax) / 2, (ymin + ymax) / 2]);
+  const there = { x: middle[0], y: middle[1], pxPerMetre: height / span, ...size, stretch: null };
+  const [part] = cover && hides(cover, there, box) ? roomsBeside(cover, size) : [];
+  return seenIn(part ?? { left: 0, top: 0, ...size }, size, middle, span / Math.max(1, height));
 }

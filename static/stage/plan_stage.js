@@ -10,6 +10,9 @@ import { createScale } from "./scale.js";
 /** @typedef {import("./viser.js").Stretch} Stretch */
 /** @typedef {[number, number]} Point */
 
+// Between a card and the nearest part of the plan.
+const BESIDE_PX = 20;
+
 export class PlanStage {
   element;
   /** How the plan is drawn. @type {Stretch | null} */
@@ -26,6 +29,8 @@ export class PlanStage {
   #moveListeners = [];
   /** @type {((at: Point | null) => void)[]} */
   #hoverListeners = [];
+  /** What may lie over the upper left of the scene. @type {HTMLElement[]} */
+  #covers = [];
   #scaleMark;
   #grid;
 
@@ -65,6 +70,29 @@ export class PlanStage {
     this.away = room === WHOLE;
   }
 
+  /** Fits keep clear of these cards, which lie over the upper left of the scene. @param {HTMLElement[]} cards */
+  keepClearOf(cards) {
+    this.#covers = cards;
+    const observer = new ResizeObserver(() => this.refit());
+    for (const card of cards) observer.observe(card);
+  }
+
+  /** How far they reach, if one is there. @returns {import("./plan.js").Cover | null} */
+  get cover() {
+    const { left, top } = this.element.getBoundingClientRect();
+    const cards = this.#covers.map((card) => card.getBoundingClientRect()).filter(({ height }) => height > 0);
+    if (!cards.length) return null;
+    return {
+      right: Math.max(...cards.map((card) => card.right)) - left + BESIDE_PX,
+      bottom: Math.max(...cards.map((card) => card.bottom)) - top + BESIDE_PX,
+    };
+  }
+
+  /** Fits again what was fitted, unless a person has moved the camera since. */
+  refit() {
+    if (this.sight && this.fitted && this.look === null && this.element.clientHeight) this.showBox(...this.fitted);
+  }
+
   get size() {
     return { width: this.element.clientWidth, height: this.element.clientHeight };
   }
@@ -92,7 +120,7 @@ export class PlanStage {
   /** Moves the plan so that the box of the laser can be seen well, and zooms in if it is too small. @param {Box} box */
   goTo = (box) => {
     const there = placedBox(this.#world, box);
-    const look = there && towards(this.sight, this.size, there);
+    const look = there && towards(this.sight, this.size, there, this.cover);
     if (look) this.lookAt(look);
   };
 

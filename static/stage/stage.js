@@ -3,7 +3,7 @@
 import { h } from "../widgets/dom.js";
 import { closePopovers } from "../widgets/menu.js";
 import { onLongPress } from "./long_press.js";
-import { around } from "./plan.js";
+import { around, WHOLE } from "./plan.js";
 import { PlanStage } from "./plan_stage.js";
 import {
   bend,
@@ -99,10 +99,8 @@ export class Stage extends PlanStage {
     if (at && sight) this.#handlers.onPick(at, FINGER_PX / sight.pxPerMetre, false);
   }
 
-  /** Fits again what was fitted, unless a person has moved the camera since. */
   #resized() {
-    if (this.#mode === "plan" && this.fitted && this.look === null && this.frame.clientHeight)
-      this.showBox(...this.fitted);
+    this.refit();
     this.tellMoved();
   }
 
@@ -201,7 +199,7 @@ export class Stage extends PlanStage {
   /** @type {PlanStage["showBox"]} */
   showBox(box, stretch, room) {
     super.showBox(box, stretch, room);
-    const { x, y, span } = around(box, this.size, room);
+    const { x, y, span } = around(box, this.size, room, room === WHOLE ? this.cover : null);
     this.#plan = this.#whole = { x, y, height: Math.max(span / 2 / TAN, NEAREST) };
     this.#pendingFit = cameraIn(this.frame) ? null : () => this.showBox(box, stretch, room);
     this.#apply();

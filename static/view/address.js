@@ -12,10 +12,10 @@ const DELAY_MS = 200;
 /**
  * @param {import("../page.js").Page} page
  * @param {{top: typeof import("../text/page.js").pageText.top, follow: typeof import("../text/page.js").pageText.follow}} text
- * @param {{following: () => string | null, onLook: (look: Look | null) => void}} handlers
- *   following: the presenter that this tab mirrors; onLook: what to look at in the recording of the link
+ * @param {{following: () => string | null, onLook: (look: Look | null) => void, onLead: () => void}} handlers
+ *   following: the presenter that this tab mirrors; onLook: what to look at in the recording of the link; onLead: the link means its most suspicious frame
  */
-export function createAddress(page, text, { following, onLook }) {
+export function createAddress(page, text, { following, onLook, onLead }) {
   const linked = createLinked();
   let timer = 0;
   /** The place of the last drawn state. @type {string | null} */
@@ -43,7 +43,9 @@ export function createAddress(page, text, { following, onLook }) {
 
   /** @param {string} hash */
   function read(hash) {
-    if (!page.store.read(hash)) return;
+    const named = page.store.read(hash);
+    if (page.store.leads) onLead();
+    if (!named) return;
     linked.open(page.view, page.store.name);
     onLook(page.store.look);
   }

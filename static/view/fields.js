@@ -17,6 +17,9 @@ export function fieldOf(name) {
   return field;
 }
 
+/** The score that a mode begins with. @param {View["mode"]} mode @returns {View["score"]} */
+export const usualScore = (mode) => (mode === "inspect" ? "suspicion" : fieldOf("score").default);
+
 /** The default View. @param {Field[]} [fields] @returns {View} */
 export function freshView(fields = VIEW) {
   const fresh = Object.fromEntries(fields.map(({ name, default: value }) => [name, structuredClone(value)]));

@@ -1,5 +1,7 @@
 // @ts-check
 // The View as a readable link, and back: how each kind of field is written. Defaults are left out.
+import { usualScore } from "./fields.js";
+
 /** @typedef {import("../wire.js").View} View */
 /** @typedef {import("../wire.js").Params} Params */
 /** @typedef {import("../wire.js").Field} Field */
@@ -28,7 +30,7 @@ export function hashOf(view, fields, thresholds, { name, look }) {
   for (const field of fields) {
     if (field.link === EACH) pairs.push(...differing(values[field.name], thresholds));
     else if (field.link !== null && (field.lasting || !live)) {
-      const words = written(field, values[field.name]);
+      const words = written({ ...field, default: usualOf(field, view.mode) }, values[field.name]);
       if (words !== "") pairs.push([field.link, words]);
     }
     if (field.name === "recording" && name && /^(file|recent|upload):/.test(view.recording)) pairs.push(["name", name]);
@@ -39,12 +41,19 @@ export function hashOf(view, fields, thresholds, { name, look }) {
     .join("&");
 }
 
+/** What a link means that leaves out a field: in Inspect, the most suspicious frame. @param {Field} field @param {View["mode"]} mode */
+function usualOf({ name, default: usual }, mode) {
+  if (name === "score") return usualScore(mode);
+  return name === "frame" && mode === "inspect" ? null : usual;
+}
+
 /**
- * Reads a hash. patch: what fits the View; odd: the rest, so that the server can say what is wrong.
+ * Reads a hash. patch: what fits the View; odd: the rest, so that the server can say what is wrong; leads: whether the
+ * most suspicious frame is meant.
  * @param {string} hash
  * @param {Field[]} fields
  * @param {(method: string | undefined) => Params | undefined} thresholdsOf the defaults of a method, where they are known
- * @returns {{patch: Named, odd: Named, aside: Aside, empty: boolean}}
+ * @returns {{patch: Named, odd: Named, aside: Aside, empty: boolean, leads: boolean}}
  */
 export function readHash(hash, fields, thresholdsOf) {
   const words = new URLSearchParams(hash.replace(/^#/, "").slice(0, LONGEST).replaceAll("+", "%2B"));
@@ -67,7 +76,9 @@ export function readHash(hash, fields, thresholdsOf) {
       sorted(others, (name, text) => Number.isFinite(numberOf(text)) && (!known || Object.hasOwn(known, name))),
     );
   const aside = { name: words.get("name") ?? "", look: lookOf(words.get("look")) };
-  return { patch, odd, aside, empty: words.size === 0 };
+  if (patch.mode) patch.score ??= usualScore(patch.mode);
+  const leads = patch.mode === "inspect" && ["frame", "step", "beam"].every((key) => !words.has(key));
+  return { patch, odd, aside, empty: words.size === 0, leads };
 }
 
 /** @typedef {{good?: any, bad?: any}} Parsed what fits, and what does not */

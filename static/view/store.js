@@ -49,6 +49,9 @@ export class Store {
   /** What of the plan is looked at, where it is not all of it; a part of the hash only. @type {Look | null} */
   look = null;
 
+  /** Whether the last hash means the most suspicious frame. */
+  leads = false;
+
   /** Whether a person may make this change. @type {(patch: Patch) => boolean} */
   allows = () => true;
 
@@ -177,9 +180,9 @@ export class Store {
     const fresh = /** @type {import("./fields.js").Named} */ (freshView(this.#fields));
     const own = /** @type {import("./fields.js").Named} */ (this.#view);
     const defaults = (/** @type {string | undefined} */ method) => this.#defaults[method ?? fresh.method];
-    const { patch, odd, aside, empty } = readHash(hash, this.#fields, defaults);
+    const { patch, odd, aside, empty, leads } = readHash(hash, this.#fields, defaults);
     if (empty) return false;
-    Object.assign(this, aside);
+    Object.assign(this, { ...aside, leads });
     for (const { name, link, mirrored } of this.#fields) if (link === null && !mirrored) fresh[name] = own[name];
     for (const { name } of this.#fields.filter(isPartial))
       if (patch[name]) patch[name] = { ...fresh[name], ...patch[name] };

@@ -50,7 +50,7 @@ def scored(tab) -> dict:
 
 @pytest.mark.own_tab
 def test_frames_are_listed_worst_first_filtered_and_walked_by_key(new_tab):
-    tab = new_tab("#mode=inspect")
+    tab = new_tab("#mode=inspect&score=coverage")
     values = scored(tab)["values"]
     worst = sorted(range(len(values)), key=lambda frame: (values[frame], frame))
     rows = tab.page.locator(".frames-row")
@@ -170,6 +170,7 @@ def test_the_most_suspicious_frame_says_what_looks_wrong_and_weights_change_the_
     worst = int(worst_first(found.scores)[0])
     row = tab.page.locator(".frames-row").first
     tab.eventually(lambda: row.get_attribute("data-frame") == str(worst), f"frame {worst} is not the first")
+    tab.until(f"s.frame === {worst}")
     first = why(hallway, worst)[0].text
     tab.eventually(lambda: first in row.locator(".frames-words").inner_text(), f"the row does not say: {first}")
     only_gap = dict.fromkeys(WEIGHTS, 0.0) | {"gap": 1.0}
@@ -181,6 +182,12 @@ def test_the_most_suspicious_frame_says_what_looks_wrong_and_weights_change_the_
     tab.page.locator(".weights-holder summary").click()
     tab.page.get_by_role("button", name="Default weights").click()
     tab.eventually(lambda: row.get_attribute("data-frame") == str(worst), "the usual weights do not come back")
+    # A link to Inspect alone does the same, one that names a frame opens that frame.
+    tab.page.evaluate("location.hash = '#mode=inspect&frame=0&recording=sample:hallway'")
+    tab.until("s.frame === 0 && s.score === 'suspicion'")
+    tab.page.wait_for_function("location.hash.includes('frame=0')")
+    tab.page.evaluate("location.hash = '#mode=inspect&recording=sample:hallway'")
+    tab.until(f"s.frame === {worst}")
 
 
 def test_the_lines_that_a_sentence_says_are_missed_are_ghosts_in_the_scene(new_tab):
