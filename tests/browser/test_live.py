@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 import threading
 from collections.abc import Iterator
 from pathlib import Path
@@ -81,6 +82,16 @@ def test_a_robot_is_watched_paused_and_given_its_parameters(robot: Driving, watc
     on = tab.until("s.live === true")
     assert on["first"] + on["frames"] > paused["first"] + paused["frames"]
     assert on["params"]["epsilon"] == 0.02
+
+    # What arrives is judged in Inspect too, and the newest frame stays on the screen.
+    tab.page.get_by_role("button", name="Inspect").click()
+    tab.until("s.score === 'suspicion' && s.live === true")
+    value = tab.page.locator(".frames-row .frames-value").first
+    tab.eventually(lambda: re.fullmatch(r"suspicion \d+(\.\d+)?", value.inner_text()), "no frame has a suspicion")
+    words = tab.page.locator(".frames-row .frames-words").first
+    tab.eventually(lambda: words.inner_text(), "nothing is said of the most suspicious frame")
+    tab.until("s.live === true && s.frame === s.first + s.frames - 1")
+    tab.page.get_by_role("button", name="Tune").click()
 
     # Segments go back, as long as it is wanted.
     menu = tab.page.get_by_role("button", name="Export")
