@@ -1,6 +1,6 @@
 PYTHON ?= python3
 BIN := .venv/bin
-EXTRAS := rerun,tune,parquet,plot,ros2,zenoh
+EXTRAS := rerun,tune,parquet,plot,dxf,ros2,zenoh
 # Tests of one file stay together, since they share a server, and in the order of tests/conftest.py.
 PYTEST := $(BIN)/pytest --dist loadfile --no-loadscope-reorder -n
 .PHONY: run install quick test check check-page dist clean

@@ -10,6 +10,7 @@ from .explain import explain
 from .extract import extract
 from .info import info
 from .lessons import lessons
+from .line_map import line_map
 from .node import node
 from .params import params
 from .record import record
@@ -31,6 +32,7 @@ COMMANDS: dict[str, Callable[..., None]] = {
     "score": score,
     "sweep": sweep,
     "truth": truth,
+    "map": line_map,
     "tune": tune,
     "compare": compare,
     "bench": bench,

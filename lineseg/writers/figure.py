@@ -51,10 +51,10 @@ def figure_svg(
     """
     notes = textwrap.wrap(_told(thresholds), LETTERS) if thresholds is not None else []
     legend = [*(_segment_legend(scan, extraction) if marks is None else map(_key, marks)), (CROSS, "laser")]
-    rows = _in_rows(legend)
+    rows = in_rows(legend)
     foot = FOOT + ROW * (len(notes) + len(rows) - 1)
     close = near is not None and len(near) > 0
-    place = _Place(scan.xy[scan.valid], foot) if near is None or not close else _Place(near, foot, laser=False)
+    place = Place(scan.xy[scan.valid], foot) if near is None or not close else Place(near, foot, laser=False)
     drawn = _segments(extraction, place) if marks is None else _marks(marks, place)
     parts = [
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{WIDTH:g}" height="{HEIGHT:g}" '
@@ -67,7 +67,7 @@ def figure_svg(
         *drawn,
         *_laser(place),
         *(["</g>"] if close else []),
-        *_foot(rows, title, notes, place),
+        *foot_of(rows, title, notes, place),
         "</svg>",
     ]
     return "\n".join(parts) + "\n"
@@ -81,7 +81,7 @@ def figure_title(recording: Recording, frame: int, method: str) -> str:
     return f"{recording.name}, frame {recording.number(frame)} of {frames}, {method}"
 
 
-class _Place:
+class Place:
     """The position in the drawing [px] of a point in the frame [m]."""
 
     def __init__(self, xy: NDArray[np.floating], foot: float, laser: bool = True) -> None:
@@ -99,13 +99,13 @@ class _Place:
         return float(self._centre[0] + across), float(self._centre[1] - up)
 
 
-def _points(scan: Scan, place: _Place) -> Iterator[str]:
+def _points(scan: Scan, place: Place) -> Iterator[str]:
     spots = (place(x, y) for x, y in scan.xy[scan.valid].tolist())
     path = " ".join(f"M{x:.1f} {y:.1f}h0" for x, y in spots)
     yield f'<path class="points" d="{path}" stroke="{POINT}" stroke-width="3" stroke-linecap="round"/>'
 
 
-def _segments(extraction: Extraction, place: _Place) -> Iterator[str]:
+def _segments(extraction: Extraction, place: Place) -> Iterator[str]:
     for number, (segment, colour) in enumerate(
         zip(extraction.segments, segment_colours(extraction.segments).tolist(), strict=True)
     ):
@@ -116,12 +116,12 @@ def _segments(extraction: Extraction, place: _Place) -> Iterator[str]:
         yield f"{line}<title>{words}</title></line>"
 
 
-def _laser(place: _Place) -> Iterator[str]:
+def _laser(place: Place) -> Iterator[str]:
     x, y = place(0.0, 0.0)
     yield f'<path class="laser" d="M{x - 6:.1f} {y:.1f}h12M{x:.1f} {y - 6:.1f}v12" stroke="{INK}" stroke-width="2"/>'
 
 
-def _marks(marks: Sequence[Mark], place: _Place) -> Iterator[str]:
+def _marks(marks: Sequence[Mark], place: Place) -> Iterator[str]:
     for mark in marks:
         yield f'<g class="mark" stroke-width="{mark.width:g}" stroke-linecap="round"><title>{mark.words}</title>'
         for row, colour in zip(mark.xy.tolist(), mark.colours.tolist(), strict=True):
@@ -164,7 +164,7 @@ def _told(thresholds: Thresholds) -> str:
     return ", ".join(f"{knob.symbol} = {value:g} {knob.unit}".strip().replace(" ", "\u00a0") for knob, value in knobs)
 
 
-def _in_rows(legend: Sequence[tuple[str, str]]) -> list[list[tuple[float, str, str]]]:
+def in_rows(legend: Sequence[tuple[str, str]]) -> list[list[tuple[float, str, str]]]:
     """The signs and words of the legend with their places [px], in as many rows as they need."""
     rows: list[list[tuple[float, str, str]]] = [[]]
     x = LEGEND_AT
@@ -178,8 +178,8 @@ def _in_rows(legend: Sequence[tuple[str, str]]) -> list[list[tuple[float, str, s
     return rows
 
 
-def _foot(
-    legend: Sequence[Sequence[tuple[float, str, str]]], title: str, notes: Sequence[str], place: _Place
+def foot_of(
+    legend: Sequence[Sequence[tuple[float, str, str]]], title: str, notes: Sequence[str], place: Place
 ) -> Iterator[str]:
     """Scale bar, legend, title and notes."""
     metres = bar_length(160 / place.scale)
