@@ -28,8 +28,13 @@ export function createPlots(holder, text, { scored, track, onFrame }) {
   /** The frame under the pointer. @type {number | null} */
   let pointed = null;
   let painting = 0;
+  // Asking the element would lay the page out at every change.
+  let height = 0;
   onTheme(paintSoon);
-  new ResizeObserver(paintSoon).observe(element);
+  new ResizeObserver(([{ contentRect }]) => {
+    height = contentRect.height;
+    paintSoon();
+  }).observe(element);
   element.addEventListener("pointermove", (event) => {
     pointed = frameAt(event);
     paintSoon();
@@ -52,7 +57,7 @@ export function createPlots(holder, text, { scored, track, onFrame }) {
   }
 
   function paintSoon() {
-    if (!painting && element.clientHeight) painting = requestAnimationFrame(paint);
+    if (!painting && height) painting = requestAnimationFrame(paint);
   }
 
   function paint() {

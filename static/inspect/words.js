@@ -62,6 +62,9 @@ export function createWords({ session, wanted, onWords }) {
       if (next === key) return;
       [key, known] = [next, new Map()];
       asking?.abort();
+      // Each change of a drag begins the rest anew.
+      clearTimeout(waiting);
+      waiting = 0;
       need();
     },
   };

@@ -22,6 +22,8 @@ const ONE_COLUMN = matchMedia("(width <= 720px), (orientation: portrait) and (wi
  */
 export function createLayout({ main, panels, plots, timeline }, text) {
   let sizes = kept();
+  /** The mode whose panel the divider is beside. */
+  let divided = "";
   const shown = () => panels.find((panel) => !panel.hidden) ?? panels[0];
   const sized = () => (ONE_COLUMN.matches ? "below" : main.dataset.mode === "learn" ? "learn" : "panel");
   const panelDivider = createDivider(text.panel, {
@@ -93,7 +95,11 @@ export function createLayout({ main, panels, plots, timeline }, text) {
     toggle,
     get: () => sizes,
     set,
-    setView: () => panelDivider.show(isHidden("panel")),
+    /** Another mode has another panel. @param {Readonly<import("../wire.js").View>} view */
+    setView({ mode }) {
+      if (mode !== divided) panelDivider.show(isHidden("panel"));
+      divided = mode;
+    },
   };
 }
 

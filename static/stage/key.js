@@ -19,6 +19,7 @@ export function createKey(holder, text) {
     setState({ framing, nodes }) {
       const marks = framing ? Object.keys(text.marks).filter((name) => nodes.includes(name)) : [];
       element.hidden = !marks.length;
+      if (element.hidden) return;
       if (!chosen) element.open = holder.clientHeight >= TALL_PX;
       list.replaceChildren(
         ...marks.map((name) =>

@@ -127,7 +127,9 @@ export class PlanStage {
   /** Places the laser in the world; ride: whether the plan moves along. @param {import("../wire.js").World | null} world @param {boolean} ride */
   place(world, ride) {
     const [before, now] = [this.#world?.pose, world?.pose];
+    const stays = !world && !this.#world;
     this.#world = world;
+    if (stays) return;
     // Whoever begins to ride is taken to the robot.
     const from = this.#riding ? before : this.middle;
     this.#riding = ride && world !== null;

@@ -3,6 +3,7 @@
 import { h } from "../widgets/dom.js";
 import { closePopovers } from "../widgets/menu.js";
 import { onLongPress } from "./long_press.js";
+import { paceFrames } from "./pace.js";
 import { around, WHOLE } from "./plan.js";
 import { PlanStage } from "./plan_stage.js";
 import {
@@ -71,6 +72,7 @@ export class Stage extends PlanStage {
   #loaded() {
     const inner = this.frame.contentWindow;
     if (!inner || !this.#source) return;
+    paceFrames(inner);
     const sheet = new /** @type {any} */ (inner).CSSStyleSheet();
     sheet.replaceSync(OVERRULED);
     inner.document.adoptedStyleSheets = [...inner.document.adoptedStyleSheets, sheet];

@@ -90,9 +90,21 @@ class Tuner {
     this.#auto.setTruth(truth);
   }
 
+  /** What curves would be for. */
+  get #wanted() {
+    return JSON.stringify([this.#place, this.#params]);
+  }
+
+  /** Stops curves that are out of date, so that they do not slow down what is dragged. */
+  #stopOld() {
+    if (this.#wanted === this.#asked || !this.#bench.has("curves")) return;
+    this.#bench.stop("curves");
+    this.#asked = "";
+  }
+
   /** Requests the curves if they are visible and out of date. */
   #ask() {
-    const wanted = JSON.stringify([this.#place, this.#params]);
+    const wanted = this.#wanted;
     if (!this.#place || wanted === this.#asked || !this.#sensitivity.visible) return;
     this.#asked = wanted;
     this.#sensitivity.pending();
@@ -137,6 +149,7 @@ class Tuner {
       this.#auto.forget();
     }
     this.#map.setParams(state.params);
+    this.#stopOld();
     clearTimeout(this.#timer);
     this.#timer = setTimeout(() => this.#ask(), PAUSE_MS);
   }

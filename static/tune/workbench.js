@@ -34,6 +34,11 @@ export class Workbench {
     this.#post(full);
   }
 
+  /** Whether work of this kind is under way. @param {Kind} kind */
+  has(kind) {
+    return Boolean(this.#latest.get(kind)?.wish);
+  }
+
   /** @param {Kind} kind */
   stop(kind) {
     this.#post({ type: "stop", what: kind });
