@@ -22,8 +22,6 @@ const ONE_COLUMN = matchMedia("(width <= 720px), (orientation: portrait) and (wi
  */
 export function createLayout({ main, panels, plots, timeline }, text) {
   let sizes = kept();
-  /** The mode whose panel the divider is beside. */
-  let divided = "";
   const shown = () => panels.find((panel) => !panel.hidden) ?? panels[0];
   const sized = () => (ONE_COLUMN.matches ? "below" : main.dataset.mode === "learn" ? "learn" : "panel");
   const panelDivider = createDivider(text.panel, {
@@ -43,6 +41,8 @@ export function createLayout({ main, panels, plots, timeline }, text) {
   });
   plots.append(timelineDivider.element);
   ONE_COLUMN.addEventListener("change", show);
+  const observer = new ResizeObserver(() => panelDivider.show(isHidden("panel")));
+  for (const panel of panels) observer.observe(panel);
 
   /** @param {number} size */
   function resize(size) {
@@ -95,11 +95,6 @@ export function createLayout({ main, panels, plots, timeline }, text) {
     toggle,
     get: () => sizes,
     set,
-    /** Another mode has another panel. @param {Readonly<import("../wire.js").View>} view */
-    setView({ mode }) {
-      if (mode !== divided) panelDivider.show(isHidden("panel"));
-      divided = mode;
-    },
   };
 }
 

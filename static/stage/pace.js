@@ -4,57 +4,57 @@
 
 // A frame that takes no longer [ms] is no burden.
 const LIGHT_MS = 12;
+// After other frames, viser rests for this many times as long as they took, but not for long [ms].
+const REST = 2;
+const LONGEST_REST_MS = 60;
+// A frame that takes longer is no longer waited for [ms].
+const PATIENCE_MS = 150;
 const POLL_MS = 4;
-// After a frame, viser rests for this many times as long as it took.
-const REST = 1;
-const LONGEST_MS = 120;
 
 /** Lets the scene rest after frames that take long. @param {any} scene the window of viser's page */
 export function paceFrames(scene) {
-  const usual = scene.requestAnimationFrame.bind(scene);
+  const ask = scene.requestAnimationFrame.bind(scene);
   const cancel = scene.cancelAnimationFrame.bind(scene);
-  /** What waits for the end of a rest, by its number. @type {Map<number, FrameRequestCallback>} */
-  const waiting = new Map();
+  /** The present request of each that was asked for. @type {Map<number, number>} */
+  const asked = new Map();
   let number = 0;
   let resting = false;
+  /** The picture of the screen that is being drawn [ms]. */
+  let drawing = 0;
 
-  /** @param {FrameRequestCallback} draw */
-  function next(draw) {
-    return usual((/** @type {number} */ now) => {
-      const begun = performance.now();
-      draw(now);
-      if (!resting) afterwards(begun);
-    });
-  }
-
-  /** Waits until what was drawn is on the screen. @param {number} begun */
-  function afterwards(begun) {
+  /** Waits until what was drawn is on the screen. */
+  function rest() {
     const pen = scene.document.querySelector("canvas")?.getContext("webgl2");
     const fence = pen?.fenceSync(pen.SYNC_GPU_COMMANDS_COMPLETE, 0);
     if (!fence) return;
     resting = true;
     pen.flush();
+    const begun = performance.now();
     const look = () => {
       const took = performance.now() - begun;
-      const done = pen.getSyncParameter(fence, pen.SYNC_STATUS) === pen.SIGNALED || pen.isContextLost();
-      if (!done && took < LONGEST_MS) return setTimeout(look, POLL_MS);
+      const done = pen.isContextLost() || pen.getSyncParameter(fence, pen.SYNC_STATUS) === pen.SIGNALED;
+      if (!done && took < PATIENCE_MS) return setTimeout(look, POLL_MS);
       pen.deleteSync(fence);
-      return setTimeout(go, took > LIGHT_MS ? Math.min(REST * took, LONGEST_MS) : 0);
+      return setTimeout(() => (resting = false), took > LIGHT_MS ? Math.min(REST * took, LONGEST_REST_MS) : 0);
     };
     setTimeout(look, 0);
   }
 
-  function go() {
-    resting = false;
-    for (const draw of waiting.values()) next(draw);
-    waiting.clear();
-  }
-
   scene.requestAnimationFrame = (/** @type {FrameRequestCallback} */ draw) => {
-    if (!resting) return next(draw);
-    number -= 1;
-    waiting.set(number, draw);
-    return number;
+    const own = --number;
+    const tried = (/** @type {number} */ now) => {
+      if (resting && now !== drawing) return asked.set(own, ask(tried));
+      drawing = now;
+      asked.delete(own);
+      draw(now);
+      if (!resting) rest();
+      return undefined;
+    };
+    asked.set(own, ask(tried));
+    return own;
   };
-  scene.cancelAnimationFrame = (/** @type {number} */ id) => waiting.delete(id) || cancel(id);
+  scene.cancelAnimationFrame = (/** @type {number} */ id) => {
+    cancel(asked.get(id) ?? id);
+    asked.delete(id);
+  };
 }

@@ -1,7 +1,9 @@
 """The way from a hand to the picture, in headless Chromium: hand_to_picture.py [RECORDING] [SECONDS]
 
 Drags ε at 60 Hz, then presses arrow keys at 30 Hz, and prints the time from the input to each stage that the page marks
-(static/view/stages.js), and to the first drawing of the scene with new data.
+(static/view/stages.js), and to the first drawing of the scene with new data. It does so with a page and a scene
+that the processor paints, with the scene alone painted so, and with no scene painted, as if a graphics card did it: the
+differences are the renderer's share.
 """
 
 from __future__ import annotations
@@ -16,6 +18,15 @@ from class_of_tabs import Server
 from playwright.sync_api import Page, sync_playwright
 
 FLAGS = ("--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-background-networking")
+UNPAINTED = """if (location.pathname.includes("/viser/"))
+    for (const draw of ["drawArrays", "drawElements", "drawArraysInstanced", "drawElementsInstanced", "clear"])
+        WebGL2RenderingContext.prototype[draw] = () => {};"""
+# Who paints: further flags of the browser, and a script for the scene.
+SCREENS = {
+    "all by SwiftShader": ([], ""),
+    "scene by SwiftShader": (["--disable-gpu-compositing"], ""),
+    "scene not painted": (["--disable-gpu-compositing"], UNPAINTED),
+}
 STAGES = ("sent", "answered", "shown")
 # The scene's frame notes when it draws for the first time after its buffers changed.
 WATCHED = """if (location.pathname.includes("/viser/")) {
@@ -67,17 +78,22 @@ def main(recording: str, seconds: float) -> None:
     chromium = next(filter(None, map(shutil.which, ("chromium-headless-shell", "chromium", "google-chrome"))))
     with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright:
         server = Server(folder)
-        browser = playwright.chromium.launch(executable_path=chromium, args=list(FLAGS))
         try:
-            page = browser.new_page(viewport={"width": 1440, "height": 900})
-            page.add_init_script(WATCHED)
-            page.goto(f"http://{server.address}/#recording={recording}")
-            page.wait_for_function("window.lineseg?.state && window.lineseg.settled", timeout=120_000)
-            page.wait_for_timeout(5000)
-            for label, hertz, key in (("drag", 60, False), ("keys", 30, True)):
-                _print(label, _moved(page, seconds, hertz, key))
+            for name, (flags, script) in SCREENS.items():
+                browser = playwright.chromium.launch(executable_path=chromium, args=[*FLAGS, *flags])
+                print(name)
+                try:
+                    page = browser.new_page(viewport={"width": 1440, "height": 900})
+                    for each in (script, WATCHED):
+                        page.add_init_script(each)
+                    page.goto(f"http://{server.address}/#recording={recording}")
+                    page.wait_for_function("window.lineseg?.state && window.lineseg.settled", timeout=120_000)
+                    page.wait_for_timeout(5000)
+                    for label, hertz, key in (("drag", 60, False), ("keys", 30, True)):
+                        _print(label, _moved(page, seconds, hertz, key))
+                finally:
+                    browser.close()
         finally:
-            browser.close()
             server.stop()
 
 
@@ -104,7 +120,7 @@ def _print(label: str, times: dict[str, list[float]]) -> None:
     for stage, each in times.items():
         if each:
             median, most = np.percentile(each, (50, 95))
-            print(f"{label}, {stage:9s} p50 {median:6.1f}  p95 {most:6.1f} ms  ({len(each)} changes)")
+            print(f"  {label}, {stage:9s} p50 {median:6.1f}  p95 {most:6.1f} ms  ({len(each)} changes)")
 
 
 if __name__ == "__main__":
