@@ -111,7 +111,6 @@ page.parts = [
   address,
   following,
   modes,
-  layout,
   topbar,
   timeline,
   plots,
