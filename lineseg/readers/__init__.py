@@ -22,7 +22,7 @@ from .carmen import CarmenLog
 from .clouds import PointCloud
 from .dialect import LONG_LIST, labels_of
 from .folder import bag_of_metadata, recording_in
-from .foreign import foreign
+from .foreign import foreign, unknown
 from .matlab import Matlab
 from .messages import EchoYaml, JsonMessages
 from .npz import Npz, save_npz
@@ -32,6 +32,7 @@ from .printed import PrintedMessages
 from .reading import Reading
 from .ros1 import Ros1Bag
 from .ros2 import Mcap, Ros2Bag
+from .sick import SickTelegrams
 from .source import Cancelled, Progress, Reader, Source
 from .text import Text
 from .urgbenri import UrgBenriLog
@@ -49,8 +50,8 @@ MOST_LINES = 100
 
 # Readers are asked in this order: a failure pack is a zip like NPZ, and text accepts any lines, so it comes last.
 READERS: tuple[type[Reader], ...] = (
-    Ros1Bag, Ros2Bag, Mcap, FailurePack, Npz, Npy, PointCloud, CarmenLog, PlayerLog, UrgBenriLog, JsonMessages,
-    XmlScans, PrintedMessages, Matlab, EchoYaml, Text,
+    Ros1Bag, Ros2Bag, Mcap, FailurePack, Npz, Npy, PointCloud, CarmenLog, PlayerLog, UrgBenriLog, SickTelegrams,
+    JsonMessages, XmlScans, PrintedMessages, Matlab, EchoYaml, Text,
 )  # fmt: skip
 
 
@@ -130,9 +131,7 @@ def _reader(source: Source, head: bytes) -> type[Reader]:
         told = reader is Text and by_suffix in (CarmenLog, EchoYaml, JsonMessages) and not _has_numbers(head)
         return by_suffix if told and by_suffix is not None else reader
     formats = ", ".join(reader.format for reader in READERS)
-    raise ValueError(
-        f"{source.name} begins with {head[:8]!r}, which is not a known format{expected}. Known formats: {formats}."
-    )
+    raise unknown(source.name, head, expected, formats)
 
 
 def format_of(path: Path) -> str:

@@ -19,6 +19,8 @@ from .source import Reader, Source
 
 ANGLE_NAMES = ("ang", "bearing", "theta", "azimuth", "phi")
 STAMP_NAMES = ("stamp", "time")
+# What an array of scans is called if another stands beside it.
+SCAN_NAMES = ("scan", "scans", "laser", "lasers", "lidar", "data")
 MOST_COLUMNS = 8
 
 
@@ -86,8 +88,10 @@ def recording_of_arrays(source: Source, arrays: Mapping[str, NDArray], format: s
     angles = next((name for name in rows if name.lower().startswith(ANGLE_NAMES) or is_angle(plain[name])), None)
     stamps = next((name for name in rows if name.lower().startswith(STAMP_NAMES) or plain[name].plain in STAMPS), None)
     named = {name: array for name, array in rows.items() if name not in (angles, stamps)}
-    if len(tables) > 1 and "ranges" in tables:
-        tables = {"ranges": tables["ranges"]}
+    if len(tables) > 1:
+        likely = [name for name in tables if is_distance(name_of(name)) or name_of(name).plain in SCAN_NAMES]
+        chosen = ["ranges"] if "ranges" in tables else likely
+        tables = {name: tables[name] for name in chosen} if len(chosen) == 1 else tables
     if (beams := _beam_columns(rows)) and not tables:
         names = [name_of(name) for name in beams]
         table = np.column_stack([rows[name].astype(np.float64) for name in beams])

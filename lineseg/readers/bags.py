@@ -38,11 +38,17 @@ class Stream:
             raise ValueError(f"{source.name}: {self.topic}: {error}.") from None
 
 
+class NotABagError(ValueError):
+    """A file that is whole, but no bag."""
+
+
 @contextmanager
 def guarded(source: Source, what: str, hint: str) -> Iterator[None]:
     """Turns any error of a library over a damaged file into one sentence."""
     try:
         yield
+    except NotABagError as error:
+        raise ValueError(f"{source.name}: {error}.") from None
     except Exception as error:
         raise ValueError(f"{source.name}: a damaged {what} ({detail(error)}); {hint}") from None
 

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from ..scan import Floats, Recording, Topic
 from .dialect import LEFT_OUT, Dialect, Row
-from .guessing import angle_unit_of, guess_angle_unit
+from .guessing import FAR, MOST_DEGREES, angle_unit_of, guess_angle_unit
 from .headers import LENGTHS, SCANS, STAMPS, TIMES, TURNS, Name, column_of, is_angle, is_distance
 from .reading import RADIANS, Direction, Reading
 from .scan_columns import alike, tell_columns, with_angles
@@ -33,6 +33,10 @@ LONGEST_NAME = 24
 CLOCKWISE = re.compile(r"(?<!counter_)(?<!anti_)(?:clockwise|(?<![^_])cw(?![^_]))")
 # What poses have beside x and y; the first column of the quaternion in TUM's rows.
 HEADINGS, QUATERNION = {"heading", "yaw"}, 4
+# Points of one plane differ less in height [m], but for a few.
+FLAT = 0.05
+# Codes for "no return" are few.
+FEW_CODES = 3
 # Points lie on their beams but for rounding [rad].
 AGREE = 0.02
 # What pandas and numpy print where they leave rows out.
@@ -67,14 +71,14 @@ def beams_of(
     if _are_poses(table, names):
         raise ValueError(f"{source.name} has poses, not scans; open the scans, and give this file as --poses.")
     if names is not None:
-        return _with_roles(source, reading, table, names, _named(names), guess_direction, format)
+        return with_roles(source, reading, table, names, _named(names), guess_direction, format)
     if table.shape[1] > 2 and alike(table):
         return scans_of(source, reading, list(range(1, len(table) + 1)), list(table), 0, None, format)
     roles = _guessed(source, table)
     others = [column for column in range(table.shape[1]) if column != roles.first]
     if roles.polar and len(others) > 1 and alike(table[:, others]):
         return columns_beside(source, reading, table, roles.first, others, format)
-    return _with_roles(source, reading, table, None, roles, guess_direction, format)
+    return with_roles(source, reading, table, None, roles, guess_direction, format)
 
 
 def _are_poses(table: NDArray[np.float64], names: list[Name] | None) -> bool:
@@ -95,7 +99,7 @@ def _are_poses(table: NDArray[np.float64], names: list[Name] | None) -> bool:
     return len(angles) < len(table) or _sense_of(table[:, points], angles) is None
 
 
-def _with_roles(
+def with_roles(
     source: Source, reading: Reading, table: NDArray[np.float64], names: list[Name] | None, roles: Roles,
     guess_direction: bool, format: str,
 ) -> Recording:  # fmt: skip
@@ -103,6 +107,8 @@ def _with_roles(
     if not roles.polar:
         # A point at the laser is a beam without a return; it has no bearing.
         table = table[(table[:, roles.first] != 0) | (table[:, roles.second] != 0)]
+        if names is not None and (z := column_of(names, lambda name: name.plain.split("_")[-1] == "z")) is not None:
+            table = _in_plane(source, table, roles, z)
     if names is not None:
         _take_units(source, reading, names, roles)
     if "unit" not in notes.found:
@@ -117,7 +123,7 @@ def _with_roles(
             # Such as angles from north: what x and y say needs no guess.
             notes.guesses = [guess for guess in notes.guesses if guess.field != "angle_unit"]
             roles = Roles(False, *points, roles.scan, roles.stamp)
-            return _with_roles(source, reading, table, names, roles, guess_direction, format)
+            return with_roles(source, reading, table, names, roles, guess_direction, format)
         notes.found["direction"] = sense
     elif roles.polar and guess_direction and reading.direction is None:
         notes.guess(
@@ -127,6 +133,44 @@ def _with_roles(
     notes.radians = True
     notes.unstated.add("range_max")
     return replace(_recording(source, table, roles, bearings, ranges, names), format=format)
+
+
+def _in_plane(source: Source, table: NDArray[np.float64], roles: Roles, z: int) -> NDArray[np.float64]:
+    """The table with x and y in the plane of the scan, which is told if it is not that of x and y.
+
+    In cameras and games, y is up or down, z ahead and x to the right. Raises ValueError for the points of many planes.
+    """
+    there = np.isfinite(table[:, [roles.first, roles.second, z]]).all(axis=1)
+    heights = [thickness(table[there, column]) for column in (roles.second, z)]
+    usual = np.median(np.hypot(table[there, roles.first], table[there, z])) if there.any() else 0.0
+    # Millimetres are told from metres by what they are in the plane.
+    flat = FLAT if usual < FAR else 1000 * FLAT
+    if heights[1] <= flat:
+        return table
+    check_flat(source.name, table[there, roles.second if heights[0] <= flat else z], flat)
+    words = "z ahead and x to the right, because all points have about the same y"
+    source.notes.guess(
+        "direction", f"The scan has {words}", "the file does not say where ahead is", direction="clockwise"
+    )
+    moved = table.copy()
+    moved[:, roles.first], moved[:, roles.second] = table[:, z], -table[:, roles.first]
+    return moved
+
+
+def thickness(heights: NDArray) -> float:
+    """Between which heights most points lie."""
+    low, high = np.quantile(heights, (0.05, 0.95)) if len(heights) else (0.0, 0.0)
+    return float(high - low)
+
+
+def check_flat(file: str, heights: NDArray, flat: float = FLAT, unit: str = "") -> None:
+    """Raises ValueError for the points of many planes. unit: of the heights, for the sentence."""
+    if thickness(heights) > flat:
+        low, high = np.quantile(heights, (0.05, 0.95))
+        raise ValueError(
+            f"{file} has points from {low:.3g} to {high:.3g}{unit} in height, but a scan lies in one plane; cut a "
+            "slice out of it first, as the node pointcloud_to_laserscan does."
+        )
 
 
 def _sense_of(xy: NDArray[np.float64], bearings: Floats) -> Direction | None:
@@ -237,17 +281,7 @@ def _guessed(source: Source, table: NDArray[np.float64]) -> Roles:
     """What columns without names hold: the angle is the one whose steps are about equal; or bearings of x and y are."""
     if table.shape[1] < 2:
         raise ValueError(f"{source.name} has {len(table)} rows of one number; is the file complete?")
-    columns = [column for column in range(table.shape[1]) if np.isfinite(table[:, column]).mean() > 0.5]
-    found: list[tuple[float, Roles]] = []
-    for angle in columns:
-        if np.nanmax(np.abs(table[:, angle])) <= 725:
-            partner = _distance_beside(table, columns, angle)
-            if partner is not None:
-                found.append((regularity(_radians(table[:, angle])), Roles(True, angle, partner)))
-    if len(columns) >= 2:
-        bearings, _ = _from_points(table[:, columns[0]], table[:, columns[1]])
-        found.append((regularity(bearings), Roles(False, columns[0], columns[1])))
-    score, roles = min(found, key=lambda each: each[0], default=(math.inf, Roles(True, 0, 1)))
+    score, roles = columns_of_beam(table)
     if len(table) < FEW_ROWS:
         score, roles = 0.0, Roles(True, 0, 1)
     if score > LEAST_REGULAR:
@@ -265,14 +299,29 @@ def _guessed(source: Source, table: NDArray[np.float64]) -> Roles:
     return roles
 
 
+def columns_of_beam(table: NDArray[np.float64]) -> tuple[float, Roles]:
+    """The likeliest columns of a beam, and how unequal the steps of their angles are (`regularity`)."""
+    columns = [column for column in range(table.shape[1]) if np.isfinite(table[:, column]).mean() > 0.5]
+    found: list[tuple[float, Roles]] = []
+    for angle in columns:
+        if np.nanmax(np.abs(table[:, angle])) <= MOST_DEGREES:
+            partner = _distance_beside(table, columns, angle)
+            if partner is not None:
+                found.append((regularity(_radians(table[:, angle])), Roles(True, angle, partner)))
+    if len(columns) >= 2:
+        bearings, _ = _from_points(table[:, columns[0]], table[:, columns[1]])
+        found.append((regularity(bearings), Roles(False, columns[0], columns[1])))
+    return min(found, key=lambda each: each[0], default=(math.inf, Roles(True, 0, 1)))
+
+
 def _distance_beside(table: NDArray[np.float64], columns: list[int], angle: int) -> int | None:
     """The column of distances: the first after the angle, or else before it, that varies and is not negative."""
     order = sorted((at for at in columns if at != angle), key=lambda at: (at < angle, abs(at - angle)))
-    for at in order:
-        column = table[:, at][np.isfinite(table[:, at])]
-        if (column < 0).mean() < 0.2 and len(np.unique(column)) > min(3, len(column) - 1):
-            return at
-    return order[0] if order else None
+    # A code for "no return" may be negative; distances are not.
+    order = [at for at in order if len(np.unique(table[table[:, at] < 0, at])) <= FEW_CODES]
+    found = (np.unique(table[np.isfinite(table[:, at]), at]) for at in order)
+    varied = (at for at, values in zip(order, found, strict=True) if len(values) > min(3, len(table) - 1))
+    return next(varied, order[0] if order else None)
 
 
 def _radians(angles: Floats) -> Floats:

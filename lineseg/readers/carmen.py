@@ -21,10 +21,13 @@ WORDS = (
     b"LASER_READING", b"PARAM", b"ODOM", b"SYNC", b"TRUEPOS", b"NEFF", b"VERTEX2", b"EDGE2",
 )  # fmt: skip
 ANY_LINE = re.compile(rb"^[ \t]*(?:" + b"|".join(WORDS) + rb")\s", re.MULTILINE)
+# A laser line behind what a logger put before it, such as its number or a time.
+BEHIND = re.compile(rb"[^\n]{1,60}?\s(?=(?:[FR]LASER|R(?:OBOT|AW)LASER[1-4]|LASER_READING)\s+\d)")
 # The words before the stamp, after the ranges (and for the last two, the remissions).
 TAILS = {"FLASER": 6, "RLASER": 6, "LASER_READING": 3, "ROBOTLASER": 11, "RAWLASER": 0}
 LASERS = {name.encode(): name for name in ("FLASER", "RLASER", "LASER_READING")}
 LASERS |= {f"{name}{n}".encode(): f"{name}{n}" for name in ("ROBOTLASER", "RAWLASER") for n in (1, 2, 3, 4)}
+MOST_LINES, MOST_BEFORE = 100, 80
 WITHOUT_ANGLES = ("FLASER", "RLASER", "LASER_READING")
 MAXIMA = {"FLASER": b"robot_front_laser_max", "RLASER": b"robot_rear_laser_max"}
 # Lasers with these numbers of beams look over half a turn, as the format assumes of all.
@@ -53,8 +56,11 @@ class CarmenLog(Reader):
     @staticmethod
     def recognises(head: bytes) -> bool:
         # Tables of numbers are long, and passed over at once.
-        named = not re.match(rb"\s*[-+.\d]", head) and any(word in head for word in WORDS)
-        return named and b"\0" not in head.rstrip(b"\0") and ANY_LINE.search(head) is not None
+        numbers = re.match(rb"\s*[-+.\d]", head) is not None
+        named = b"LASER" in head if numbers else any(word in head for word in WORDS)
+        if not named or b"\0" in head.rstrip(b"\0"):
+            return False
+        return ANY_LINE.search(head) is not None or any(map(BEHIND.match, head.splitlines()[:MOST_LINES]))
 
     @staticmethod
     def read(source: Source) -> Recording:
@@ -63,6 +69,9 @@ class CarmenLog(Reader):
         for number, text in source.lines():
             word = text.split(None, 1)[:1]
             laser = LASERS.get(word[0]) if word else None
+            if laser is None and b"LASER" in text[:MOST_BEFORE] and (before := BEHIND.match(text)):
+                text = text[before.end() :]
+                laser = LASERS.get(text.split(None, 1)[0])
             if laser:
                 decode, tail = DECODERS[laser]
                 try:

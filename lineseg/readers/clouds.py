@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..scan import Recording
-from .beam_rows import beams_of
+from .beam_rows import beams_of, check_flat
 from .headers import Name
 from .source import Reader, Source
 from .turns import turns
@@ -24,8 +24,6 @@ PLY_KINDS = {
     "uint16": "u2", "int": "i4", "int32": "i4", "uint": "u4", "uint32": "u4", "float": "f4", "float32": "f4",
     "double": "f8", "float64": "f8",
 }  # fmt: skip
-# Points of one plane differ less in height [m], but for a few.
-FLAT = 0.05
 # A scan in order of its beams has few turns; points in another order seem to have many.
 FEWEST_IN_TURN = 20
 
@@ -62,7 +60,7 @@ class PointCloud(Reader):
         table = np.column_stack((points["x"], points["y"]))
         whole = np.isfinite(table).all(axis=1) & table.any(axis=1)
         if "z" in points:
-            _check_flat(source, points["z"][whole])
+            check_flat(source.name, points["z"][whole], unit=" m")
         table = table[whole]
         if not len(table):
             raise ValueError(f"{source.name} has no point with finite x and y.")
@@ -72,16 +70,6 @@ class PointCloud(Reader):
             table = table[np.argsort(bearings, kind="stable")]
         source.notes.found["unit"] = "m"
         return beams_of(source, source.reading, table, [Name("x"), Name("y")], format=PointCloud.format)
-
-
-def _check_flat(source: Source, heights: NDArray) -> None:
-    """Raises ValueError for the points of many planes."""
-    low, high = np.quantile(heights, (0.05, 0.95)) if len(heights) else (0.0, 0.0)
-    if high - low > FLAT:
-        raise ValueError(
-            f"{source.name} has points from {low:.3g} to {high:.3g} m in height, but a scan lies in one plane; cut a "
-            "slice out of it first, as the node pointcloud_to_laserscan does."
-        )
 
 
 def _pcd(source: Source, data: bytes) -> Layout:

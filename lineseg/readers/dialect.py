@@ -13,18 +13,19 @@ from typing import NamedTuple
 import numpy as np
 
 from ..scan import Floats
-from .numbers import all_numbers, is_number
+from .numbers import all_numbers, is_number, number_of
 
 COMMENTS = (b"#", b"%", b"//")
-DECIMAL_COMMA = re.compile(rb"[-+]?\d+,\d+")
-EITHER = re.compile(rb"[-+]?\d+(?:,\d+)?")
+DECIMAL_COMMA = re.compile(rb"[-+]?\d+,\d+(?:[eEdD][-+]?\d+)?")
+EITHER = re.compile(rb"[-+]?\d+(?:,\d+(?:[eEdD][-+]?\d+)?)?")
 PAIR = re.compile(
-    rb"([A-Za-z_][\w ]{0,40}?)\s{0,9}[:=]\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(mm|cm|m|deg|rad)?(?![\w:])"
+    rb"([A-Za-z_][\w ]{0,40}?(?:\((?:mm|cm|m|deg|rad)\))?)\s{0,9}[:=]\s*"
+    rb"([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(mm|cm|m|deg|rad)?(?![\w:])"
 )
 QUOTED = re.compile(rb'(?:^|(?<=[,;|]))\s*"([^"]*)"\s*(?=[,;|]|$)')
 BRACKET = re.compile(rb"([\[\](){}])")
 LIST = re.compile(
-    rb"[\w\s.:=,+-]*(?:\('\w',\s*)?[\[({][\[({\s]*(?:[-+]?\.?(?:\d|nan|inf|None|True|False|float)[^:\"]*)?",
+    rb"[\w\s.:=,+<>-]*(?:\('\w',\s*)?[\[({][\[({\s]*(?:[-+]?\.?(?:\d|nan|inf|None|True|False|float)[^:\"]*)?",
     re.IGNORECASE,
 )
 # An index, or a unit with its factor, in brackets behind the name of a column.
@@ -32,15 +33,19 @@ IN_NAME = re.compile(
     "[^\\[({]*[\\[({](?:\\d+[\\])}]\\s*(?:[,;\t]|$)|\\s*[\\d./]+\\s?(?!nan|inf)(?:[a-zµ]{1,12}|°)\\s*[\\])}])".encode(),
     re.IGNORECASE,
 )
+# What stands before the size or an index of an array, as in ranges[541].
+INDEXED = re.compile(rb"\w$")
 # A list of ten numbers or more.
 LONG_LIST = re.compile(
-    rb"\[((?:\s*(?:[-+]?\d*\.?\d+(?:e[-+]?\d+)?|[-+.]?inf|\.?nan|null|none)\s*,){9}[^\[\]]*)\]", re.IGNORECASE
+    rb"(?:\[|\{\w+ )((?:\s*(?:[-+]?\d*\.?\d+(?:e[-+]?\d+)?|[-+.]?inf|\.?nan|null|none)\s*,){9}[^\[\]{}]*)[\]}]",
+    re.IGNORECASE,
 )
 WORDS = {
     rb"float\(['\"]([-+\w]+)['\"]\)": rb"\1",
     rb"\b(?:np|numpy|math)\.": b"",
     rb"\bTrue\b": b"1",
     rb"\bFalse\b": b"0",
+    rb"(?<=[\d.])[fF]\b": b"",  # of C
 }
 MISSING = (
     b"", b"-", b"--", b"null", b"none", b"na", b"n/a", b"#n/a", b"#value!", b"#num!", b"#div/0!", b"#ref!", b".nan",
@@ -118,7 +123,7 @@ class Dialect:
         if self.comma and b"." in cell and GERMAN.fullmatch(cell.strip()):
             cell = cell.replace(b".", b"")
         try:
-            return float(cell.replace(b",", b".") if self.comma else cell)
+            return number_of(cell.replace(b",", b".") if self.comma else cell)
         except ValueError:
             cell = cell.strip()
             if cell.lower() in MISSING:
@@ -233,7 +238,9 @@ def is_list(line: bytes) -> bool:
 
 def in_log(lines: list[bytes]) -> bool:
     """Whether most lines have a list of numbers among words, as logs of a node have."""
-    return b"[" in lines[0] and 2 * sum(LONG_LIST.search(line) is not None for line in lines) > len(lines)
+    return (b"[" in lines[0] or b"{" in lines[0]) and 2 * sum(
+        LONG_LIST.search(line) is not None for line in lines
+    ) > len(lines)
 
 
 def bracketed(rows: Iterable[Row], name: str) -> Iterator[Row]:
@@ -255,7 +262,7 @@ def bracketed(rows: Iterable[Row], name: str) -> Iterator[Row]:
             inner = b" ".join(held)
             if bracket in b"])}" and last and last in b"[({":
                 for row in inner.split(b";"):  # MATLAB parts rows so
-                    if row.strip():
+                    if row.strip() and not (INDEXED.search(before) and row.strip().isdigit()):
                         yield Row(first, b" ".join(FREE_NUMBER.findall(before)) + b" " + row.replace(b",", b" "))
             first = number if bracket in b"[({" else first
             before, last, held, size = inner, bracket, [piece], len(piece)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from functools import lru_cache
 
 import numpy as np
@@ -10,7 +11,7 @@ from numpy.typing import NDArray
 from ..scan import Floats, Recording
 from .account import Notes
 from .range_limits import longest_return
-from .reading import AngleUnit, Reading, Unit
+from .reading import METRES, AngleUnit, Reading, Unit
 
 UNIT_NAMES = {
     "m": "metres", "cm": "centimetres", "mm": "millimetres", "0.1mm": "tenths of a millimetre",
@@ -27,6 +28,8 @@ CODES = (655.35, 655.34, 655.33, 65.535, 65.534, 65.533, 32.767, 16.383, 8.191, 
 OFTEN, FEW = 0.002, 3
 # Two turns, and a little; a turn, and a little.
 MOST_DEGREES, MOST_RADIANS = 725.0, 2 * np.pi + 0.2
+# What people write for it, such as 9999 or 99.99.
+NINES = re.compile(r"999|9{4,}|(?=.{5})9{1,4}\.9{1,5}")
 # A greatest value so many times as large as the next is no reading.
 ALONE, ENOUGH = 3.0, 100
 MOST_SAMPLED = 2_000
@@ -124,12 +127,14 @@ def no_return_codes(recording: Recording, reading: Reading, notes: Notes) -> tup
     limit = float(np.max(recording.range_max, initial=0.0))
     greatest = float(finite.max(initial=0.0))
     code = next((each for each in CODES if abs(greatest - each) < 5e-4), None)
+    if code is None and NINES.fullmatch(f"{greatest / METRES[reading.unit or 'm']:.6g}"):
+        code = greatest
     if code is None and "range_max" in notes.unstated and len(finite) >= ENOUGH:
         others = float(finite[finite < greatest].max(initial=0.0))
         code = greatest if greatest > ALONE * others > 0 else None
     if code is None or code >= limit or np.count_nonzero(np.abs(finite - code) < 5e-4) < max(FEW, OFTEN * len(ranges)):
         return ()
-    why = "it is the greatest number that fits, and recurs" if code in CODES else "it recurs, far beyond all others"
+    why = "it is the greatest number that fits, and recurs" if code in CODES else "it recurs, beyond all others"
     notes.guess("no_return", f"{code:g} m means no return", why, no_return="none")
     return (code,)
 

@@ -14,6 +14,7 @@ from .dialect import seconds_of
 from .guessing import guess_angle_unit
 from .headers import LENGTHS, TIMES, TURNS, Name, is_angle, is_distance, name_of
 from .laser_scan import LaserScan, decode_json
+from .numbers import all_numbers
 from .scan_rows import other_angles, usual_angles
 from .source import Source
 
@@ -29,6 +30,8 @@ NAMES = {
     "stamp": ("stamp", "timestamp", "time", "t", "ts"),
     "frame_id": ("frame_id", "frame"),
 }
+# A text of fewer numbers is none of ranges.
+LEAST_NUMBERS = 8
 FIELD = {name: field for field, names in NAMES.items() for name in names}
 
 
@@ -41,7 +44,14 @@ def parsed(text: bytes | str) -> Any:
 
 
 def as_list(value: Any) -> Any:
-    """The values of an object whose keys count from 0, as JavaScript and pandas write arrays; all else unchanged."""
+    """The values of an object whose keys count from 0, as JavaScript and pandas write arrays; the numbers of a text, or
+    of a list of lists of one; all else unchanged."""
+    if isinstance(value, str) and value.count(",") + value.count(" ") >= LEAST_NUMBERS:
+        numbers = all_numbers(value.strip("[]() ").encode())
+        return value if numbers is None else numbers.tolist()
+    if isinstance(value, list) and len(value) >= LEAST_NUMBERS and isinstance(value[0], list):
+        alone = all(isinstance(each, list) and len(each) == 1 for each in value)
+        return [each[0] for each in value] if alone else value
     if not isinstance(value, Mapping) or "0" not in value or str(len(value) - 1) not in value:
         return value
     return list(value.values()) if all(key == str(at) for at, key in enumerate(value)) else value
@@ -171,6 +181,7 @@ def _angles(source: Source, found: Mapping[str, tuple[Name, Any]], beams: int) -
             text = f"{usual[0]:g}…{usual[0] + usual[1] * (beams - 1):g}°".replace("-", "−")
             why = f"the scan has {beams} ranges and no angles"
             notes.guess("angle_min", text, why, **other_angles(low, step))
+            notes.guess("direction", "counter-clockwise", why, direction="clockwise")
     if step is None:
         raise ValueError(f"it has {beams} ranges without angles; give angle_min and angle_increment")
     return {"angle_min": -step * (beams - 1) / 2 if low is None else low, "angle_increment": step}

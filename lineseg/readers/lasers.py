@@ -56,9 +56,12 @@ def _one_frame_id(recording: Recording, reading: Reading, notes: Notes) -> Recor
 
 
 def rows_of_one_laser(
-    source: Source, reading: Reading, rows: Iterable[Row], dialect: Dialect, names: list[Name]
+    source: Source, reading: Reading, rows: Iterable[Row], dialect: Dialect, names: list[Name], what: str = "beams"
 ) -> tuple[Iterable[Row], str]:
-    """The rows of one laser and its name, if a column of a table of beams tells it; otherwise all rows, and ""."""
+    """The rows of one laser and its name, if a column of a table tells it; otherwise all rows, and "".
+
+    what: what a row has, in the plural.
+    """
     column = column_of(names, lambda name: name.plain in LASERS)
     if column is None:
         return rows, ""
@@ -72,7 +75,7 @@ def rows_of_one_laser(
         need_laser(source.name, reading.frame_id, list(counts))
     if len(counts) == 1:
         return rows, next(iter(counts))
-    taken = choose_laser(counts, "beams", "the file", reading.frame_id, source.notes)
+    taken = choose_laser(counts, what, "the file", reading.frame_id, source.notes)
     return [row for row, laser in zip(rows, lasers, strict=True) if laser == taken], taken
 
 

@@ -26,7 +26,7 @@ LEAST_BEAMS = 8
 STAMP_NAMES = NAMES["stamp"]
 ECHO_LINES = (
     re.compile(rb"^[ \t]*angle_(?:min|increment|step)[ \t]*[:=][ \t]*[-+.\d]", re.MULTILINE),
-    re.compile(rb"^[ \t]*ranges[ \t]*[:=][ \t]*(?:[-+.\d\[]|inf|nan|$)", re.MULTILINE),
+    re.compile(rb"^[ \t]*ranges[ \t]*[:=][ \t]*(?:[-+.\d\[]|inf|nan|'?<|$)", re.MULTILINE),
 )
 
 Table = list[list[float]]
@@ -170,9 +170,9 @@ def _records(value: Mapping[str, Any]) -> list[dict[str, Any]] | None:
 
 def _ranges_key(value: Mapping[str, Any]) -> str | None:
     flat = [key for key, held in value.items() if isinstance(held, list) and not isinstance(next(iter(held), 0), list)]
-    named = [key for key in flat if name_of(key).plain.split("_")[-1] in LIST_KEYS]
+    named = [key for key in flat if name_of(key).plain.split("_")[-1] in LIST_KEYS and not is_angle(name_of(key))]
     # Elsewhere dist_m or depths; beside them stands another list, or an angle.
-    other = [key for key in flat if is_distance(name_of(key)) and isinstance(next(iter(value[key]), None), int | float)]
+    other = [key for key in flat if is_distance(name_of(key)) and len(value[key]) >= LEAST_BEAMS]
     return next(iter(named or other), None)
 
 
@@ -227,7 +227,7 @@ def _documents(source: Source) -> Iterator[tuple[int, dict[str, Any]]]:
     began, key, flow = 1, "", list[str]()
     for number, line in chain(source.lines(), [(0, b"---")]):
         text = line.decode("utf-8", "replace").strip()
-        if text.startswith("---") or (text == "header {" and "ranges" in message):
+        if text.startswith("---") or ("ranges" in message and BLOCK.match(line)):
             if "ranges" in message and not (number == 0 and _is_cut(message)):
                 stamp = {name: header[name] for name in STAMP_KEYS if name in header}
                 yield began, message | {"header": {"stamp": stamp, "frame_id": header.get("frame_id", "")}}
@@ -242,6 +242,8 @@ def _documents(source: Source) -> Iterator[tuple[int, dict[str, Any]]]:
             continue
         elif match := re.match(r"([A-Za-z_]\w*)\s*[:=]\s*(.*?);?$", text):
             key, value = SAME_FIELDS.get(match[1], match[1]), match[2]
+            if key == "ranges" and NO_ARRAY.match(value):
+                raise ValueError(f"{source.name}:{number}: {NOT_PRINTED}.")
             if key == "ranges" and value and not value.startswith("["):
                 message.setdefault("ranges", []).append(_scalar(value, source, number))
                 continue
@@ -273,6 +275,11 @@ def _is_cut(message: Mapping[str, Any]) -> bool:
 
 
 STAMP_KEYS = ("sec", "nanosec", "secs", "nsecs", "nsec")
+# What echo prints instead of an array if told to, and what stands there then.
+NO_ARRAY = re.compile(r"'?<(?:array|sequence) type")
+NOT_PRINTED = "the ranges were not printed; save them with `ros2 topic echo --full-length`, without --no-arr"
+# A message of Gazebo begins with a block that is not indented.
+BLOCK = re.compile(rb"\w+ \{\s*$")
 # Gazebo's names.
 SAME_FIELDS = {"angle_step": "angle_increment", "frame": "frame_id"}
 

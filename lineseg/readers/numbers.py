@@ -13,6 +13,8 @@ SEPARATORS = re.compile(rb"[\s,;]+")
 BLANKS = bytes.maketrans(b",;", b"  ")
 WORD = re.compile(rb"[^\s,;]+")
 EXACT_POWERS = 10.0 ** np.arange(23)  # the powers of ten that a double represents exactly
+# What Fortran prints for 1.0e+00.
+FORTRAN = re.compile(rb"([-+]?(?:\d+\.\d*|\.\d+))[dD]([-+]?\d{1,3})")
 MOST_DIGITS = 15  # decimal digits that a double represents exactly
 
 
@@ -48,15 +50,26 @@ def all_numbers(text: bytes) -> Floats | None:
     if end >= len(text):
         return values[:found].copy()
     try:
-        rest = list(map(float, text[end:].translate(BLANKS).split()))
+        rest = list(map(number_of, text[end:].translate(BLANKS).split()))
     except ValueError:
         return None
     return np.concatenate((values[:found], rest))
 
 
+def number_of(word: bytes) -> float:
+    """The same as `float`, and the number of what Fortran prints, such as 1.0D+00. Raises ValueError for other text."""
+    try:
+        return float(word)
+    except ValueError:
+        plain = FORTRAN.fullmatch(word.strip())
+        if plain is None:
+            raise
+        return float(plain[1] + b"e" + plain[2])
+
+
 def is_number(word: bytes) -> bool:
     try:
-        float(word)
+        number_of(word)
     except ValueError:
         return False
     return True

@@ -97,7 +97,7 @@ class Reading:
             least=0,
             most=99,
             why="echoes are numbered from 0",
-            only=(*BAG_FORMATS, "UrgBenri log"),
+            only=(*BAG_FORMATS, "UrgBenri log", "SICK telegrams"),
             elsewhere="has one range for each beam",
         ),
     ] = None

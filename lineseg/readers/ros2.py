@@ -15,7 +15,7 @@ from urllib.parse import quote
 from ..scan import Recording
 from ..unfinished import temporary_folder
 from .account import Notes
-from .bags import Stream, choose_streams, collect, cut_off, guarded, tell_cut
+from .bags import NotABagError, Stream, choose_streams, collect, cut_off, guarded, tell_cut
 from .bounded import MOST_MESSAGE, expand, limit_of, zstd_file
 from .decoders import Decoder, plain_type
 from .folder import storage_files
@@ -143,6 +143,11 @@ class _Database:
     def __init__(self, database: sqlite3.Connection, file: Path) -> None:
         self.database, self.file = database, file
         self.broken = ""
+        held = [name for (name,) in database.execute("SELECT name FROM sqlite_master WHERE type = 'table'")]
+        if held and not {"topics", "messages"} & {str(name).lower() for name in held}:
+            raise NotABagError(
+                f"it is an SQLite database of {', '.join(map(str, held[:5]))}, not a ROS 2 bag; save its scans as CSV"
+            )
         rows = database.execute("SELECT id, name, type, serialization_format FROM topics ORDER BY id").fetchall()
         if any(not isinstance(each, str) for row in rows for each in row[1:3]):
             raise ValueError("the names of its topics are lost")

@@ -35,6 +35,8 @@ LASERS = {
 # Fields of view and steps [deg] of lasers that are not in the table.
 VIEWS, STEPS = (180.0, 190.0, 200.0, 240.0, 270.0, 275.0), (1.0, 0.5, 1 / 3, 0.25, 0.2, 1 / 6, 0.125, 0.1)
 MOST_LEADING = 8
+# Before the ranges of a known laser may also stand what a robot knows.
+MOST_SETTINGS = 32
 # Rows may vary by this share; those that differ more are broken.
 VARIES = 0.1
 LEAST_BEAMS = 10
@@ -56,7 +58,7 @@ def read_scans(
     source: Source, reading: Reading, rows: Iterable[Row], dialect: Dialect, leading: tuple[str, ...] | None
 ) -> Recording:
     """The scans of rows of numbers. leading: what the columns before the ranges hold, None to find out."""
-    return scans_of(source, reading, *_parsed(source, rows, dialect), leading)
+    return scans_of(source, reading, *parsed(source, rows, dialect), leading)
 
 
 def scans_of(
@@ -76,7 +78,9 @@ def scans_of(
     if len(values) > 1:
         geometry = _angle_row(source, reading, values) or _settings_row(values)
         if geometry is not None:
-            numbers, values = numbers[1:], values[1:]
+            # The row may be there again before each scan.
+            others = [at for at, row in enumerate(values) if not np.array_equal(row, values[0], equal_nan=True)]
+            numbers, values = [numbers[at] for at in others], [values[at] for at in others]
     numbers, values = _whole(source, numbers, values)
     skip = _skipped(source, reading, values, leading, geometry, double)
     if min(map(len, values)) <= skip:
@@ -121,7 +125,7 @@ def _pairs(values: list[Floats]) -> int:
     return beams if apart > FAR_APART * max(*steps, 1e-9) else 0
 
 
-def _parsed(source: Source, rows: Iterable[Row], dialect: Dialect) -> tuple[list[int], list[Floats], int]:
+def parsed(source: Source, rows: Iterable[Row], dialect: Dialect) -> tuple[list[int], list[Floats], int]:
     """(line numbers, numbers of each row, numbers before the only double space of the first row or 0)."""
     numbers: list[int] = []
     values: list[Floats] = []
@@ -248,7 +252,7 @@ def _skipped(
         return usual - geometry.beams
     skip = double or _unlike(values)
     if reading.angle_increment is None and usual_angles(usual - skip) is None:
-        leads = range(skip + 1, MOST_LEADING)
+        leads = range(skip + 1, MOST_SETTINGS)
         skip = next((lead for lead in leads if usual - lead in LASERS and _leaps(values, lead)), skip)
     if skip:
         why = "they differ from the numbers after them"

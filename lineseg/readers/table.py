@@ -11,7 +11,7 @@ import numpy as np
 
 from ..scan import Floats, Recording, Topic
 from .dialect import LEFT_OUT, Dialect, Row
-from .headers import LENGTHS, TIMES, Name, array_columns, column_of
+from .headers import LENGTHS, STAMPS, TIMES, Name, array_columns, column_of
 from .numbers import all_numbers
 from .reading import Reading
 from .scan_rows import other_angles, usual_angles
@@ -116,9 +116,15 @@ def _layout(names: list[Name]) -> Layout:
         column_of(names, lambda name: name.plain.split("_")[-1] == "header"),
         column(*SECONDS),
         column(*NANOSECONDS),
-        column("timestamp", "time") if stamp is None else stamp,
+        _time(names) if stamp is None else stamp,
         names,
     )
+
+
+def _time(names: list[Name]) -> int | None:
+    """The column of times: one that is named so, or else one that is named so in short."""
+    long = column_of(names, lambda name: name.element < 0 and name.ends("timestamp", "time"))
+    return column_of(names, lambda name: name.element < 0 and name.plain in STAMPS) if long is None else long
 
 
 def _add(source: Source, reading: Reading, sweeps: Sweeps, row: Row, dialect: Dialect, layout: Layout) -> float:
@@ -183,6 +189,7 @@ def _angles(source: Source, reading: Reading, field: dict[str, float | None], be
             why = f"the table has {beams} ranges and no angles"
             text = f"{math.degrees(low):.4g}…{math.degrees(low + step * (beams - 1)):.4g}°"
             source.notes.guess("angle_min", text.replace("-", "−"), why, **other_angles(low, step))
+            source.notes.guess("direction", "counter-clockwise", why, direction="clockwise")
     if low is None:
         raise ValueError("angle_min is missing; give it in a column or an option")
     if not step and beams > 1:

@@ -26,21 +26,38 @@ from .dialect import (
     text_of,
     unlabelled,
 )  # fmt: skip
-from .headers import LENGTHS, TURNS, Name, array_columns, column_of, is_angle, is_beam, is_distance, name_of, unit_of
+from .dressing import undressing
+from .headers import (
+    LENGTHS,
+    STAMPS,
+    TURNS,
+    Name,
+    array_columns,
+    column_of,
+    is_angle,
+    is_beam,
+    is_distance,
+    name_of,
+    unit_of,
+)
+from .interleaved import interleaved, read_interleaved
 from .lasers import rows_of_one_laser
 from .numbered import read_numbered
 from .reading import Reading, columns_of
 from .scan_columns import alike, named_columns, tell_columns
-from .scan_rows import read_scans, scans_of
+from .scan_rows import parsed, read_scans, scans_of
 from .source import Reader, Source
+from .spanning import scans_over_lines
 from .table import echo_columns, read_table
 
 ECHO = re.compile(rb"%time[,;\t]field\.")  # the first line of `rostopic echo -p`
 SEPARATOR = re.compile(rb"sep=.", re.IGNORECASE)  # the first line of Excel's tables
+# A remark after a semicolon, and one behind the numbers of a line.
+REMARK, INLINE = re.compile(rb";+\s*[A-Za-z][^;]*"), re.compile(rb"\s+#\s.*$")
 SETTING = re.compile(rb"(\w+)\s*[=:]\s*([^\s,;]+)")
 TEXT_FORMS = "use one scan per row, or columns of angle and distance, or a table with a column named ranges."
 # An angle as the name of a column, such as -134.5°.
-ANGLE = re.compile("([-+]?\\d+(?:[.,]\\d+)?)(\\s*(?:deg|rad|°)?)".encode(), re.IGNORECASE)
+ANGLE = re.compile("([A-Za-z][A-Za-z_ ]*[@_ ])?([-+]?\\d+(?:[.,]\\d+)?)([\\s_]*(?:deg|rad|°)?)".encode(), re.IGNORECASE)
 MARK = re.compile(rb"[,;\t]")
 MOST_NAMES = 4
 # The column of numbers that a header leaves out.
@@ -48,6 +65,8 @@ UNNAMED = Name("index")
 # With fewer rows, nothing is a title.
 FEW_ROWS = 6
 SAMPLE = 40
+# So many numbers more than names are ranges.
+MANY_BEAMS = 30
 # Rows with fewer numbers than this are beams, if there are enough of them.
 FEW_COLUMNS, MANY_ROWS = 9, 10
 
@@ -66,7 +85,7 @@ class Text(Reader):
 
     @staticmethod
     def read(source: Source) -> Recording:
-        rows = _rows(source)
+        rows = _undressed(_rows(source))
         said: dict[str, str] = {}
         comment, first = b"", next(rows, None)
         while first is not None and first.text.startswith(COMMENTS) and not ECHO.match(first.text):
@@ -85,7 +104,24 @@ def _rows(source: Source) -> Iterator[Row]:
         text = line.removeprefix(b"\xef\xbb\xbf") if number == 1 else line
         stripped = text.strip()
         if stripped and not (number == 1 and SEPARATOR.fullmatch(stripped)):
+            if stripped.startswith(b";") and REMARK.fullmatch(stripped):
+                stripped = b"#" + stripped
+            elif b"#" in stripped:
+                text = INLINE.sub(b"", text)
             yield Row(number, stripped if stripped.startswith(COMMENTS) else text)
+
+
+def _undressed(rows: Iterator[Row]) -> Iterator[Row]:
+    """The rows without what a program put around their numbers."""
+    head = list(islice(rows, SAMPLE))
+    off = undressing([row.text for row in head])
+    if off is None:
+        yield from head
+        yield from rows
+        return
+    for row in chain(head, rows):
+        if text := off(row.text):
+            yield Row(row.number, text)
 
 
 def _below_titles(source: Source, head: list[Row]) -> list[Row]:
@@ -108,8 +144,11 @@ def _titles(lines: list[bytes]) -> int:
     if 2 * sum(map(is_list, below)) >= len(below):
         first = next(at for at, line in enumerate(lines) if is_list(line))
         return 0 if any(MARK.search(line) for line in lines[:first]) else first
-    if len(lines) < FEW_ROWS or begins_with_number(lines[0]):
+    if len(lines) < FEW_ROWS:
         return 0
+    if begins_with_number(lines[0]):
+        # How many rows follow, as point clouds in text have it.
+        return int(lines[0].strip().isdigit() and not any(line.strip().isdigit() for line in lines[1:]))
     dialect = dialect_of(below)
     width = Counter(map(dialect.width, below)).most_common(1)[0][0]
     if width < 2:
@@ -205,18 +244,22 @@ def _angles_in_names(source: Source, dialect: Dialect, cells: list[bytes]) -> by
     """The angles of the beams in a header, perhaps with their unit, after other names; None if it has none."""
     lead = next((at for at, cell in enumerate(cells[:MOST_NAMES]) if ANGLE.fullmatch(cell)), MOST_NAMES)
     found = [ANGLE.fullmatch(cell) for cell in cells[lead:]]
-    units = {each[2].strip().lower() for each in found if each}
+    units = {each[3].strip(b" _").lower() for each in found if each}
+    words = {each[1] for each in found if each}
+    signs = {each[2][:1] == b"-" for each in found if each}
     if (
         any(dialect.number(cell) is not None for cell in cells[:lead])
         or len(found) < MANY_ROWS
         or None in found
         or len(units) != 1
-        or (lead == 0 and units == {b""})
+        or len(words) != 1
+        # Otherwise these are numbers, or the indices of an array.
+        or (units == {b""} and (lead == 0 if words == {None} else len(signs) < 2))
     ):
         return None
     if (unit := TURNS.get(text_of(units.pop()))) and source.reading.angle_unit is None:
         source.notes.found["angle_unit"] = unit
-    return dialect.separator.join([*[b"nan"] * lead, *(each[1] for each in found if each)])
+    return dialect.separator.join([*[b"nan"] * lead, *(each[2] for each in found if each)])
 
 
 def _names(dialect: Dialect, head: list[Row], cells: list[bytes]) -> list[Name]:
@@ -259,6 +302,11 @@ def _read_named(
     if reading.columns is not None:
         given = columns_of(reading.columns)
         return _read_columns(source, reading, rows, dialect, given)
+    if reading.skip_columns is None and len(names) < FEW_COLUMNS:
+        sample = list(islice(rows := iter(rows), SAMPLE))
+        rows = chain(sample, rows)
+        if 2 * sum(dialect.width(row.text) > len(names) + MANY_BEAMS for row in sample) > len(sample):
+            return _read_open_ended(source, reading, rows, dialect, names)
     if (columns := named_columns(names)) is not None:
         rows = list(rows)
         if len(rows) > len(names):
@@ -266,10 +314,32 @@ def _read_named(
     ranges = column_of(names, lambda name: name.element < 0 and name.ends("ranges"))
     beams = array_columns(names)
     if ranges is not None or beams:
-        return read_table(source, reading, rows, dialect, names)
+        if column_of(names, lambda name: name.ends("frame_id")) is not None:
+            return read_table(source, reading, rows, dialect, names)
+        rows, frame_id = rows_of_one_laser(source, reading, rows, dialect, names, "scans")
+        recording = read_table(source, reading, rows, dialect, names)
+        return replace(recording, frame_ids=(frame_id,) * len(recording)) if frame_id else recording
     rows, frame_id = rows_of_one_laser(source, reading, rows, dialect, names)
     recording = _read_beams(source, reading, rows, dialect, names)
     return replace(recording, frame_ids=(frame_id,) * len(recording))
+
+
+def _read_open_ended(
+    source: Source, reading: Reading, rows: Iterable[Row], dialect: Dialect, names: list[Name]
+) -> Recording:
+    """Rows that go on after the columns that a header names: the last name is that of all ranges."""
+    lead = len(names) - 1
+
+    def plain(row: Row) -> Row:
+        cells = dialect.cells(row.text)
+        before = [cell if dialect.number(cell) is not None else b"nan" for cell in cells[:lead]]
+        return Row(row.number, dialect.separator.join([*before, *cells[lead:]]))
+
+    if (unit := LENGTHS.get(names[-1].unit)) and reading.unit is None:
+        source.notes.found["unit"] = unit
+    at = column_of(names[:lead], lambda name: name.plain in STAMPS)
+    words = tuple("stamp" if column == at else "-" for column in range(lead))
+    return read_scans(source, reading, map(plain, rows), dialect, words)
 
 
 def _read_columns_of_scans(
@@ -342,8 +412,13 @@ def _read_numbers(
         return _read_columns(source, reading, rows, dialect, columns_of(reading.columns))
     if names is not None:
         return read_beams(source, reading, rows, dialect, names)
+    if reading.skip_columns is None and (spans := scans_over_lines(source, dialect, head)) is not None:
+        return scans_of(source, reading, *spans, 0, None)
     width = max(dialect.width(row.text) for row in head)
     few = width == 2 or (2 < width < FEW_COLUMNS and len(head) >= MANY_ROWS)
     if few and reading.skip_columns is None and reading.angle_increment is None:
         return read_beams(source, reading, rows, dialect, None)
-    return read_scans(source, reading, rows, dialect, None)
+    numbers, values, double = parsed(source, rows, dialect)
+    if (beams := interleaved(values, reading)) is not None:
+        return read_interleaved(source, reading, values, beams)
+    return scans_of(source, reading, numbers, values, double, None)

@@ -1,10 +1,12 @@
-"""Takes off what files are wrapped in: gzip, zstd, zip, tar, UTF-16 and UTF-32, also one inside the other."""
+"""Takes off what files are wrapped in: gzip, zstd, bzip2, xz, zip, tar, UTF-16, UTF-32; also one inside the other."""
 
 from __future__ import annotations
 
+import bz2
 import codecs
 import gzip
 import io
+import lzma
 import tarfile
 import zipfile
 from collections.abc import Callable
@@ -18,7 +20,15 @@ from .bounded import expand, limit_of, zstd_file
 from .cut_zip import unpack_cut
 from .source import known_suffixes
 
-GZIP_MAGIC, ZSTD_MAGIC, ZIP_MAGIC = b"\x1f\x8b", b"\x28\xb5\x2f\xfd", b"PK\x03\x04"
+ZIP_MAGIC = b"PK\x03\x04"
+# What each begins with, its name, and how it is opened.
+STREAMS: dict[bytes, tuple[str, Callable[[IO[bytes]], IO[bytes]]]] = {
+    b"\x1f\x8b": ("gzip", lambda raw: cast(IO[bytes], gzip.GzipFile(fileobj=raw))),
+    b"\x28\xb5\x2f\xfd": ("zstd", zstd_file),
+    b"BZh": ("bzip2", lambda raw: cast(IO[bytes], bz2.BZ2File(raw))),
+    b"\xfd7zXZ\0": ("xz", lambda raw: cast(IO[bytes], lzma.LZMAFile(raw))),  # noqa: SIM115 - it ends with `raw`
+}
+STREAM_SUFFIXES = (".gz", ".zst", ".zstd", ".bz2", ".xz")
 TAR_MAGIC, TAR_AT = b"ustar", 257
 # UTF-32 first, because its mark begins like that of UTF-16.
 MARKS = {
@@ -50,7 +60,7 @@ def unwrapped(path: Path, stack: ExitStack, notes: Notes, progress: Progress) ->
             return path
         with path.open("rb") as file:
             head = file.read(HEAD_BYTES)
-        if head.startswith((GZIP_MAGIC, ZSTD_MAGIC)):
+        if head.startswith(tuple(STREAMS)):
             path = _stream(path, head, name, stack, notes, progress)
         elif encoding := _encoding(head):
             path = _utf8(path, encoding, stack)
@@ -78,12 +88,11 @@ def _target(path: Path, stack: ExitStack, name: str | None = None) -> Path:
 
 def _stream(path: Path, head: bytes, name: str, stack: ExitStack, notes: Notes, progress: Progress) -> Path:
     size = path.stat().st_size
-    bare = path.stem if path.suffix.lower() in (".gz", ".zst", ".zstd") else path.name
+    bare = path.stem if path.suffix.lower() in STREAM_SUFFIXES else path.name
     target = _target(path, stack, bare or "unpacked")
-    kind = "gzip" if head.startswith(GZIP_MAGIC) else "zstd"
+    kind, opened = next(held for magic, held in STREAMS.items() if head.startswith(magic))
     with path.open("rb") as raw:
-        packed = cast(IO[bytes], gzip.GzipFile(fileobj=raw)) if kind == "gzip" else zstd_file(raw)
-        why = expand(packed, target, name, limit_of(size), lambda done: progress(raw.tell(), size))
+        why = expand(opened(raw), target, name, limit_of(size), lambda done: progress(raw.tell(), size))
     tell_break(why, target, name, kind, notes)
     return target
 
@@ -129,6 +138,8 @@ def _unzipped(path: Path, name: str, stack: ExitStack, notes: Notes, progress: P
     entries = [entry for entry in archive.infolist() if not entry.is_dir() and not _is_hidden(entry.filename)]
     if any(entry.filename == "lineseg.json" for entry in entries):
         return None
+    if any(entry.filename in ("[Content_Types].xml", "mimetype") for entry in entries):
+        raise ValueError(f"{name} is a workbook or document; save its table as CSV.")
     parts = _chosen([entry.filename for entry in entries], name)
     folder = _target(path, stack, "bag")
     folder.mkdir()
@@ -199,7 +210,7 @@ def _chosen(entries: list[str], name: str) -> list[str]:
     if bags and len(folders) == 1:
         about = [entry for entry in entries if PurePosixPath(entry).name == "metadata.yaml"]
         return bags + [entry for entry in about if str(PurePosixPath(entry).parent) in folders]
-    suffixes = (*known_suffixes(), ".gz", ".zst")
+    suffixes = (*known_suffixes(), *STREAM_SUFFIXES)
     known = [entry for entry in entries if entry.lower().endswith(suffixes)]
     found = known if known else entries
     if len(found) == 1:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import bz2
 import gzip
 import io
 import json
+import lzma
 import tarfile
 
 import numpy as np
@@ -86,7 +88,58 @@ OF_DAY = "".join(f"12:34:5{at}.250," + ",".join(f"{r:.4f}" for r in WIDE) + "\n"
 DATED = OF_DAY.replace(",", " ").replace("12:34", "2024-05-06 12:34")
 KEYED = [{"time_s": at / 10, "angles_deg": np.rad2deg(VIEW).tolist(), "dist_m": WIDE.tolist()} for at in range(3)]
 
+ROW = " ".join(f"{r:.3f}" for r in WIDE)
+WORDS = ROW.split()
+WRAPPED = "\n".join(" ".join(WORDS[at : at + 10]) for at in range(0, BEAMS, 10)) + "\n"
+FORTRAN = rows("{} {}", *((f"{each:.5E}".replace("E", "D") for each in column) for column in (DEGREES, TURN)))
+LATEX = "\\begin{tabular}{rr}\n$\\theta$ [$^\\circ$] & $r$ [m] \\\\ \\hline\n"
+LATEX += rows("${:.1f}$ & ${:.3f}$ \\\\", DEGREES, TURN) + "\\hline\n\\end{tabular}\n"
+SICK = "FFF92230 1388 21D " + " ".join(f"{round(1000 * r):X}" for r in WIDE)
+SICK = f"1 1 89A27F 0 0 1 1 {{:X}} 6 0 0 7 0 0 1388 168 0 1 DIST1 3F800000 00000000 {SICK} 0 0 0 0 0"
+SICK = f"\x02sSN LMDscandata {SICK}\x03\n"
+SERIAL = "LDS ready\n" + rows("angle:{:.1f} distance(mm):{:.0f} q:9", DEGREES, 1000 * TURN)
+UNITY = [{"x": -y, "y": 0.3, "z": x} for x, y in POINTS[:, :2].tolist()]
+PAIRS = " ".join(f"{angle:.1f} {1000 * r:.0f}" for angle, r in zip(DEGREES, TURN, strict=True)) + "\n"
+OPEN_ENDED = "[stamp],[logtime],[laser]\n" + "".join(
+    f"{at}.5,2019:03:01:12:00,{ROW}\n".replace(" ", ",") for at in range(3)
+)
+
+
+def cloud():
+    """Points of many planes, as KITTI has them."""
+    return np.column_stack((POINTS[:, :2], np.linspace(-1, 2, 360), np.full(360, 0.3))).astype("<f4")
+
+
 FILES = {
+    "fortran.dat": (FORTRAN.encode(), 1, 360),
+    "table.tex": (LATEX.encode(), 1, 360),
+    "ten_a_line.txt": (WRAPPED.encode() * 3, 3, BEAMS),
+    "headings.txt": ("".join(f"scan {at}\n{WRAPPED}" for at in range(3)).encode(), 3, BEAMS),
+    "array.h": (
+        f"static const float ranges[{BEAMS}] = {{\n{', '.join(each + 'f' for each in WORDS)}}};\n".encode(),
+        1,
+        BEAMS,
+    ),
+    "telegrams.txt": ("".join(SICK.format(100_000 * at) for at in range(1, 4)).encode(), 3, BEAMS),
+    "serial.log": (SERIAL.encode(), 1, 360),
+    "monitor.log": (rows("12:00:00.100 -> {:.2f},{:.0f}", DEGREES, 1000 * TURN).encode(), 1, 360),
+    "unity.json": (json.dumps({"points": UNITY}).encode(), 1, 360),
+    "pairs.txt": (PAIRS.encode() * 3, 3, 360),
+    "in_turn.txt": ((" ".join(f"{angle:.5f}" for angle in VIEW) + f"\n{ROW}\n").encode() * 3, 3, BEAMS),
+    "labelled.txt": (f"ranges: {ROW}\n".encode() * 3, 3, BEAMS),
+    "open_ended.csv": (OPEN_ENDED.encode(), 3, BEAMS),
+    "remarks.csv": (rows("{:.0f}, {:.3f}  # of beam", DEGREES, TURN).encode(), 1, 360),
+    "quoted.csv": (f'"{",".join(WORDS)}"\n'.encode() * 3, 3, BEAMS),
+    "as_text.json": (json.dumps({"angle_min": LOW, "angle_increment": STEP, "ranges": ROW}).encode(), 1, BEAMS),
+    "named.csv": (
+        (",".join(f"range_at_{a:.1f}deg" for a in np.rad2deg(VIEW)) + "\n" + ",".join(WORDS) + "\n").encode(),
+        1,
+        BEAMS,
+    ),
+    "scan.csv.xz": (lzma.compress(TABLE), 1, 360),
+    "run.tar.bz2": (bz2.compress(tarred({"run/scan.csv": TABLE})), 1, 360),
+    "usarsim.log": (f"SEN {{Time 3.5}} {{Type RangeScanner}} {{Range {','.join(WORDS)}}}\n".encode() * 3, 3, BEAMS),
+    "classic.txt": ("".join("time {\n  sec: 1\n}\nscan {\n" + gazebo(5) + "}\n" for _ in range(2)).encode(), 2, BEAMS),
     "cloud.pcd": (pcd("ascii"), 1, 360),
     "binary.pcd": (pcd("binary"), 1, 360),
     "cloud.ply": (ply("ascii"), 1, 360),
@@ -107,7 +160,8 @@ FILES = {
     "odd.npz": (arrays(lidar=np.array([WIDE] * 3), theta=VIEW, t=np.arange(3) / 10), 3, BEAMS),
     "cut.npz": (arrays(angle_min=LOW, angle_increment=STEP, ranges=np.array([WIDE] * 5))[: -BEAMS * 8], 4, BEAMS),
 }
-TIMED = ("keyed.json", "angles_as_names.csv", "time_of_day.csv", "dated.txt", "gazebo.txt", "odd.npz")
+TIMED = ("keyed.json", "angles_as_names.csv", "time_of_day.csv", "dated.txt", "gazebo.txt", "odd.npz", "telegrams.txt",
+         "open_ended.csv", "classic.txt")  # fmt: skip
 
 
 @pytest.mark.parametrize("name", FILES)
@@ -137,7 +191,26 @@ def test_the_room_is_read_from_the_files_of_other_programs(tmp_path, name):
         ),
         ("a.pkl", b"\x80\x04\x95", "is a Python pickle"),
         ("a.csv", b"<!doctype HTML><p>404", "is a web page, not the file behind it; download the file itself"),
-        ("a.txt", b"\x02sRA LMDscandata 1 1 89A27F 0", "telegrams of a SICK laser.*record the scans with"),
+        ("a.log", b"\x02\x02\x02\x02\0\0\4\x5csSN LMDscandata", "binary telegrams of a SICK laser; record the scans"),
+        ("a.txt", b"FA A0 30 4A CE 07 0A 00 " * 9, "bytes in hexadecimal, as a laser sends them; record the scans"),
+        ("a.e57", b"ASTM-E57" + bytes(99), "is a 3D point cloud .*cut a slice of one height out of it"),
+        ("a.bin", cloud().tobytes(), "looks like a 3D point cloud in plain numbers, as that of KITTI; cut a slice"),
+        (
+            "a.bin",
+            (1000 + np.arange(900)).astype("<u2").tobytes(),
+            r"load them with numpy\.fromfile\('a\.bin', '<u2'\)",
+        ),
+        ("a.zip", b"PK\5\6" + bytes(18), "is an empty zip file"),
+        (
+            "a.yaml",
+            b"angle_min: -1.5\nranges: '<array type: float32[541]>'\n---\n",
+            "a.yaml:2: the ranges were not printed",
+        ),
+        (
+            "a.csv",
+            b"x,y,z\n" + b"".join(b"%f,%f,%f\n" % tuple(each[:3]) for each in cloud()),
+            "but a scan lies in one plane",
+        ),
         ("a.tar", tarred({"a.csv": TABLE, "b.csv": TABLE}), r"a\.tar has several files.*a\.csv, b\.csv; unpack it"),
         ("a.pcd", pcd("binary").replace(b"DATA binary", b"DATA binary_compressed"), "pcl_convert_pcd_ascii_binary"),
     ],

@@ -86,6 +86,7 @@ MAGIC = {
     "CARMEN log": b"# " + b"x" * 80 + b"\nODOM 0 0 0 0 0 0 1 h 1\n",
     "Player log": b"## Player version 3.0.2\n",
     "UrgBenri log": b"[appName]\nUrgBenri\n",
+    "SICK telegrams": b"\x02sSN LMDscandata 1 1 89A27F 0 0 1 1 5 6 ",
     "JSON": b'{"ranges": [',
     "XML": b"<?xml version='1.0'?>\n<data>",
     "printed messages": b"sensor_msgs.msg.LaserScan(header=std_msgs.msg.Header(",

@@ -1,0 +1,61 @@
+"""What programs put around the numbers of a line: the time it was received, a label, quotes, dashes, or LaTeX."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from typing import NamedTuple
+
+# The time at which a terminal received a line, such as `12:00:00.120 -> ` of Arduino's.
+RECEIVED = re.compile(
+    rb"\s*(\[)?((?:\d{4}-\d\d-\d\d[ T])?\d\d:\d\d:\d\d(?:[.,]\d+)?(?:Z|[-+]\d\d:?\d\d)?)(?(1)\]\s+|\s*->\s*)(?=\S)"
+)
+LABEL = re.compile(
+    rb"\s*[A-Za-z_][\w ]{0,40}(?:\([\w\xc2\xb0]+\))?\s*[:=]\s*(?=(?:[-+.]?(?:\d|nan|inf)[^\s,;]*[\s,;]+){10})"
+)
+QUOTES = re.compile(rb'\s*"([^"]*[,;\t][^"]*)"\s*[,;]?\s*')
+DASH = re.compile(rb"\s*-\s+(?=[-+]?\.?(?:\d|nan|inf)\S*\s*$)", re.IGNORECASE)
+ROW_END = re.compile(rb"\\\\(?:\[[^\]]*\])?\s*(?:\\\w+\s*)*$|\\(?:tabularnewline|cr)\b.*$")
+DEGREES = re.compile(rb"\^\{?\\circ\}?|\\textdegree|\\degree")
+MARKS = re.compile(rb"\$|\\(?:,|\w+\{|)|[{}]")
+MANY = 10
+
+
+class Dress(NamedTuple):
+    """fits: whether a line wears it; off: the line without it, empty if it has no numbers."""
+
+    fits: Callable[[bytes], object]
+    off: Callable[[bytes], bytes]
+
+
+def _without_time(line: bytes) -> bytes:
+    """The line; the time stays in front of a whole scan, as its stamp."""
+    found = RECEIVED.match(line)
+    if found is None:
+        return line
+    rest = line[found.end() :]
+    mark = next((mark for mark in (b";", b"\t", b",") if mark in rest), b" ")
+    return found[2].replace(b" ", b"T") + mark + rest if rest.count(mark) >= MANY else rest
+
+
+def _of_latex(line: bytes) -> bytes:
+    """The cells of a row, parted by tabs; nothing for other lines."""
+    if b"&" not in line:
+        return b""
+    return MARKS.sub(b"", DEGREES.sub("°".encode(), ROW_END.sub(b"", line.strip()))).replace(b"&", b"\t")
+
+
+DRESSES = (
+    Dress(RECEIVED.match, _without_time),
+    Dress(lambda line: b"&" in line and ROW_END.search(line.strip()), _of_latex),
+    Dress(QUOTES.fullmatch, lambda line: QUOTES.sub(rb"\1", line)),
+    Dress(LABEL.match, lambda line: LABEL.sub(b"", line)),
+    Dress(DASH.match, lambda line: DASH.sub(b"", line)),
+)
+
+
+def undressing(lines: list[bytes]) -> Callable[[bytes], bytes] | None:
+    """What takes off the dress that most of the lines wear; None if they wear none."""
+    worn = (dress for dress in DRESSES if 2 * sum(map(bool, map(dress.fits, lines))) > len(lines))
+    dress = next(worn, None)
+    return None if dress is None else dress.off

@@ -1,0 +1,74 @@
+"""Rows with a scan each, of which every beam has several numbers: its angle and its distance, or x and y."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..scan import Floats, Recording
+from .beam_rows import Roles, columns_of_beam, with_roles
+from .guessing import angle_unit_of
+from .reading import RADIANS, Reading
+from .source import Source
+
+LEAST_BEAMS, MOST_NUMBERS = 20, 4
+# Neighbours in a row of ranges differ less than this share of them; an angle and a distance differ more.
+APART = 0.1
+# The steps of the angles are as equal as this.
+REGULAR = 0.3
+# Points within less than this [rad] are ranges beside another quantity.
+NARROW = 0.35
+# So many steps may go back, because angles jitter.
+FEW_BACK = 0.05
+# Distances are more than these.
+FEW_VALUES = 3
+
+
+class Beams(NamedTuple):
+    """How many numbers a beam has, and which of them are its angle and distance, or its x and y."""
+
+    numbers: int
+    roles: Roles
+
+
+def interleaved(values: list[Floats], reading: Reading) -> Beams | None:
+    """What the beams of the rows have; None if a row has one number a beam."""
+    row = values[0]
+    given = (reading.columns, reading.skip_columns, reading.angle_increment)
+    if len(row) < 2 * LEAST_BEAMS or any(each is not None for each in given):
+        return None
+    if not np.nanmedian(np.abs(np.diff(row))) > APART * np.nanmedian(np.abs(row)):
+        return None
+    for numbers in range(2, MOST_NUMBERS + 1):
+        if any(len(each) % numbers for each in values) or len(row) < LEAST_BEAMS * numbers:
+            continue
+        table = row.astype(np.float64).reshape(-1, numbers)
+        score, roles = columns_of_beam(table)
+        if score < REGULAR and _sweeps(table, roles):
+            return Beams(numbers, roles)
+    return None
+
+
+def _sweeps(table: NDArray[np.float64], roles: Roles) -> bool:
+    """Whether the bearings of the beams go on in one sense over a field of view, and their distances vary."""
+    if len(np.unique(table[:, roles.second])) <= FEW_VALUES:
+        return False
+    if roles.polar:
+        bearings = table[:, roles.first] * RADIANS[angle_unit_of(table[:, roles.first])]
+    else:
+        bearings = np.arctan2(table[:, roles.second], table[:, roles.first])
+    steps = (np.diff(bearings[np.isfinite(bearings)]) + np.pi) % (2 * np.pi) - np.pi
+    back = np.minimum((steps > 0).mean(), (steps < 0).mean())
+    return bool(back < FEW_BACK and np.median(np.abs(steps)) * len(table) > NARROW)
+
+
+def read_interleaved(source: Source, reading: Reading, values: list[Floats], beams: Beams) -> Recording:
+    """The scans of such rows."""
+    tables = [row.reshape(-1, beams.numbers) for row in values]
+    scans = np.repeat(np.arange(len(values), dtype=np.float64), [len(table) for table in tables])
+    table = np.column_stack((np.concatenate(tables), scans)).astype(np.float64)
+    what = "angle and distance" if beams.roles.polar else "x and y"
+    source.notes.notice("beams", f"Each row was read as a scan with {what} of one beam after the other.")
+    return with_roles(source, reading, table, None, beams.roles._replace(scan=beams.numbers), True, "text")
