@@ -1176,14 +1176,15 @@ export interface Looked {
 /**
  * One text and what the page shows with it: the decision found, or the whole result.
  *
- * params: override those of the lesson. method: shows this method with its default thresholds instead of region
- * growing, so it cannot be combined with params.
+ * why: a question that the text answers. params: override those of the lesson. method: shows this method with its
+ * default thresholds instead of region growing, so it cannot be combined with params.
  */
 export interface Step {
   near: number[];
   names: Record<string, number>;
   show: "fits" | "noise" | "times" | "beside" | "label" | null;
   text: string;
+  why: string;
   method: string | null;
   find: Find | null;
   params: Record<string, number>;
@@ -1249,7 +1250,8 @@ export interface Task {
 }
 
 /**
- * params: thresholds that differ from USUAL and the defaults; knobs: thresholds that the reader may change.
+ * block: of the diagram, below which it is listed. params: thresholds that differ from USUAL and the defaults;
+ * knobs: thresholds that the reader may change.
  *
  * recording: `lesson:NAME` or `sample:NAME` of the program, a drawn world, or `folder:FILE`, beside the file of the
  * lesson; scan: one scan instead, as in sensor_msgs/LaserScan. decisions: those that texts name.
@@ -1257,6 +1259,7 @@ export interface Task {
 export interface Lesson {
   title: string;
   about: string;
+  block: "fit" | "seed" | "growth" | "enough" | "overlap" | "endpoints" | "segments" | "methods" | null;
   recording: string;
   scan: Record<string, unknown>;
   frame: number;
@@ -1276,6 +1279,7 @@ export interface Lesson {
 export interface NamedLesson {
   title: string;
   about: string;
+  block: "fit" | "seed" | "growth" | "enough" | "overlap" | "endpoints" | "segments" | "methods" | null;
   recording: string;
   scan: Record<string, unknown>;
   frame: number;

@@ -15,6 +15,8 @@ from ..told.typescript import As
 Beam = Annotated[int, Field(ge=0)]
 Words = Annotated[str, Field(min_length=1, max_length=2000)]
 Pair = tuple[Beam, Beam]
+# The blocks of the method (Fig. 3), and beside them the comparison with other methods.
+Block = Literal["fit", "seed", "growth", "enough", "overlap", "endpoints", "segments", "methods"]
 KINDS = tuple(dict.fromkeys(name for each in EXTRACTORS.values() for name in each.vocabulary.names))
 CHECKS = tuple(dict.fromkeys(name for each in EXTRACTORS.values() for name in each.vocabulary.check_names))
 
@@ -70,11 +72,12 @@ class Looked(Part):
 class Step(Looked):
     """One text and what the page shows with it: the decision found, or the whole result.
 
-    params: override those of the lesson. method: shows this method with its default thresholds instead of region
-    growing, so it cannot be combined with params.
+    why: a question that the text answers. params: override those of the lesson. method: shows this method with its
+    default thresholds instead of region growing, so it cannot be combined with params.
     """
 
     text: Words
+    why: Annotated[str, Field(max_length=100)] = ""
     method: Annotated[str, _one_of(tuple(EXTRACTORS))] | None = None
     find: Find | None = None
     params: dict[Name, Number] = {}
@@ -155,7 +158,8 @@ USUAL = {"max_occluder": 0.0, "merge_rms": 0.0, "max_void": 0.0, "epsilon_growth
 
 
 class Lesson(Part):
-    """params: thresholds that differ from USUAL and the defaults; knobs: thresholds that the reader may change.
+    """block: of the diagram, below which it is listed. params: thresholds that differ from USUAL and the defaults;
+    knobs: thresholds that the reader may change.
 
     recording: `lesson:NAME` or `sample:NAME` of the program, a drawn world, or `folder:FILE`, beside the file of the
     lesson; scan: one scan instead, as in sensor_msgs/LaserScan. decisions: those that texts name.
@@ -163,6 +167,7 @@ class Lesson(Part):
 
     title: Annotated[str, Field(min_length=1, max_length=60)]
     about: Annotated[str, Field(min_length=1, max_length=200)]
+    block: Block | None = None
     recording: RecordingId = ""
     scan: Annotated[dict[str, Any], As("Record<string, unknown>")] = {}
     frame: Annotated[int, Field(ge=0)] = 0

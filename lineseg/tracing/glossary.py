@@ -109,7 +109,8 @@ TERMS = (
     Term("window", "S_num points in a row that are tried as a seed.", ("window", "windows"), "Algorithm 1", "01_seed"),
     Term(
         "seed",
-        "A window whose points all lie near the line fitted to them. A line grows from it.",
+        "A window whose points all lie near the line fitted to them. A line grows from it, since a line through two "
+        "points alone would say nothing about a wall.",
         ("seed", "seeds"),
         "Algorithm 1",
         "01_seed",
@@ -135,6 +136,11 @@ TERMS = (
          ("merge", "merged", "merging"), "Algorithm 3", "04_collinear"),
     Term("cut", "To divide the points that two lines share, at the first one that is not nearer to the first line.",
          ("cut",), "Algorithm 3", "05_corner"),
+    Term("neighbours", "Points that follow one another in the order of the scan. Only the next neighbour may join a "
+         "line, since points of one wall are neighbours.", ("neighbours", "neighbour", "neighbouring"), "Algorithm 2",
+         "03_growth"),
+    Term("seam", "Where the numbers of the beams begin again on a full circle. Lines cross it like any other place.",
+         ("seam",), lesson="19_seam"),
     Term("candidate", "A line that has grown, before it is kept or dropped.", ("candidate", "candidates"),
          lesson="08_how_much"),
     Term("dropped", "Refused as a whole: a line with fewer points than P_min or shorter than L_min.",
@@ -181,6 +187,9 @@ TERMS = (
          "17_splitting"),
     Term("Split-and-Merge", "A method that splits as iterative end-point fit does, then fits lines to all points of "
          "each stretch and merges similar neighbours.", ("Split-and-Merge",), "Fig. 2", "12_split_and_merge"),
+    Term("Hough transform", "A method in which each point votes for all lines through it. The line with the most "
+         "votes is taken first.",
+         ("Hough transform",), lesson="12_split_and_merge"),
     Term("region growing", "The method of the paper: it starts with a seed and takes in neighbouring points.",
          ("region growing", "Region growing"), lesson="03_growth"),
     Term("stretch", "Points in a row that a method which splits treats together.", ("stretch", "stretches"),

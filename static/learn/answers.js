@@ -25,7 +25,7 @@ function choiceOf(choice, text, rich, onAnswer) {
     const button = h("button", { type: "button", class: "answer", "aria-pressed": "false" }, ...rich(option.text));
     button.addEventListener("click", () => {
       for (const each of buttons) each.setAttribute("aria-pressed", String(each === button));
-      onAnswer(option.right, option.right ? "" : option.why, option.text);
+      onAnswer(option.right, option.right ? "" : `${text.wrong} ${option.why}`.trim(), option.text);
     });
     return button;
   });

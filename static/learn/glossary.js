@@ -1,11 +1,13 @@
 // @ts-check
 // Terms and symbols: marked where a text first uses them, explained on hover, focus and touch, and all in one list.
+// Another list has the questions that lessons answer.
 import { openDialog } from "../widgets/dialog.js";
 import { h } from "../widgets/dom.js";
 import { symbols } from "../widgets/symbols.js";
 import { hideTooltip, tooltip } from "../widgets/tooltip.js";
 
 /** @typedef {import("../wire.js").ExplainedTerm} Term */
+/** @typedef {Pick<import("../wire.js").NamedLesson, "id" | "title" | "steps">} Lesson */
 /** @typedef {typeof import("../text/learn.js").learnText.glossary} Text */
 /** Marks terms in a text; those that were already marked are left alone. @typedef {(words: string) => (Node | string)[]} Mark */
 
@@ -13,17 +15,17 @@ export class Glossary {
   #text;
   #onLesson;
   /** @type {Term[]} */ #terms = [];
-  /** @type {{id: string, title: string}[]} */ #lessons = [];
+  /** @type {Lesson[]} */ #lessons = [];
   /** @type {Map<string, Term>} */ #byForm = new Map();
   /** @type {RegExp | null} */ #pattern = null;
 
-  /** @param {Text} text @param {(id: string) => void} onLesson */
+  /** @param {Text} text @param {(id: string, page?: number) => void} onLesson */
   constructor(text, onLesson) {
     this.#text = text;
     this.#onLesson = onLesson;
   }
 
-  /** @param {Term[]} terms @param {{id: string, title: string}[]} lessons */
+  /** @param {Term[]} terms @param {Lesson[]} lessons */
   set(terms, lessons) {
     this.#terms = terms;
     this.#lessons = lessons;
@@ -59,9 +61,32 @@ export class Glossary {
     return mark;
   }
 
-  /** A button that opens the list. */
-  button() {
-    return h("button", { type: "button", class: "button quiet", onclick: () => this.open() }, this.#text.open);
+  /** Buttons that open the lists. */
+  buttons() {
+    const quiet = (/** @type {string} */ words, /** @type {() => void} */ onclick) =>
+      h("button", { type: "button", class: "button quiet", onclick }, words);
+    return [quiet(this.#text.questions, () => this.ask()), quiet(this.#text.open, () => this.open())];
+  }
+
+  /** Opens the list of the questions that lessons answer. */
+  ask() {
+    const items = this.#lessons.flatMap(({ id, steps }, number) =>
+      steps.flatMap(({ why }, page) => (why ? [this.#question(why, id, number, page)] : [])),
+    );
+    const dialog = openDialog(this.#text.questions, this.#text.close, h("ul", { class: "questions" }, ...items));
+    dialog.addEventListener("click", (event) => {
+      const chosen = /** @type {Element} */ (event.target).closest("[data-to-lesson]");
+      if (!chosen) return;
+      dialog.close();
+      this.#onLesson(chosen.getAttribute("data-to-lesson") ?? "", Number(chosen.getAttribute("data-page")));
+    });
+  }
+
+  /** @param {string} why @param {string} id of its lesson @param {number} number @param {number} page */
+  #question(why, id, number, page) {
+    const answer = h("button", { type: "button", class: "question", "data-to-lesson": id, "data-page": page });
+    answer.append(h("span", {}, ...symbols(why)), h("span", { class: "muted" }, this.#text.lesson(number + 1)));
+    return h("li", {}, answer);
   }
 
   /** Opens the list of all terms. @param {Term} [at] scrolled to, and lit */

@@ -2,6 +2,7 @@
 // Mode Learn: one frame, decision by decision, in words, pseudocode, formulas and charts.
 import { createOverlay } from "../stage/overlay.js";
 import { h, setText } from "../widgets/dom.js";
+import { blockOf } from "./blocks.js";
 import { createCharts } from "./charts.js";
 import { fetchInto } from "./fetched.js";
 import { Diagram } from "./diagram.js";
@@ -62,6 +63,8 @@ class Learn {
   #listingPlace = h("div", { class: "listing-place" });
   #splitting;
   #diagram;
+  #panel;
+  /** Whether the block diagram with its lessons is wanted, rather than the replay of a decision. */ #overview = true;
   #other = h("p", { class: "hint other-method", hidden: true });
 
   /** @param {Places} places @param {Words} words @param {Handlers} handlers */
@@ -98,7 +101,7 @@ class Learn {
     this.#trail.title = text.views.trailHelp;
     this.#views = new Map(VIEWS.map((name) => [name, switchButton(text.views[name], () => this.#chooseView(name))]));
     const views = h("span", { class: "chips", role: "group", "aria-label": text.views.label }, ...this.#views.values());
-    this.#glossary = new Glossary(text.glossary, (id) => this.#lessons.open(id));
+    this.#glossary = new Glossary(text.glossary, (id, page) => this.#lessons.open(id, page));
     this.stepper = new Stepper(dock, text, {
       mark: (words) => this.#glossary.page()(words),
       onStep: (step) => onChange({ step }),
@@ -113,8 +116,18 @@ class Learn {
     const box = () => (this.#event ? null : boxOnStage(project, stage));
     const onMake = () => openMaking(text.making, { session, box, onMade: (lessons) => this.takeLessons(lessons) });
     const { onMissing, stored } = handlers;
-    this.#lessons = new Lessons(words, this.#glossary, { onChange, onDraw, onGo, onMake, onMissing, session, stored });
+    const onLeft = () => this.#showOverview();
+    const kept = { session, stored };
+    this.#lessons = new Lessons(words, this.#glossary, { onChange, onDraw, onGo, onMake, onMissing, onLeft, ...kept });
+    this.#panel = panel;
     panel.setAttribute("aria-label", text.panel);
+    const replay = h(
+      "div",
+      { class: "lesson-head replay-head" },
+      h("h2", { class: "lesson-title" }, text.replay),
+      ...this.#glossary.buttons(),
+      h("button", { type: "button", class: "button quiet", onclick: onLeft }, text.lesson.all),
+    );
     const method = h(
       "div",
       { class: "method" },
@@ -125,7 +138,7 @@ class Learn {
       this.#formulas.element,
     );
     this.#diagram = new Diagram(text.diagram, (id) => this.#lessons.open(id));
-    panel.append(this.#diagram.element, this.#lessons.element, method);
+    panel.append(this.#diagram.element, replay, this.#lessons.element, method);
     dock.append(this.#charts.element, this.#ladder.element);
     this.#chooseView("step");
     this.#fetchListing();
@@ -229,7 +242,7 @@ class Learn {
     this.#dock.classList.toggle("asking", this.#predict.asked !== null);
     this.#formulas.set(explained, this.#trace, this.#params);
     this.#charts.set(explained, this.#trace, this.#params);
-    this.#diagram.light(explained);
+    this.#arrange(explained);
     this.#splitting.light(event?.kind ?? "");
     this.#listing?.set(
       explained,
@@ -237,6 +250,22 @@ class Learn {
       event ? compared(event, this.#knobs) : "",
       !this.#lessons.showing.active,
     );
+  }
+
+  #showOverview() {
+    this.#overview = true;
+    this.#show();
+  }
+
+  /** A lesson, the replay of a decision, or the diagram with all lessons. @param {Event | null} event */
+  #arrange(event) {
+    const { reading, block } = this.#lessons;
+    const shown = reading ? "lesson" : this.#handlers.stored || !this.#overview ? "replay" : "overview";
+    this.#panel.dataset.shows = shown;
+    const lit = event || this.#own ? blockOf(event) : null;
+    const about = block === "methods" ? "segments" : block;
+    this.#diagram.light(event ? lit : (about ?? lit));
+    this.#lessons.light(lit);
   }
 
   /** Lessons of the user. @param {import("./lessons.js").Lesson[]} lessons */
@@ -281,6 +310,8 @@ class Learn {
 
   /** @param {Readonly<View>} view */
   setView(view) {
+    // Whoever steps wants to see the decisions.
+    if (view.step !== this.#step) this.#overview = view.step === null;
     this.#step = view.step;
     this.#params = view.params;
     this.#lessons.setView(view);
@@ -294,7 +325,6 @@ class Learn {
   setMethod(method, [{ knobs }]) {
     this.#knobs = knobs;
     this.#own = method.knobs === knobs;
-    this.#diagram.element.hidden = !this.#own;
     this.#listingPlace.hidden = this.#formulas.element.hidden = !this.#own;
     this.#other.hidden = this.#own;
     this.#splitting.setMethod(method.name, method.label);

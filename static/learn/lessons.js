@@ -20,7 +20,7 @@ import { Showing } from "./shown.js";
 /** @typedef {import("../wire.js").Step} LessonStep */
 /** @typedef {import("../wire.js").NamedLesson} Lesson */
 /** @typedef {import("../wire.js").Lessons} Told */
-/** @typedef {{onChange: (patch: Patch, gesture?: string | null) => void, onGo: (step: number | null) => void, onDraw: () => void, onMake: () => void, onMissing?: (id: string) => void, session: () => string, stored?: boolean}} Handlers */
+/** @typedef {{onChange: (patch: Patch, gesture?: string | null) => void, onLeft: () => void, onGo: (step: number | null) => void, onDraw: () => void, onMake: () => void, onMissing?: (id: string) => void, session: () => string, stored?: boolean}} Handlers */
 
 // Every lesson is about this method; a step may show another for comparison.
 const METHOD = "region-growing";
@@ -67,6 +67,7 @@ export class Lessons {
       if (wanted && this.#lesson && this.#at === this.#lesson.steps.length) this.#countLabels(wanted, labelled);
     };
     this.showing = new Showing(words.shown, { session, stored, knobs: () => this.#knobs, onLabel });
+    this.overview = this.#list.element;
     this.element = h(
       "section",
       { class: "lesson", "aria-label": text.label },
@@ -93,13 +94,13 @@ export class Lessons {
     } else if (this.#view) this.#adopt(this.#view);
   }
 
-  /** Opens a lesson at its first page. @param {string} id */
-  open(id) {
+  /** Opens a lesson. @param {string} id @param {number} [page] */
+  open(id, page = 0) {
     const chosen = this.#list.find(id);
     if (!chosen) return this.#miss(id);
     if (!this.#lesson && this.#view) this.#before = settingsOf(this.#view);
     this.#show(chosen);
-    this.#turn(0);
+    this.#turn(page);
     return this.#reader.focus();
   }
 
@@ -112,7 +113,6 @@ export class Lessons {
   /** @param {Lesson} chosen */
   #show(chosen) {
     this.#lesson = chosen;
-    this.#list.element.hidden = true;
     this.#sliders = new Map(
       this.#knobs
         .filter(({ name }) => chosen.knobs.includes(name))
@@ -168,6 +168,21 @@ export class Lessons {
     const back = this.#before && this.#view?.recording === this.#lesson?.recording ? this.#before : {};
     this.#close();
     this.#handlers.onChange({ ...back, lesson: null });
+    this.#handlers.onLeft();
+  }
+
+  /** The block of the method that the lesson is about; null without a lesson. */
+  get block() {
+    return this.#lesson?.block ?? null;
+  }
+
+  get reading() {
+    return this.#lesson !== null;
+  }
+
+  /** Where one is in the method. @param {import("./blocks.js").Block | null} block */
+  light(block) {
+    this.#list.light(block);
   }
 
   #close() {
@@ -177,7 +192,6 @@ export class Lessons {
     this.#reader.close();
     this.showing.turn(null);
     this.element.dataset.page = "";
-    this.#list.element.hidden = false;
     this.#list.show();
   }
 
@@ -304,10 +318,7 @@ export class Lessons {
     this.#solved = lacks.length === 0;
     const untouched = state.step === null && state.selected === null && same(start, state.params);
     if (!this.#solved && untouched) return this.#reader.judge(false, "");
-    this.#reader.judge(
-      this.#solved,
-      this.#solved ? `${text.right} ${done}` : [text.notYet, ...lacks.slice(0, 2)].join(" "),
-    );
+    this.#reader.judge(this.#solved, this.#solved ? `${text.right} ${done}` : lacks.slice(0, 2).join(" "));
     if (this.#solved) this.#list.note(lesson, this.#setBy(goal, state, start), true);
   }
 
@@ -364,7 +375,7 @@ export class Lessons {
     const lesson = this.#lesson;
     if (!lesson) return;
     this.#solved = solved;
-    this.#reader.judge(solved, solved ? `${text.right} ${lesson.task.done}` : `${text.notYet} ${why}`);
+    this.#reader.judge(solved, solved ? `${text.right} ${lesson.task.done}` : why);
     if (answer) this.#list.note(lesson, answer, solved);
   }
 }

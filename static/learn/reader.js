@@ -59,7 +59,7 @@ export class Reader {
     this.element = h(
       "div",
       { class: "lesson-reader", hidden: true },
-      h("div", { class: "lesson-head" }, this.#title, glossary.button(), iconButton("close", text.close, onLeave)),
+      h("div", { class: "lesson-head" }, this.#title, ...glossary.buttons(), iconButton("close", text.close, onLeave)),
       this.#scroll,
       h("div", { class: "lesson-foot" }, this.#back, this.#count, spacer, this.#hint, this.#next),
     );
@@ -122,6 +122,7 @@ export class Reader {
   /** Whether the task is done, and what is missing. @param {boolean} solved @param {string} words */
   judge(solved, words) {
     this.#verdict.classList.toggle("solved", solved);
+    this.#verdict.classList.toggle("wrong", !solved && words !== "");
     this.#verdict.replaceChildren(...this.#rich(words));
     this.#next.classList.toggle("primary", solved);
   }

@@ -9,7 +9,7 @@ import { symbols } from "../widgets/symbols.js";
 /** @typedef {{left: number, top: number, right: number, bottom: number}} Room */
 
 const NEAR_PX = 14;
-const FARTHER_PX = [0, 20, 42, 66, 92];
+const FARTHER_PX = [0, 20, 42, 66, 92, 124, 160];
 const ASIDE_PX = 16;
 const EDGE_PX = 6;
 const DOT_PX = 7;

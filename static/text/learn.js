@@ -10,6 +10,7 @@ const AGAIN = "Try again";
 export const learnText = {
   modes: { label: "Mode", tune: "Tune", learn: "Learn", inspect: "Inspect" },
   panel: "Learn",
+  replay: "Replay",
   keys: {
     jumps: "in Learn: next refusal, merge, cut",
     closeUp: "in Learn: show decisions from near by, or the whole plan",
@@ -50,12 +51,16 @@ export const learnText = {
   },
   lesson: {
     label: "Lesson",
-    overview: "Lessons",
+    overview: "How region growing works",
+    all: "All lessons",
+    others: "More lessons",
+    begin: (/** @type {boolean} */ first, /** @type {number} */ number, /** @type {string} */ title) =>
+      `${first ? "Begin with" : "Go on with"} ${number} · ${title}`,
     missing: "The lessons could not be loaded. You can step through any frame without them.",
     again: AGAIN,
     unknown: (/** @type {string} */ id) => `There is no lesson “${id}”. Choose one of these.`,
     overviewHint:
-      "Each lesson takes a few minutes and ends with a task. You can also step through any frame of your own.",
+      "The method, block by block (Fig. 3 of the paper), with the lessons about each. The lit block is what you see now: press → to step through this frame.",
     make: "Make a lesson from here",
     makeHint: "Takes the recording, the frame, the step and the part of the plan that you see now",
     close: "Back to the list of lessons",
@@ -68,7 +73,6 @@ export const learnText = {
     hint: "Hint",
     place: (/** @type {number} */ n, /** @type {number} */ all) => `${n} of ${all}`,
     right: "Done.",
-    notYet: "Not yet.",
     doneMark: "done",
   },
   progress: {
@@ -85,6 +89,7 @@ export const learnText = {
   },
   diagram: {
     label: "The method as blocks (Fig. 3); each leads to its lesson",
+    loop: "until no seed is left",
     blocks: {
       fit: ["Fit", "Orthogonal least squares (Eqs. 1, 2): every block fits its lines in this way"],
       seed: ["Seed", "A few neighbouring points that lie on one line (Algorithm 1, Eqs. 3–6)"],
@@ -95,13 +100,15 @@ export const learnText = {
       ],
       overlap: ["Overlap", "Lines that share points are merged or cut (Algorithm 3)"],
       endpoints: ["Ends", "The outermost points are moved onto the line (Eqs. 7, 8)"],
-      segments: ["Result", "The result; how good it is, say TR and FR (Eqs. 9, 10)"],
+      segments: ["Result", "Segments with two ends; TR and FR say how good they are (Eqs. 9, 10)"],
+      methods: ["Other methods", "How splitting differs (Figs. 1, 2), and what each costs (Fig. 9)"],
     },
   },
   answers: {
     choose: "Choose an answer",
     number: (/** @type {string} */ unit) => (unit ? `Your answer in ${unit}` : "Your answer"),
     check: "Check",
+    wrong: "No.",
     noNumber: "That is not a number.",
     tooSmall: "It is too small.",
     tooLarge: "It is too large.",
@@ -120,6 +127,7 @@ export const learnText = {
   },
   glossary: {
     title: "Terms and symbols",
+    questions: "Questions",
     open: "Terms",
     close: "Close",
     lesson: (/** @type {number} */ number) => `Lesson ${number}`,

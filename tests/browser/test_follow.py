@@ -29,6 +29,7 @@ def test_a_class_follows_its_teacher_leaves_and_returns(new_tab):
     pupil.page.get_by_role("button", name="Follow again").click()
     pupil.until(f"s.step === {step}")
     teacher.page.bring_to_front()
+    teacher.page.get_by_role("button", name="All lessons").click()
     teacher.page.locator("[data-lesson='02_delta']").click()
     teacher.page.locator(".lesson-foot .primary").click()
     shown = teacher.until("s.view.page === 1 && s.step !== null")

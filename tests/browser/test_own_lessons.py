@@ -59,6 +59,7 @@ def test_a_dropped_lesson_is_read_and_answered_and_one_with_a_mistake_is_told(ne
 def test_a_lesson_is_made_of_what_is_shown(new_tab):
     tab = new_tab("#mode=learn&recording=sample:hallway&frame=7&step=20&epsilon=0.04")
     shown = tab.until("s.step === 20")["decision"]["text"]
+    tab.page.get_by_role("button", name="All lessons").click()
     tab.page.get_by_role("button", name="Make a lesson from here").click()
     fields = {
         "Title": "From here",
@@ -79,6 +80,6 @@ def test_a_lesson_is_made_of_what_is_shown(new_tab):
     assert tab.until("s.view.lesson && s.step === 20")["decision"]["text"] == shown
     tab.page.locator(".lesson-foot .primary").click()
     tab.page.get_by_role("button", name="That one").click()
-    tab.page.locator(".lesson-verdict", has_text="Not yet.").wait_for()
+    tab.page.locator(".lesson-verdict", has_text="No.").wait_for()
     tab.page.get_by_role("button", name="This one").click()
     tab.page.locator(".lesson-verdict.solved").wait_for()

@@ -17,6 +17,7 @@ from lineseg_app.shelf.lessons import lesson_files, scan_of
 from taught import taught
 
 from lineseg import Params, Scan, Trace, extract
+from lineseg.simulate.drawing import Drawing
 from lineseg.tracing.decisions import Decision
 
 LESSONS = {lesson.id: lesson for lesson in taught().lessons}
@@ -114,6 +115,17 @@ RULES = (
     "About three times σ is a good beginning",
     "It tests each next point against the line so far",
     "Splitting looks at all points of a stretch again",
+    "A line goes through any two points, so two say nothing",
+    "there is only one next point to compare, instead of all others",
+    "In the paper δ is larger than ε",
+    "Why is δ larger than ε",
+    "but lets seeds cross larger steps ([lesson 2](lesson:02_delta))",
+    "[Lesson 7](lesson:07_epsilon) shows what that means",
+    "Growth does not stop at the seam",
+    "its first beam has a higher number than its last",
+    "into two pieces, at a place that depends on how the laser is mounted",
+    "The second text shows that it does not",
+    "each point votes for all lines through it, and the line with the most votes",
 )
 
 
@@ -201,6 +213,21 @@ def _():
         assert aside(scan, refused.line, [refused.beam])[0] > params_of("01_seed").epsilon
 
 
+@claim("01_seed", "in the rough patch no window does")
+def _():
+    found = decisions("01_seed", "seed found")
+    assert [d.first for d in found] == [4, 63]
+    wall = at("01_seed").wall
+    assert (wall[51:63] < 0).all()
+    assert {d.first for d in decisions("01_seed", "seed rejected")} >= set(range(51, 63))
+
+
+@claim("02_delta", "|ρ − ρ′| is never smaller than d")
+def _():
+    for refused in decisions("02_delta", "seed rejected", "delta"):
+        assert refused.value > aside(at("02_delta"), refused.line, [refused.beam])[0]
+
+
 @claim("02_delta", "Between 8.6 m and 12 m a door leaf stands 45 mm back")
 def _():
     leaf = at("02_delta").xy[at("02_delta").wall == 2]
@@ -270,6 +297,16 @@ def _():
     stopped = next(d for d in traced("03_growth") if d.kind == "growth stopped" and d.direction == 1)
     assert added.value < added.limit <= stopped.value
     assert at("03_growth").wall[stopped.beam - 1 : stopped.beam + 1].tolist() == [0, 1]
+
+
+@claim(
+    "03_growth", "each of its points is nearer to the line of the first wall than ε", "points between them do not fit"
+)
+def _():
+    wall, kept = at("03_growth").wall, decisions("03_growth", "line kept")[0]
+    beyond, between = (aside(at("03_growth"), kept.line, np.flatnonzero(wall == each).tolist()) for each in (4, 2))
+    assert beyond.max() < params_of("03_growth").epsilon < between.min()
+    assert not set(wall[kept.first : kept.last + 1].tolist()) & {2, 4}
 
 
 @claim(
@@ -362,6 +399,19 @@ def _():
     assert at("05_corner").wall[one.last] == 1
     assert at("05_corner").wall[two.first] == 0
     assert one.last - two.first >= 4
+
+
+@claim("05_corner", "each point was measured on one wall only", "turn a line away from its wall")
+def _():
+    grown = [kept.line for kept in decisions("05_corner", "line kept")]
+    refitted = [d.line for d in decisions("05_corner", "endpoints")]
+    off = 0.0
+    for wall, (before, after) in enumerate(zip(grown, refitted, strict=True)):
+        own = line_through(at("05_corner").xy[at("05_corner").wall == wall])
+        before_off, after_off = (abs(line[0] * own[1] - line[1] * own[0]) for line in (before, after))
+        assert after_off < 1e-9
+        off = max(off, before_off)
+    assert np.degrees(off) > 0.1
 
 
 @claim(
@@ -458,6 +508,55 @@ def _():
 def _():
     assert not right("07_epsilon", epsilon=0.06)
     assert right("07_epsilon", epsilon=0.15)
+
+
+@claim(
+    "07_epsilon",
+    "only {lines} lines are left",
+    "Two walls far down the hallway are lost",
+    "a point that is nearer to its line than ε can be farther from P′ than that",
+    "as small as ε",
+    "A larger δ keeps such walls",
+)
+def _():
+    epsilon, scan = params_of("07_epsilon").epsilon, at("07_epsilon")
+    assert epsilon == 0.03
+    labels = traced("07_epsilon", delta=epsilon).extraction.labels
+    lost = [line for line in traced("07_epsilon").extraction.segments if (labels[line.first : line.last + 1] < 0).all()]
+    assert [(line.first <= 580 <= line.last, line.first <= 593 <= line.last) for line in lost] == [
+        (True, False),
+        (False, True),
+    ]
+    assert len(lines("07_epsilon", delta=epsilon)) == len(lines("07_epsilon")) - 2
+    for line in lost:
+        assert np.nanmin(scan.ranges[line.first : line.last + 1]) > 5
+        refused = [
+            d
+            for d in decisions("07_epsilon", "seed rejected", "delta", delta=epsilon)
+            if line.first <= d.first and d.last <= line.last
+        ]
+        assert any(aside(scan, d.line, [d.beam])[0] < epsilon < d.value for d in refused)
+
+
+@claim(
+    "08_how_much",
+    "All have P_min = {min_points} points or more",
+    "there a few points span more than L_min",
+    "Far away it is the other way round",
+)
+def _():
+    usual = params_of("08_how_much")
+    small = [line for line in traced("08_how_much", min_length=0.1).extraction.segments if line.length < 0.3]
+    assert small
+    assert all(line.points >= usual.min_points for line in small)
+    few = [line for line in traced("07_epsilon", min_points=3).extraction.segments if line.points < usual.min_points]
+    assert few
+    assert all(line.length > usual.min_length for line in few)
+    near, far = (
+        np.median([np.nanmedian(at(of).ranges[line.first : line.last + 1]) for line in each])
+        for of, each in (("08_how_much", small), ("07_epsilon", few))
+    )
+    assert near < far
 
 
 @claim(
@@ -633,6 +732,22 @@ def _():
 
 
 @claim(
+    "12_split_and_merge",
+    "come from the wall beyond the niche as well",
+    "Here this gives the same {lines} lines as region growing",
+    "each point votes for 180 directions",
+)
+def _():
+    made = trace_by(at("12_split_and_merge"), "hough", Params())
+    of_method = [(line.first, line.last) for line in made.extraction.segments]
+    assert of_method == lines("12_split_and_merge")
+    assert 180 / made.params.numbers()["theta_step_deg"] == 180
+    wall = at("12_split_and_merge").wall
+    votes = [d.value for d in made if d.kind == "peak found" and d.first == of_method[0][0]]
+    assert votes == [np.isin(wall, (0, 4)).sum()]
+
+
+@claim(
     "13_least_squares",
     "has an upright wall and a level one, and both are found",
 )
@@ -710,6 +825,32 @@ def _():
 @claim("18_time", "A second has 1000 ms", "40 scans a second")
 def _():
     assert LESSONS["18_time"].task.number.answer == f"{1000 / 40:g} ms"
+
+
+@claim(
+    "19_seam",
+    "the last one is next to beam 0",
+    "The place between the two is the seam",
+    "After the last beam comes beam {beam}",
+    "turned by 40°",
+    "The wall at the seam is cut in two",
+    "less than ε = {limit}, so it joins",
+    "and nothing else",
+    "the same four walls are found",
+    "There are as many walls in the room as before",
+    "More walls are found",
+    "no line ends where the numbers begin",
+)
+def _():
+    scan = at("19_seam")
+    assert scan.full_circle
+    here = traced("19_seam").extraction.segments
+    assert len(here) == 4
+    turned = Drawing.parse(LESSONS["19_seam"].recording.removeprefix("drawn:").replace("l0,0,0", "l0,0,40"))
+    there = extract(turned.recording()[0], params_of("19_seam")).segments
+    n = len(scan)
+    assert {((line.first - 40) % n, (line.last - 40) % n) for line in here} == {(s.first, s.last) for s in there}
+    assert any(line.first > line.last for line in here)
 
 
 @pytest.mark.parametrize(("lesson", "quoted", "check"), CLAIMS, ids=[f"{of}: {quoted[0]}" for of, quoted, _ in CLAIMS])

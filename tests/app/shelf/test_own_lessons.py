@@ -65,7 +65,10 @@ def task(**kind: Any) -> dict[str, Any]:
     ("told", "words"),
     [
         ('{"title": "Mine",\n "about" "A corner."}', "mine.json:2: this is not JSON: expecting ':' delimiter"),
-        (step(fidn={}), "step 2 has no 'fidn'; it may have near, names, show, text, method, find, params, selected"),
+        (
+            step(fidn={}),
+            "step 2 has no 'fidn'; it may have near, names, show, text, why, method, find, params, selected",
+        ),
         (step(find={"kind": "seed fund"}), "step 2, find.kind is 'seed fund': choose from seed rejected, seed found"),
         (step(find={"kind": "lines merged"}), "step 2, find: there is no “lines merged” with these properties"),
         (step(params={"epsilon": -1}), "step 2, params: epsilon"),
