@@ -249,6 +249,7 @@ class Learn {
       event ? variables(event) : [],
       event ? compared(event, this.#knobs) : "",
       !this.#lessons.showing.active,
+      this.#params,
     );
   }
 

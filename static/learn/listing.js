@@ -6,7 +6,7 @@ import { symbols } from "../widgets/symbols.js";
 import { eventName } from "./trace.js";
 
 /** @typedef {import("./trace.js").Event} Event */
-/** @typedef {{text: string, indent?: number, events?: string[], note?: string, extension?: boolean}} ListingLine */
+/** @typedef {{text: string, indent?: number, events?: string[], note?: string, extension?: boolean, needs?: string}} ListingLine needs: a threshold that, at 0, turns the line off */
 /** @typedef {{phase: string, title: string, lines: ListingLine[]}} Algorithm */
 
 const KEYWORDS = /^(for|each|while|if|else|otherwise|return|stop|repeat|drop|keep|try)$/;
@@ -15,6 +15,7 @@ export class Listing {
   #text;
   #algorithms;
   /** The line of each event. @type {Map<string, HTMLElement>} */ #lines = new Map();
+  /** Lines that a threshold turns off. @type {[string, HTMLElement][]} */ #needing = [];
   #values;
   #buttons;
   #blocks;
@@ -50,7 +51,7 @@ export class Listing {
   #createBlock({ phase, title, lines }) {
     const { misprint, extension } = this.#text;
     const notes = lines.flatMap(({ note }) => note ?? []);
-    const rows = lines.map(({ text: words, indent = 0, events = [], note, extension: extended }, k) => {
+    const rows = lines.map(({ text: words, indent = 0, events = [], note, extension: extended, needs }, k) => {
       const row = h(
         "li",
         { class: "code-line", "data-line": `${phase} ${k + 1}` },
@@ -60,6 +61,7 @@ export class Listing {
         h("span", { class: "code-value" }),
       );
       for (const event of events) this.#lines.set(event, row);
+      if (needs) this.#needing.push([needs, row]);
       return row;
     });
     const items = notes.map((note, k) => h("li", { id: `note-${phase}-${k}` }, ...symbols(note)));
@@ -85,8 +87,10 @@ export class Listing {
    * @param {[string, string][]} now name and value of each variable
    * @param {string} compared what the lit line compares, with its numbers
    * @param {boolean} follow whether the lit line is brought into sight
+   * @param {import("../wire.js").Params} params
    */
-  set(event, now, compared, follow) {
+  set(event, now, compared, follow, params) {
+    for (const [name, row] of this.#needing) row.hidden = params[name] === 0;
     this.#values.replaceChildren(
       ...now.map(([name, value]) => h("div", {}, h("dt", {}, ...symbols(name)), h("dd", {}, value))),
     );

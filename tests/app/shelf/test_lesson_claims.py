@@ -113,6 +113,7 @@ RULES = (
     "instead of being computed anew from all points",
     "both methods may be fast enough",
     "About three times σ is a good beginning",
+    "about three times its noise is a good beginning",
     "It tests each next point against the line so far",
     "Splitting looks at all points of a stretch again",
     "A line goes through any two points, so two say nothing",
