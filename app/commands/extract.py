@@ -11,14 +11,19 @@ from typing import Annotated
 from tyro.conf import OmitArgPrefixes, Positional, arg
 
 from lineseg.covariance import Noise
+from lineseg.extractors import EXTRACTORS
 from lineseg.knobs import Thresholds
+from lineseg.params import Params
 from lineseg.scan import Recording
+from lineseg.survey import survey
 from lineseg.writers import SEGMENT_WRITERS, write_segments
+from lineseg.writers.segments import suffix_of
+from lineseg.writers.whole import SURVEY_WRITERS, write_survey
 
 from ..made import about_of
 from .flag_types import Files, Switch, Unset
 from .noise import noise_of
-from .progress import counted, open_with_progress
+from .progress import counted, open_with_progress, progress_bar
 from .reading import ReadingFlags, each_file, files_of, reading_of
 from .thresholds import Choice, Flags, suggested
 
@@ -86,15 +91,16 @@ def _targets(files: list[Path], out: Path | None) -> dict[Path, Path | None]:
 
 
 def _write(recording: Recording, method: str, params: Thresholds, target: Path | None, noise: Noise | None) -> None:
-    from lineseg import EXTRACTORS
-
-    extract_segments = EXTRACTORS[method].extract
-    scans = counted(enumerate(recording), len(recording), "extract")
-    rows = ((recording.number(frame), scan, extract_segments(scan, params)) for frame, scan in scans)
     about = about_of(recording, method, params)
-    if target is None:
-        write_segments(sys.stdout, "jsonl", rows, noise, about)
-        return
-    write_segments(target, None, rows, noise, about)
-    if target.suffix.lower() == ".csv":
+    to = sys.stdout if target is None else target
+    if isinstance(params, Params) and noise is None and suffix_of(to) in SURVEY_WRITERS:
+        with progress_bar("extract", "scan") as advance:
+            found = survey(recording, params, scores=False, progress=advance)
+        write_survey(to, None, recording, found, about)
+    else:
+        extract_segments = EXTRACTORS[method].extract
+        scans = counted(enumerate(recording), len(recording), "extract")
+        rows = ((recording.number(frame), scan, extract_segments(scan, params)) for frame, scan in scans)
+        write_segments(to, None, rows, noise, about)
+    if target is not None and target.suffix.lower() == ".csv":
         target.with_name(f"{target.name}.json").write_text(json.dumps(about, indent=1) + "\n", encoding="utf-8")

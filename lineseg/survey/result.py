@@ -13,10 +13,10 @@ from ..knobs import Thresholds
 # The fields of `Segment`; the rows of a frame are in the order of its `Extraction`.
 SEGMENT = np.dtype(
     [
-        *((name, np.float64) for name in ("a", "b", "c", "x1", "y1", "x2", "y2", "length")),
-        ("rms", np.float32),
+        *((name, np.float64) for name in ("a", "b", "c", "x1", "y1", "x2", "y2", "length", "rms")),
         *((name, np.int32) for name in ("first", "last", "points")),
-    ]
+    ],
+    align=True,
 )
 
 

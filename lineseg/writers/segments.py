@@ -104,12 +104,20 @@ def write_segments(
     noise: of the beams, to write covariances too. about: how the segments were made, where the format has a place.
     The file appears under its name when it is complete; an existing file stays until then.
     """
+    write_lines(target, segment_lines(format or suffix_of(target), rows, noise, about))
+
+
+def suffix_of(target: str | Path | TextIO) -> str:
+    """The format that the name of a path tells; "jsonl" for an open file."""
+    return Path(target).suffix.lstrip(".").lower() if isinstance(target, str | Path) else "jsonl"
+
+
+def write_lines(target: str | Path | TextIO, lines: Iterable[str]) -> None:
+    """Write text to an open file, or to a path, where it appears when it is complete."""
     if not isinstance(target, str | Path):
-        target.writelines(segment_lines(format or "jsonl", rows, noise, about))
+        target.writelines(lines)
         return
-    path = Path(target)
-    lines = segment_lines(format or path.suffix.lstrip(".").lower(), rows, noise, about)
-    with whole_file(path) as unfinished, unfinished.open("w", encoding="utf-8", newline="") as file:
+    with whole_file(Path(target)) as unfinished, unfinished.open("w", encoding="utf-8", newline="") as file:
         file.writelines(lines)
 
 

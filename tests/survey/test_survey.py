@@ -37,7 +37,7 @@ def assert_agrees(recording, params=None, frames=None):
             assert np.allclose((row["a"], row["b"], row["c"]), segment.line, rtol=0, atol=1e-9)
             assert np.allclose((row["x1"], row["y1"], row["x2"], row["y2"]), (*segment.start, *segment.end), atol=1e-9)
             assert row["length"] == pytest.approx(segment.length, abs=1e-9)
-            assert row["rms"] == pytest.approx(segment.rms, rel=1e-6, abs=1e-9)
+            assert row["rms"] == segment.rms
     return result
 
 

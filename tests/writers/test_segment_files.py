@@ -2,13 +2,15 @@ import csv
 import io
 import json
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from scenes import wall_ahead
 
-from lineseg import Extraction, Noise, Params, Scan, Segment, covariance, extract
+from lineseg import Extraction, Noise, Params, Recording, Scan, Segment, covariance, extract, survey
 from lineseg.writers import SEGMENT_WRITERS, segment_lines, write_segments
+from lineseg.writers.whole import SURVEY_WRITERS
 
 WALL = Segment((0.6, 0.8, -2.0), (1.0, 1.75), (2.0, 1.0), 3, 88, 85, 1.25, 0.1 + 0.2)
 
@@ -49,6 +51,19 @@ def test_a_row_of_csv_is_a_segment_with_every_digit():
     assert table[1]["frame_id"] == 'a,"b"'
     assert float(table[0]["rms"]) == WALL.rms
     assert (float(table[0]["start_x"]), float(table[0]["end_y"]), table[0]["last"]) == (1.0, 1.0, "88")
+
+
+@pytest.mark.parametrize("format", SURVEY_WRITERS)
+def test_the_text_of_a_survey_is_that_of_its_frames(format):
+    ahead = wall_ahead(distance=2.0, noise=0.01)
+    # A wall along an axis has a normal of 0 or 1e-17, which needs an exponent.
+    scans = [ahead, wall_ahead(distance=2.0), Scan(np.full(30, np.nan), np.arange(30) / 99)] * 20
+    told = [replace(scan, stamp=math.nan if k % 3 else k / 7, frame_id=f'a,"{k}"') for k, scan in enumerate(scans)]
+    recording = replace(Recording.from_scans(told), numbers=np.arange(60) + 100)
+    rows = [(100 + k, scan, extract(scan)) for k, scan in enumerate(recording)]
+    about = {"file": "a"}
+    text = "".join(SURVEY_WRITERS[format](recording, survey(recording, scores=False), about))
+    assert text == "".join(segment_lines(format, rows, about=about))
 
 
 def test_values_of_numpy_are_written_as_numbers():
