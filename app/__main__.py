@@ -1,66 +1,31 @@
-"""The command line: selects the command and reports its errors. Only this and `commands/` print and exit."""
+"""The entry of the command line, which loads what the command needs only once signals are handled."""
 
 from __future__ import annotations
 
-import logging
-import os
 import sys
 from collections.abc import Sequence
 
-import tyro
-from tyro.conf import DisallowNone, FlagCreatePairsOff
+from .stopping import interruptible
 
-from lineseg import __version__
-from lineseg.failing import mistake
-
-from .commands import COMMANDS
-from .commands.progress import interruptible
-
-log = logging.getLogger(__name__)
-INTERRUPTED = 130
-REFUSED = 2
+INTERRUPTED, TERMINATED = 130, 143
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Run the command line and return the exit code. `lineseg FILE` means `lineseg view FILE`."""
+    """Run the command line and return the exit code."""
     arguments = list(sys.argv[1:] if argv is None else argv)
-    if not arguments or arguments[0] not in (*COMMANDS, "-h", "--help", "--version"):
-        arguments.insert(0, "view")
-    if arguments == ["--version"]:
-        print(f"lineseg {__version__}")
-        return 0
     try:
-        with interruptible():
-            tyro.extras.subcommand_cli_from_dict(
-                COMMANDS,
-                prog="lineseg",
-                description="Line segments from 2D laser scans.",
-                args=arguments,
-                config=(DisallowNone, FlagCreatePairsOff),
-            )
-            sys.stdout.flush()
+        with interruptible(0 if _serves(arguments) else TERMINATED):
+            from .command_line import run
+
+            return run(arguments)
     except KeyboardInterrupt:
         print("lineseg: stopped.", file=sys.stderr)
         return INTERRUPTED
-    except BrokenPipeError:
-        # The reader of a pipe, such as `head`, has closed it; Python would report the error again on exit.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return 0
-    except (ValueError, OSError, MemoryError, ModuleNotFoundError) as error:
-        print(f"lineseg: {_sentence(error)}", file=sys.stderr)
-        return REFUSED
-    except Exception as error:
-        log.debug("not expected", exc_info=True)
-        print(f"lineseg: {mistake(error)}", file=sys.stderr)
-        return REFUSED
-    return 0
 
 
-def _sentence(error: BaseException) -> str:
-    """An error in one line; system errors as "file: reason"."""
-    if isinstance(error, OSError) and error.strerror:
-        return f"{error.filename}: {error.strerror}." if error.filename else f"{error.strerror}."
-    return " ".join(str(error).split()) or "not enough memory; try a smaller file or fewer settings."
+def _serves(arguments: Sequence[str]) -> bool:
+    """Whether SIGTERM is how the command usually ends. What is not one word is a file to view."""
+    return not arguments or arguments[0] in ("view", "node") or not arguments[0].isalpha()
 
 
 if __name__ == "__main__":

@@ -85,6 +85,8 @@ def node(
         laser = f"{address.place} {address.topic or ''}".strip()
         return open_door(laser, running, prepare, _tell, user_folder(), host, port, token_of(None, token_file))
 
+    prepare(*running.now)
+
     def stop(number: int, frame: FrameType | None) -> None:
         publisher.stop()
 

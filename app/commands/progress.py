@@ -1,50 +1,17 @@
-"""A progress bar for long work on a terminal, and stopping with Ctrl-C."""
+"""A progress bar for long work on a terminal."""
 
 from __future__ import annotations
 
-import signal
 import sys
-import threading
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from types import FrameType
-from typing import Any, TypeVar
+from typing import TypeVar
 
 from lineseg.readers import Reading, open_recording
 from lineseg.scan import Recording
 
 T = TypeVar("T")
-_interrupted = threading.Event()
-
-
-@contextmanager
-def interruptible() -> Iterator[None]:
-    """Ctrl-C raises KeyboardInterrupt; if a finaliser swallows it, the next step of the progress bar raises it again.
-
-    Compilation runs many finalisers, and Python only prints the exceptions they raise.
-    """
-
-    def interrupt(number: int, frame: FrameType | None) -> None:
-        _interrupted.set()
-        raise KeyboardInterrupt
-
-    def unraisable(lost: Any) -> None:
-        if not issubclass(lost.exc_type, KeyboardInterrupt):
-            former_hook(lost)
-
-    _interrupted.clear()
-    if signal.getsignal(signal.SIGINT) is not signal.default_int_handler:
-        # Another program's handler, or a background job that ignores Ctrl-C.
-        yield
-        return
-    former_hook, sys.unraisablehook = sys.unraisablehook, unraisable
-    signal.signal(signal.SIGINT, interrupt)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGINT, signal.default_int_handler)
-        sys.unraisablehook = former_hook
 
 
 @contextmanager
@@ -55,8 +22,6 @@ def progress_bar(what: str, unit: str) -> Iterator[Callable[[int, int], None]]:
     with tqdm(desc=what, unit=unit, unit_scale=True, leave=False, disable=None, delay=0.5) as bar:
 
         def advance(done: int, total: int) -> None:
-            if _interrupted.is_set():
-                raise KeyboardInterrupt
             bar.total = total or None
             bar.update(done - bar.n)
 

@@ -60,7 +60,6 @@ class Node:
 
         Raises ValueError if the robot does not accept the segments.
         """
-        warm_up(*self._running.now, self._publishing.noise)
         self._began = self._reported = time.monotonic()
         self._robot.start()
         try:

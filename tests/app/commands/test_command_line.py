@@ -9,13 +9,14 @@ import subprocess
 import sys
 import time
 import urllib.request
+from pathlib import Path
 
 import numpy as np
 import platformdirs
 import pytest
 from lineseg_app.__main__ import main
 from lineseg_app.commands import COMMANDS
-from lineseg_app.commands.progress import counted, interruptible
+from lineseg_app.stopping import interruptible
 from processes import lineseg
 
 from lineseg import Params, extract, why_apart
@@ -223,22 +224,20 @@ def test_ctrl_c_ends_an_extraction_without_a_trace(tmp_path):
     assert [each.name for each in tmp_path.iterdir()] == ["long.csv"]
 
 
-def test_ctrl_c_in_a_finaliser_ends_the_work_at_its_next_step(capsys):
+@pytest.mark.parametrize(("number", "raised"), [(signal.SIGINT, KeyboardInterrupt), (signal.SIGTERM, SystemExit)])
+def test_a_signal_in_a_finaliser_ends_the_work_a_moment_later(capsys, number, raised):
     class Finalised:
         def __del__(self):
-            signal.raise_signal(signal.SIGINT)
+            signal.raise_signal(number)
 
-    steps = []
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
     try:
-        with pytest.raises(KeyboardInterrupt), interruptible():
-            for step in counted(range(5), 5, "work"):
-                steps.append(step)
-                if step == 2:
-                    Finalised()
+        with pytest.raises(raised), interruptible(0):
+            Finalised()
+            time.sleep(60)
     finally:
         signal.signal(signal.SIGINT, before)
-    assert (steps, capsys.readouterr().err) == ([0, 1, 2], "")
+    assert capsys.readouterr().err == ""
 
 
 @pytest.mark.parametrize("arguments", [["view"], []], ids=["view FILE", "FILE"])
@@ -257,6 +256,30 @@ def test_a_file_alone_is_viewed_until_ctrl_c(hall, tmp_path, arguments):
         _, err = process.communicate(timeout=30)
     assert "Traceback" not in err
     assert process.returncode == 130
+
+
+@pytest.mark.parametrize(
+    ("command", "code"), [("view --port 0 --no-browser", 0), ("node ws://127.0.0.1:1", 0), ("extract -", 143)]
+)
+def test_sigterm_ends_a_command_that_still_loads(command, code):
+    process = lineseg(*command.split())
+    status = Path(f"/proc/{process.pid}/status")
+    while process.poll() is None and not int(re.findall(r"SigCgt:\s*(\w+)", status.read_text())[0], 16) >> 14 & 1:
+        time.sleep(0.005)
+    process.send_signal(signal.SIGTERM)
+    assert (*process.communicate(timeout=60), process.returncode) == ("", "", code)
+
+
+def test_sigterm_ends_the_page_and_the_file_with_its_token_is_gone(tmp_path):
+    places = {"HOME": str(tmp_path), "XDG_DATA_HOME": str(tmp_path), "XDG_CACHE_HOME": platformdirs.user_cache_dir()}
+    process = lineseg("view", "--port", 0, env=os.environ | places | {"LINESEG_TOKEN": "secret", "BROWSER": "true"})
+    assert process.stdout
+    process.stdout.readline()
+    assert list(tmp_path.rglob("open-*.html"))
+    process.send_signal(signal.SIGTERM)
+    _, err = process.communicate(timeout=60)
+    assert (err, process.returncode) == ("", 0)
+    assert not list(tmp_path.rglob("open-*.html"))
 
 
 @pytest.mark.parametrize(

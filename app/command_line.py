@@ -1,0 +1,55 @@
+"""Selects the command and reports its errors. Only this and `commands/` print."""
+
+from __future__ import annotations
+
+import logging
+import os
+import sys
+
+import tyro
+from tyro.conf import DisallowNone, FlagCreatePairsOff
+
+from lineseg import __version__
+from lineseg.failing import mistake
+
+from .commands import COMMANDS
+
+log = logging.getLogger(__name__)
+REFUSED = 2
+
+
+def run(arguments: list[str]) -> int:
+    """Run the command line and return the exit code. `lineseg FILE` means `lineseg view FILE`."""
+    if not arguments or arguments[0] not in (*COMMANDS, "-h", "--help", "--version"):
+        arguments.insert(0, "view")
+    if arguments == ["--version"]:
+        print(f"lineseg {__version__}")
+        return 0
+    try:
+        tyro.extras.subcommand_cli_from_dict(
+            COMMANDS,
+            prog="lineseg",
+            description="Line segments from 2D laser scans.",
+            args=arguments,
+            config=(DisallowNone, FlagCreatePairsOff),
+        )
+        sys.stdout.flush()
+    except BrokenPipeError:
+        # The reader of a pipe, such as `head`, has closed it; Python would report the error again on exit.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 0
+    except (ValueError, OSError, MemoryError, ModuleNotFoundError) as error:
+        print(f"lineseg: {_sentence(error)}", file=sys.stderr)
+        return REFUSED
+    except Exception as error:
+        log.debug("not expected", exc_info=True)
+        print(f"lineseg: {mistake(error)}", file=sys.stderr)
+        return REFUSED
+    return 0
+
+
+def _sentence(error: BaseException) -> str:
+    """An error in one line; system errors as "file: reason"."""
+    if isinstance(error, OSError) and error.strerror:
+        return f"{error.filename}: {error.strerror}." if error.filename else f"{error.strerror}."
+    return " ".join(str(error).split()) or "not enough memory; try a smaller file or fewer settings."
