@@ -13,6 +13,7 @@ from lineseg import EXTRACTORS, Extractor, Knob, Params, Thresholds
 from lineseg.scan import Recording
 from lineseg.tuning.proposal import propose
 from lineseg.writers import read_params
+from lineseg.writers.params_read import params_file
 
 from .flag_types import Unset
 
@@ -88,9 +89,7 @@ def extractor_of(method: str) -> Extractor:
 
 def read_file(file: Path, kind: type[Thresholds]) -> Thresholds:
     try:
-        return read_params(file.read_text(encoding="utf-8-sig"), kind)
-    except UnicodeDecodeError:
-        raise ValueError(f"{file}: this is not text; give a launch file, YAML or JSON.") from None
+        return read_params(params_file(file), kind)
     except ValueError as error:
         raise ValueError(f"{file}: {error}") from None
 

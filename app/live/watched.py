@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Generic, TypeVar
 
 from lineseg import Thresholds
-from lineseg.writers.params_read import given_params
+from lineseg.writers.params_read import given_params, params_file
 
 T = TypeVar("T", bound=Thresholds)
 # Editors and copies take less; a file that is still unusable after this is told.
@@ -45,6 +45,8 @@ class WatchedParams(Generic[T]):
                 self._tell_wrong()
                 return False
             self._seen = mark
+            if not self._file.is_file():  # reading a pipe would wait
+                raise ValueError("it is no longer a file")
             given, whole_lines = self._read()
             self._check_whole(given, whole_lines)
         except (ValueError, OSError) as error:
@@ -62,10 +64,7 @@ class WatchedParams(Generic[T]):
         return found.st_mtime_ns, found.st_size, found.st_ino
 
     def _read(self) -> tuple[dict[str, int | float], bool]:
-        try:
-            text = self._file.read_text(encoding="utf-8-sig")
-        except UnicodeDecodeError:
-            raise ValueError("this is not text; give a launch file, YAML or JSON.") from None
+        text = params_file(self._file)
         return given_params(text, self._kind), text.endswith("\n")
 
     def _check_whole(self, given: dict[str, int | float], whole_lines: bool) -> None:

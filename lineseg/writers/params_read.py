@@ -6,6 +6,7 @@ import ast
 import json
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
+from pathlib import Path
 from typing import Any, TypeVar
 from xml.parsers import expat
 
@@ -14,6 +15,7 @@ from ..knobs import Thresholds
 from ..params import Params
 
 MOST_CHARACTERS = 1 << 20
+MOST_BYTES = 4 * MOST_CHARACTERS
 # Its parser, in Python, takes about a second for so many.
 MOST_YAML = 1 << 17
 ALIAS = re.compile(r"(?:^|[\s\[{,:])\*\w", re.MULTILINE)
@@ -33,6 +35,18 @@ def read_params(text: str, kind: type[T] = Params) -> T:
     (`epsilon`). Raises ValueError, with the line if known, for an unknown name or a value that is not allowed.
     """
     return kind(**given_params(text, kind))
+
+
+def params_file(file: Path) -> str:
+    """The text of a file of thresholds, of which no more is read than it may have. Raises ValueError for other bytes."""
+    with file.open("rb") as opened:
+        data = opened.read(MOST_BYTES + 1)
+    if len(data) > MOST_BYTES:
+        raise ValueError(f"it has more than {MOST_BYTES >> 20} MB; a file of thresholds has less.")
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        raise ValueError("this is not text; give a launch file, YAML or JSON.") from None
 
 
 def given_params(text: str, kind: type[Thresholds] = Params) -> dict[str, int | float]:

@@ -8,7 +8,7 @@ import re
 import signal
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -27,7 +27,7 @@ from obeying import SECONDS, Obedient, eventually, running, said
 from processes import lineseg
 from robots import nearest, wall, watching
 
-from lineseg import extract, open_recording
+from lineseg import Recording, Scan, extract, open_recording
 from lineseg.covariance import Noise, covariances
 from lineseg.readers.laser_scan import LaserScan
 
@@ -174,18 +174,49 @@ def test_a_publisher_may_die_and_return(peer: Obedient, topic: str):
         assert segments_back(peer, topic, ranges=wall(3.0))[1]["width"] == 1
 
 
-def test_a_recording_that_is_replayed_gives_exactly_the_segments_of_extract(peer: Obedient, topic: str):
+def as_messages_have_it(recording: Recording, frame: int) -> Scan:
+    """The frame in the float32 of sensor_msgs/LaserScan."""
+    scan = recording[frame]
+    angles = np.float32([recording.angle_min[frame], recording.angle_increment[frame]]).tolist()
+    shortest, longest = np.float32([scan.range_min, scan.range_max]).tolist()
+    return Scan.regular(scan.ranges.astype(np.float32), *angles, range_min=shortest, range_max=longest)
+
+
+def assert_replayed_exactly(peer: Obedient, topic: str, recording: Recording, frames: Iterable[int]) -> None:
+    for frame in frames:
+        scan = as_messages_have_it(recording, frame)
+        angles = float(recording.angle_min[frame]), float(recording.angle_increment[frame])
+        limits = scan.range_min, scan.range_max
+        second = next(numbers)
+        peer.ask("scan", topic=topic, ranges=scan.ranges.tolist(), second=second, angles=angles, limits=limits)
+        (marker,) = answer(peer, f"{topic}/markers", second)["markers"]
+        ends = [end for segment in extract(scan).segments for end in (segment.start, segment.end)]
+        assert [(point["x"], point["y"]) for point in marker["points"]] == ends, (recording.name, frame)
+
+
+def test_a_bag_that_is_replayed_gives_exactly_the_segments_of_extract(peer: Obedient, topic: str):
     recording = open_recording(SAMPLES / "hallway.mcap")
+    for field in ("ranges", "bearings", "range_min", "range_max"):
+        np.testing.assert_array_equal(getattr(as_messages_have_it(recording, 3), field), getattr(recording[3], field))
     with running(Address(f"ros2:{topic}"), topic):
         opened(peer, topic, reliable=True)
-        for frame in range(0, len(recording), len(recording) // 5):
-            scan = recording[frame]
-            angles = float(recording.angle_min[frame]), float(recording.angle_increment[frame])
-            limits = scan.range_min, scan.range_max
-            peer.ask("scan", topic=topic, ranges=scan.ranges.tolist(), second=frame, angles=angles, limits=limits)
-            (marker,) = answer(peer, f"{topic}/markers", second=frame)["markers"]
-            ends = [end for segment in extract(scan).segments for end in (segment.start, segment.end)]
-            assert [(point["x"], point["y"]) for point in marker["points"]] == ends
+        assert_replayed_exactly(peer, topic, recording, range(0, len(recording), len(recording) // 5))
+
+
+def test_any_recording_that_is_replayed_gives_exactly_the_segments_of_its_float32(
+    peer: Obedient, topic: str, data_dir: Path
+):
+    refused = ("ros1_unsupported_v12", "ros1_no_laserscan")
+    files = [
+        next(file for file in sorted(folder.iterdir()) if file.suffix not in (".yaml", ".db3-shm", ".db3-wal"))
+        for folder in sorted(data_dir.iterdir())
+        if folder.is_dir() and folder.name not in refused
+    ]
+    with running(Address(f"ros2:{topic}"), topic):
+        opened(peer, topic, reliable=True)
+        for file in files:
+            recording = open_recording(file)
+            assert_replayed_exactly(peer, topic, recording, range(0, len(recording), len(recording) // 3 + 1))
 
 
 def test_the_page_shows_scans_and_publishes_segments(peer: Obedient, topic: str, tmp_path: Path):

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import os
 import re
 from pathlib import Path
+from typing import Any
 
 import pytest
 from lineseg_app.live import watched
@@ -52,19 +54,26 @@ def test_every_beginning_of_a_file_leaves_the_old_values(tmp_path: Path, told: l
         ("least_thresh: -1\n", "line 1: epsilon is -1"),
         ("min_line_points: 12\n", "it no longer has epsilon; write every threshold that it had"),
         ("", "the text is empty"),
-        (None, "No such file"),
+        ("x" * (5 << 20), "it has more than 4 MB"),
+        (Path.unlink, "No such file"),
+        (lambda file: (file.unlink(), file.mkdir()), "it is no longer a file"),
+        (lambda file: (file.unlink(), os.mkfifo(file)), "it is no longer a file"),
+        (lambda file: (file.unlink(), file.symlink_to(file)), "Too many levels of symbolic links"),
     ],
 )
-def test_a_file_that_stays_unusable_is_told_once(tmp_path: Path, told: list[str], text: str | None, words: str):
+def test_a_file_that_stays_unusable_is_told_once(tmp_path: Path, told: list[str], text: Any, words: str):
     file = tmp_path / "tuned.yaml"
     file.write_text("least_thresh: 0.05\n")
     watching = WatchedParams(file, Params, told.append)
-    file.unlink() if text is None else file.write_text(text)
+    text(file) if callable(text) else file.write_text(text)
     assert [watching.changed() for _ in range(3)] == [False] * 3
     assert watching.given == {"epsilon": 0.05}
     (line,) = told
     assert words in line and line.endswith("; the old values stay")
-    file.write_text("least_thresh: 0.06\n")
+    new = tmp_path / "new.yaml"
+    new.write_text("least_thresh: 0.06\n")
+    file.rmdir() if file.is_dir() else None
+    new.replace(file)  # as many editors do
     assert watching.changed()
 
 
