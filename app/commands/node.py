@@ -73,6 +73,8 @@ def node(
     from ..routes.robot import ros_name
 
     to = ros_name("--markers", markers), ros_name("--cloud", cloud)
+    if to[0] == to[1]:
+        raise ValueError(f"--markers and --cloud are both {to[0]}; messages of two types need two topics")
     publishing = Publishing(OWNER, to[0], *running.now, to[1], noise)
     publisher = Node(address, publishing, running, _tell, once)
 

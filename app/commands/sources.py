@@ -14,7 +14,7 @@ LIST_SECONDS = 2.0
 
 
 def address_of(text: str, topic: str | None) -> Address:
-    """Raises ValueError if it is none, or if what it needs is not installed."""
+    """Raises ValueError if it is none, if what it needs is not installed, or if a variable of ROS cannot be."""
     if not is_address(text):
         raise ValueError(f"{text[:80]!r} is not the address of a robot; {EXPECTED}")
     address = Address(text, topic)
@@ -22,6 +22,12 @@ def address_of(text: str, topic: str | None) -> Address:
     if package and find_spec(package) is None:
         command = install_command(address.scheme)
         raise ValueError(f"{address.scheme}: needs the package {package}; `{command}` installs it")
+    if package and address.domain is None:
+        domain_of(os.environ)
+    if address.scheme == "ros2":
+        from ..live.dds_domain import discovery
+
+        discovery(os.environ)
     return address
 
 

@@ -282,6 +282,11 @@ def test_sigterm_ends_the_page_and_the_file_with_its_token_is_gone(tmp_path):
     assert not list(tmp_path.rglob("open-*.html"))
 
 
+def test_a_node_needs_two_topics_for_two_types(run):
+    code, _, error = run("node", "ws://robot:9090", "--markers", "/x", "--cloud", "/x")
+    assert (code, error) == (2, "lineseg: --markers and --cloud are both /x; messages of two types need two topics\n")
+
+
 @pytest.mark.parametrize(
     ("arguments", "sentence"),
     [

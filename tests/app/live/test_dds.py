@@ -302,7 +302,10 @@ def test_the_environment_of_ros_says_where_to_look(environment: dict[str, str], 
     assert bool(discovery(environment)) == bool(expected)
 
 
-def test_a_variable_that_cannot_be_is_told():
+def test_a_variable_that_cannot_be_is_told(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]):
+    monkeypatch.setenv("ROS_DOMAIN_ID", "999")
+    assert main(["node", "ros2:/scan"]) == 2
+    assert capsys.readouterr().err.startswith("lineseg: ROS_DOMAIN_ID is '999'; a domain of DDS is a whole number")
     with pytest.raises(ValueError, match="ROS_AUTOMATIC_DISCOVERY_RANGE is 'HERE'; choose from LOCALHOST"):
         discovery({"ROS_AUTOMATIC_DISCOVERY_RANGE": "HERE"})
     with pytest.raises(ValueError, match="ROS_STATIC_PEERS has 'a b'"):
