@@ -29,15 +29,15 @@ class Obeying:
         self.received: dict[str, list[Any]] = defaultdict(list)
         self.ends: dict[str, Any] = {}
 
-    def publisher(self, topic: str, type: str = "sensor_msgs/msg/LaserScan") -> None:
+    def publisher(self, topic: str, type: str = "sensor_msgs/msg/LaserScan", hash: str | None = None) -> None:
         from zenoh_ros2_sdk import ROS2Publisher
 
-        self.ends[topic] = ROS2Publisher(topic, type, **defined(type), **self.where)
+        self.ends[topic] = ROS2Publisher(topic, type, **defined(type, hash), **self.where)
 
-    def subscriber(self, topic: str, type: str) -> None:
+    def subscriber(self, topic: str, type: str, hash: str | None = None) -> None:
         from zenoh_ros2_sdk import ROS2Subscriber
 
-        self.ends[topic] = ROS2Subscriber(topic, type, self.received[topic].append, **defined(type), **self.where)
+        self.ends[topic] = ROS2Subscriber(topic, type, self.received[topic].append, **defined(type, hash), **self.where)
 
     def scan(self, topic: str, ranges: list[float], second: int = 0) -> None:
         end = self.ends[topic]
@@ -57,9 +57,10 @@ class Obeying:
         self.ends.pop(topic).close()
 
 
-def defined(type: str) -> dict[str, str]:
+def defined(type: str, hash: str | None) -> dict[str, str]:
     """The definition as text, with those it consists of; the library would fetch it otherwise."""
-    return {"msg_definition": STORE.generate_msgdef(type, ros_version=2)[0], "type_hash": STORE.hash_rihs01(type)}
+    text = STORE.generate_msgdef(type, ros_version=2)[0]
+    return {"msg_definition": text, "type_hash": hash or STORE.hash_rihs01(type)}
 
 
 def plain(value: Any) -> Any:

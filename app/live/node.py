@@ -89,7 +89,9 @@ class Node:
         if refused > self._refused and now - self._refusal_told > REPORT_SECONDS:
             self._refused, self._refusal_told = refused, now
             self._tell(self._robot.refusal)
-        if words != self._said and words != self._robot.refusal:
+        if words and words == self._robot.refusal:
+            return
+        if words != self._said:
             self._said = words
             if words:
                 self._tell(words)

@@ -17,8 +17,8 @@ import threading
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
 from functools import partial
-from typing import Any
 
 import zenoh
 
@@ -34,9 +34,21 @@ PUBLISHER, NODE, SUBSCRIPTION = "MP", "NN", "MS"
 NODE_NAME = "lineseg"
 # Reliable, volatile, the last 10: every field as by default.
 QOS = "::,10:,:,:,,"
+# What ROS 2 Humble has in place of the hash of a definition.
+HASHLESS = "TypeHashNotSupported"
 LOOK_SECONDS = 0.1
+# Tokens and messages come in any order.
+GONE_SECONDS = 0.5
 MOST_WAITING = 64
+MOST_OFFERS = 10_000
 STATE = struct.Struct("<qqB")
+
+
+@dataclass(frozen=True)
+class ZenohOffer(Offer):
+    """hash: of the definition of the type, as the publisher has it."""
+
+    hash: str
 
 
 @contextmanager
@@ -72,8 +84,10 @@ class Zenoh:
         self._gid = os.urandom(16)
         self._ids = itertools.count(1)
         self._numbers = itertools.count(1)
-        self._publishers: dict[str, Any] = {}
-        self._offers: dict[str, Offer] = {}
+        self._publishers: dict[str, zenoh.Publisher] = {}
+        self._announced: dict[str, type[Message]] = {}
+        self._offers: dict[str, ZenohOffer] = {}
+        self._hashless = False
         self._closing = threading.Event()
         self._arrived: queue.Queue[tuple[float, bytes]] = queue.Queue(MOST_WAITING)
         self._declared = [
@@ -84,7 +98,7 @@ class Zenoh:
     def close(self) -> None:
         self._closing.set()
 
-    def offers(self) -> list[Offer]:
+    def offers(self) -> list[ZenohOffer]:
         """All publishers that are known at present."""
         return list(self._offers.copy().values())
 
@@ -93,6 +107,9 @@ class Zenoh:
         if chosen is None:
             return
         told.topic_is(chosen)
+        self._hashless = any(each.hash == HASHLESS for each in self.offers() if each.topic == chosen)
+        for to, message in self._announced.items():
+            self._publisher(to, message)
         told.waits(f"subscribed to {chosen}; waiting for its first scan")
         key = f"{self._domain}{chosen}/{dds_type(LASER_SCAN)}"
         subscriber = self._session.declare_subscriber(f"{key}/*", self._keep)
@@ -104,24 +121,28 @@ class Zenoh:
             subscriber.undeclare()
 
     def announce(self, topic: str, message: type[Message]) -> None:
-        if topic in self._publishers:
-            return
-        type = full_type(message.type)
-        key = f"{self._domain}{topic}/{dds_type(type)}/{_hash(type)}"
+        """Wait with it for a publisher of scans, which tells the kind of hash that this robot has."""
+        self._announced[topic] = message
+
+    def publish(self, topic: str, message: Message) -> None:
+        attached = STATE.pack(next(self._numbers), time.time_ns(), len(self._gid)) + self._gid
+        publisher = self._publisher(topic, type(message))
         try:
-            self._publishers[topic] = self._session.declare_publisher(key, encoding=zenoh.Encoding.APPLICATION_CDR)
-            token = self._token(next(self._ids), PUBLISHER, topic, type)
-            self._declared.append(self._session.liveliness().declare_token(token))
+            publisher.put(message.cdr(), attachment=attached)
         except zenoh.ZError as error:
             raise ValueError(f"nothing can be published to {topic}: {error}") from None
 
-    def publish(self, topic: str, message: Message) -> None:
-        self.announce(topic, type(message))
-        attached = STATE.pack(next(self._numbers), time.time_ns(), len(self._gid)) + self._gid
-        try:
-            self._publishers[topic].put(message.cdr(), attachment=attached)
-        except zenoh.ZError as error:
-            raise ValueError(f"nothing can be published to {topic}: {error}") from None
+    def _publisher(self, topic: str, message: type[Message]) -> zenoh.Publisher:
+        if topic not in self._publishers:
+            type = full_type(message.type)
+            key = f"{self._domain}{topic}/{dds_type(type)}/{self._hash(type)}"
+            try:
+                self._publishers[topic] = self._session.declare_publisher(key, encoding=zenoh.Encoding.APPLICATION_CDR)
+                token = self._token(next(self._ids), PUBLISHER, topic, type)
+                self._declared.append(self._session.liveliness().declare_token(token))
+            except zenoh.ZError as error:
+                raise ValueError(f"nothing can be published to {topic}: {error}") from None
+        return self._publishers[topic]
 
     # --- in threads of Zenoh ------------------------------------------------------------------------------------------
 
@@ -131,10 +152,10 @@ class Zenoh:
         parts = key.split("/")
         if len(parts) < 12 or parts[5] != PUBLISHER:
             return
-        if sample.kind == zenoh.SampleKind.PUT:
-            self._offers[key] = Offer(parts[9].replace("%", "/"), plain_type(parts[10]))
-        else:
+        if sample.kind != zenoh.SampleKind.PUT:
             self._offers.pop(key, None)
+        elif len(self._offers) < MOST_OFFERS:
+            self._offers[key] = ZenohOffer(parts[9].replace("%", "/"), plain_type(parts[10]), parts[11])
 
     def _keep(self, sample: zenoh.Sample) -> None:
         """The newest scans and when they arrived; the oldest makes room."""
@@ -164,7 +185,7 @@ class Zenoh:
         return None
 
     def _hand_over(self, topic: str, told: Told) -> None:
-        gone = False
+        gone, heard = False, time.monotonic()
         while not self._closing.is_set():
             try:
                 waiting = [self._arrived.get(timeout=LOOK_SECONDS)]
@@ -174,16 +195,23 @@ class Zenoh:
                 waiting.append(scan)
             if waiting:
                 hand_all(told, [partial(decode_cdr, data) for _, data in waiting], waiting[-1][0])
-            there = any(offer.is_laser and offer.topic == topic for offer in self.offers())
-            if not there and not gone:
+                gone, heard = False, time.monotonic()
+            elif not gone and time.monotonic() - heard > GONE_SECONDS and not self._offered(topic):
+                gone = True
                 told.misses(f"{topic} is no longer published; waiting for it")
-            gone = not there
+
+    def _offered(self, topic: str) -> bool:
+        return any(offer.is_laser and offer.topic == topic for offer in self.offers())
 
     def _token(self, entity: int, kind: str, topic: str = "", type: str = "") -> str:
         parts = [SPACE, self._domain, self._session.info.zid(), 0, entity, kind, "%", "%", NODE_NAME]
         if topic:
-            parts += [topic.replace("/", "%"), dds_type(type), _hash(type), QOS]
+            parts += [topic.replace("/", "%"), dds_type(type), self._hash(type), QOS]
         return "/".join(map(str, parts))
+
+    def _hash(self, type: str) -> str:
+        """The hash of a definition that rmw_zenoh has in the key of its messages."""
+        return HASHLESS if self._hashless else typestore("ROS2_JAZZY").hash_rihs01(type)
 
 
 def _config(router: str) -> zenoh.Config:
@@ -198,8 +226,3 @@ def _config(router: str) -> zenoh.Config:
     ):
         config.insert_json5(path, value)
     return config
-
-
-def _hash(type: str) -> str:
-    """The hash of a definition that rmw_zenoh has in the key of its messages."""
-    return typestore("ROS2_JAZZY").hash_rihs01(type)

@@ -50,10 +50,10 @@ def address(port: int, topic: str) -> Address:
     return Address(f"zenoh://127.0.0.1:{port}{topic}")
 
 
-def opened(peer: Obedient, topic: str) -> None:
-    peer.ask("subscriber", topic=f"{topic}/markers", type="visualization_msgs/msg/MarkerArray")
-    peer.ask("subscriber", topic=f"{topic}/cloud", type="sensor_msgs/msg/PointCloud2")
-    peer.ask("publisher", topic=topic)
+def opened(peer: Obedient, topic: str, **hash: str) -> None:
+    peer.ask("subscriber", topic=f"{topic}/markers", type="visualization_msgs/msg/MarkerArray", **hash)
+    peer.ask("subscriber", topic=f"{topic}/cloud", type="sensor_msgs/msg/PointCloud2", **hash)
+    peer.ask("publisher", topic=topic, **hash)
 
 
 def cloud_back(peer: Obedient, topic: str, distance: float, second: int) -> dict:
@@ -82,6 +82,26 @@ def test_markers_and_cloud_have_the_segments_the_stamp_and_the_frame_of_their_sc
     assert (marker["header"], cloud["header"], cloud["width"]) == (header, header, 1)
     assert [(point["x"], point["y"]) for point in marker["points"]] == [segment.start, segment.end]
     assert np.frombuffer(bytes(cloud["data"]), "<f4", 2).tolist() == np.float32(segment.start).tolist()
+
+
+def test_a_robot_with_humble_whose_types_have_no_hash_hears_the_segments(peer: Obedient, port: int, topic: str):
+    with running(address(port, topic), topic):
+        opened(peer, topic, hash="TypeHashNotSupported")
+        assert cloud_back(peer, topic, 2.0, second=7)["width"] == 1
+
+
+def test_a_router_may_die_and_return(topic: str):
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    with running(address(port, topic), topic) as told:
+        for second in (1, 2):
+            peer = Obedient(zenoh_peer.start(port))
+            opened(peer, topic)
+            cloud_back(peer, topic, 2.0, second)
+            peer.close()
+            said(told, f"{topic} is no longer published; waiting for it")
+            told.clear()
 
 
 def test_a_publisher_may_go_and_return_and_another_type_is_told(peer: Obedient, port: int, topic: str):
