@@ -38,7 +38,7 @@ def read_params(text: str, kind: type[T] = Params) -> T:
 
 
 def params_file(file: Path) -> str:
-    """The text of a file of thresholds, of which no more is read than it may have. Raises ValueError for other bytes."""
+    """The text of a file of thresholds; no more is read than it may have. Raises ValueError if it is no text."""
     with file.open("rb") as opened:
         data = opened.read(MOST_BYTES + 1)
     if len(data) > MOST_BYTES:
