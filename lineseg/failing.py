@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 from collections.abc import Iterator
 from contextlib import contextmanager
+from pathlib import Path
 
 log = logging.getLogger(__name__)
 LONGEST = 600
@@ -46,6 +47,11 @@ def sentence_of(error: BaseException, place: str, what: str = DAMAGED) -> str:
     if isinstance(error, (ValueError, OSError)) and text:
         return text if place in text else f"{start}{text}"
     return f"{start}{what} ({type(error).__name__}{': ' + text if text else ''})."
+
+
+def shown(path: Path | str) -> str:
+    """A path or the name of a file, which may have bytes that are not text, as text."""
+    return str(path).encode("utf-8", "surrogateescape").decode("utf-8", "replace")
 
 
 def mistake(error: BaseException) -> str:

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lineseg import Decision, FrameLabels, Recording, Segment, Thresholds, TrueLine, difference
+from lineseg.failing import shown
 from lineseg.poses import said_of
 from lineseg.readers import Account
 from lineseg.scan import PackAbout
@@ -291,8 +292,8 @@ def _histogram(counted: Histogram) -> told.Histogram:
 def _labels(known: Known, frame: int) -> told.Labels:
     return {
         **labels_told(known.of(frame)),
-        "file": known.path.name,
-        "folder": str(known.path.parent),
+        "file": shown(known.path.name),
+        "folder": shown(known.path.parent),
         "apart": known.apart,
         "stamp": known.stamp,
         "trouble": known.trouble,

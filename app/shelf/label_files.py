@@ -13,6 +13,7 @@ from typing import Any
 from weakref import WeakKeyDictionary
 
 from lineseg import FrameLabels, Recording, label_file, read_labels, save_labels
+from lineseg.failing import shown
 from lineseg.truth.label_file import said_in, users_label_file
 from lineseg.truth.labels import Labels, check_labels
 
@@ -110,7 +111,7 @@ def _read(path: Path, apart: bool, stamp: str, recording: Recording) -> Known:
     except ValueError as error:
         return Known(path, apart, stamp, {}, str(error))
     except OSError as error:
-        return Known(path, apart, stamp, {}, f"{path.name} cannot be read: {error.strerror}.")
+        return Known(path, apart, stamp, {}, f"{shown(path.name)} cannot be read: {error.strerror}.")
 
 
 def _packed(known: Known, recording: Recording, labels: dict[str, Any]) -> Known:

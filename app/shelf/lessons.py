@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import os
 import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
@@ -59,7 +60,7 @@ class Home:
         return lesson.recording, file
 
     def _kept(self, path: Path) -> tuple[str, Path]:
-        id = f"own:{hashlib.sha256(str(path).encode()).hexdigest()[:12]}"
+        id = f"own:{hashlib.sha256(os.fsencode(path)).hexdigest()[:12]}"
         self.paths[id] = path
         return id, path
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import os
 import threading
 from collections import OrderedDict
 from collections.abc import Callable, Collection, Sequence
@@ -11,6 +12,7 @@ from functools import lru_cache
 from pathlib import Path
 
 from lineseg import Recording
+from lineseg.failing import shown
 from lineseg.readers import Cancelled, Reading, open_recording
 from lineseg.simulate.drawing import Drawing
 
@@ -127,7 +129,7 @@ class Library:
         samples = [id for id in self._samples if id.startswith("sample:")]
         opened = set(self._files.values())
         rows = [RecordingEntry(id=source.id, label=source.label, group="Live") for source in self.live]
-        rows += [RecordingEntry(id=id, label=path.name, group="Command line") for id, path in self._files.items()]
+        rows += [RecordingEntry(id=id, label=self.label(id), group="Command line") for id in self._files]
         rows += [
             RecordingEntry(id=id, label=up.name, group="Uploads")
             for up in reversed(self.uploads.all())
@@ -136,7 +138,7 @@ class Library:
         rows += [RecordingEntry(id=id, label=_title(self._samples[id]), group="Samples") for id in samples]
         rows += [RecordingEntry(id=id, label=_title(self._samples[id]), group="Lessons") for id in lessons]
         rows += [
-            RecordingEntry(id=id, label=path.name, group="Recent", missing=not path.exists())
+            RecordingEntry(id=id, label=self.label(id), group="Recent", missing=not path.exists())
             for id, path in self._recent.items()
             if path not in opened
         ]
@@ -176,7 +178,7 @@ class Library:
             return _title(self._samples[id])
         path = self._files.get(id) or self._recent.get(id)
         if path is not None:
-            return path.name
+            return shown(path.name)
         if id.startswith(f"{OWN}:"):
             return OWN_LABEL
         return next((upload.name for upload in self.uploads.all() if id == f"upload:{upload.id}"), id)
@@ -265,7 +267,7 @@ class Library:
         try:
             status = path.stat()
         except FileNotFoundError:
-            raise ValueError(f"{path.name} is no longer in {path.parent}") from None
+            raise ValueError(f"{shown(path.name)} is no longer in {shown(path.parent)}") from None
         return _Key(path, reading, status.st_mtime_ns, status.st_size)
 
     def _finish(self, key: _Key, load: _Load) -> None:
@@ -338,4 +340,4 @@ def _absolute(path: Path) -> Path:
 
 def _digest(path: Path) -> str:
     """An id that hides the user's folders and survives a restart, so that links keep working."""
-    return hashlib.sha256(str(path).encode()).hexdigest()[:12]
+    return hashlib.sha256(os.fsencode(path)).hexdigest()[:12]

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from ..arguments import need_path
-from ..failing import named
+from ..failing import named, shown
 from ..scan import Recording
 from .account import Account, Guess, Notice, Skipped
 from .applying import applied
@@ -73,7 +73,7 @@ def open_recording(
     if not (path.is_file() or path.is_dir()):
         raise ValueError(f"{path} is neither a file nor a folder, such as a pipe or a device; save it as a file first.")
     # Damaged numbers may be anything, and are checked in the end.
-    with named(path.name or str(path), passed=(Cancelled,)), np.errstate(all="ignore"), ExitStack() as stack:
+    with named(shown(path.name or path), passed=(Cancelled,)), np.errstate(all="ignore"), ExitStack() as stack:
         try:
             return _read(Source(path, reading, progress or (lambda done, total: None), named=path), stack)
         except PermissionError:

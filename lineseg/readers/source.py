@@ -9,6 +9,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from ..failing import shown
 from ..scan import Floats, Recording, Topic
 from .account import Notes
 from .laser_scan import LaserScan
@@ -40,7 +41,7 @@ class Source:
     @property
     def name(self) -> str:
         path = self.named or self.path
-        return path.name or str(path)
+        return shown(path.name or path)
 
     def lines(self) -> Iterator[tuple[int, bytes]]:
         """(number, line) of a text file; numbers count from 1; line ends, and NULs of a power failure, are removed."""

@@ -46,7 +46,7 @@ def label_file(recording: str | Path, user_folder: Path | None = None) -> Path:
     """
     path = Path(recording).absolute()
     beside = path.with_name(path.name + SUFFIX)
-    if len(beside.name.encode()) <= LONGEST_NAME and (beside.exists() or os.access(path.parent, os.W_OK)):
+    if len(os.fsencode(beside.name)) <= LONGEST_NAME and (beside.exists() or os.access(path.parent, os.W_OK)):
         return beside
     return users_label_file(path.name, str(path), user_folder)
 
@@ -57,8 +57,8 @@ def users_label_file(name: str, identity: str, user_folder: Path | None = None) 
         import platformdirs
 
         user_folder = Path(platformdirs.user_data_dir("lineseg", appauthor=False))
-    digest = hashlib.sha256(identity.encode()).hexdigest()[:12]
-    short = name.encode()[: LONGEST_NAME // 2].decode(errors="ignore")
+    digest = hashlib.sha256(os.fsencode(identity)).hexdigest()[:12]
+    short = os.fsencode(name)[: LONGEST_NAME // 2].decode(errors="ignore")
     return user_folder / "labels" / f"{short}.{digest}{SUFFIX}"
 
 

@@ -26,6 +26,8 @@ COLUMNS = (
     "frame", "stamp", "frame_id", "start_x", "start_y", "end_x", "end_y", "first", "last", "a", "b", "c", "points",
     "length", "rms",
 )  # fmt: skip
+# How what a spreadsheet computes begins.
+FORMULAS = ("=", "+", "-", "@", "\t", "\r")
 METRES = "metres in the frame of the laser, x ahead and y to the left; not degrees"
 POLAR_COLUMNS = ("rho", "theta", "var_rho", "cov_rho_theta", "var_theta")
 
@@ -74,11 +76,16 @@ def csv_lines(rows: Rows, noise: Noise | None = None, about: About = None) -> It
         for segment, polar in zip(extraction.segments, polars, strict=True):
             place = (*segment.start, *segment.end, segment.first, segment.last)
             fit = (*segment.line, segment.points, segment.length, segment.rms)
-            writer.writerow((frame, "" if stamp is None else stamp, scan.frame_id, *place, *fit, *polar))
+            writer.writerow((frame, "" if stamp is None else stamp, cell(scan.frame_id), *place, *fit, *polar))
         yield text.getvalue()
         text.seek(0)
         text.truncate()
     yield text.getvalue()
+
+
+def cell(text: str) -> str:
+    """A text for CSV: a spreadsheet would compute what begins like a formula, so that has an apostrophe before it."""
+    return f"'{text}" if text.startswith(FORMULAS) else text
 
 
 # Suffix → writer: takes rows of (frame, scan, extraction), yields pieces of text.

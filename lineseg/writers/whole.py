@@ -13,7 +13,7 @@ import msgspec
 from ..scan import Recording
 from ..survey.result import Survey
 from .finite import finite_or_none
-from .segments import COLUMNS, About, suffix_of, write_lines
+from .segments import COLUMNS, About, cell, suffix_of, write_lines
 
 # Frames whose numbers are Python objects at a time: so few that the collector of cycles finds nothing to look through,
 # which would take longer than all the rest.
@@ -67,7 +67,7 @@ def survey_csv_lines(recording: Recording, survey: Survey, about: About = None) 
     for frames, column in _chunks(recording, survey):
         rows = list(zip(*(column[name] for name in places), strict=True))
         for number, stamp, frame_id, its in frames:
-            head = _csv((number, "" if stamp is None else stamp, frame_id))
+            head = _csv((number, "" if stamp is None else stamp, cell(frame_id)))
             yield from (f"{head},{row}\n" for row in _csv_rows(rows[its]))
 
 

@@ -58,12 +58,21 @@ def test_the_text_of_a_survey_is_that_of_its_frames(format):
     ahead = wall_ahead(distance=2.0, noise=0.01)
     # A wall along an axis has a normal of 0 or 1e-17, which needs an exponent.
     scans = [ahead, wall_ahead(distance=2.0), Scan(np.full(30, np.nan), np.arange(30) / 99)] * 20
-    told = [replace(scan, stamp=math.nan if k % 3 else k / 7, frame_id=f'a,"{k}"') for k, scan in enumerate(scans)]
+    told = [
+        replace(scan, stamp=math.nan if k % 3 else k / 7, frame_id=f'{"="[k % 2 :]}a,"{k}"')
+        for k, scan in enumerate(scans)
+    ]
     recording = replace(Recording.from_scans(told), numbers=np.arange(60) + 100)
     rows = [(100 + k, scan, extract(scan)) for k, scan in enumerate(recording)]
     about = {"file": "a"}
     text = "".join(SURVEY_WRITERS[format](recording, survey(recording, scores=False), about))
     assert text == "".join(segment_lines(format, rows, about=about))
+
+
+@pytest.mark.parametrize("frame_id", ["=cmd()", "+1", "-1", "@SUM(A1)", "\t=1"])
+def test_a_spreadsheet_computes_no_name_of_a_frame(frame_id: str):
+    text = "".join(segment_lines("csv", [row(0, WALL, frame_id=frame_id)]))
+    assert next(csv.DictReader(io.StringIO(text)))["frame_id"] == f"'{frame_id}"
 
 
 def test_values_of_numpy_are_written_as_numbers():

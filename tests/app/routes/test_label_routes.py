@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import shutil
 from dataclasses import fields, replace
 from pathlib import Path
@@ -53,6 +54,19 @@ def own(file: Path, tmp_path: Path):
 def page(own: Address):
     with page_of(own) as page:
         yield page
+
+
+def test_a_file_whose_name_is_not_text_opens_and_is_labelled(recordings: Path, tmp_path: Path):
+    file = Path(shutil.copy(recordings / "walls.npz", tmp_path / os.fsdecode(b"caf\xe9.npz")))
+    for revision, files in enumerate(((file,), ())):  # the second time it is a recent one
+        with serving(Settings(files=files, data_folder=tmp_path / "user")) as server, page_of(server) as page:
+            page.hello()
+            offered = page.welcome["recordings"]
+            (id,) = [each["id"] for each in offered if each["label"] == "caf\ufffd.npz"]
+            state = page.change(recording=id) if not files else page.change(frame=1)
+            assert state["label"] == "caf\ufffd.npz"
+            assert put(server, state, note="seen", revision=revision).status_code == 200
+    assert (tmp_path / os.fsdecode(b"caf\xe9.npz.lineseg.json")).exists()
 
 
 def put(server: Address, state: dict, **said):
