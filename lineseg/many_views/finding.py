@@ -14,24 +14,30 @@ from ..scan import Recording
 from ..truth import UNKNOWN
 from .cells import cells_of
 from .checks import check, trust
-from .growing import Walls, grown_walls
+from .growing import BEND, Walls, grown_walls
 from .labelling import nearest_walls
 from .merging import merged_walls, pieces_of, without_shadows
 from .openings import divided_at_openings
-from .profiles import is_even, is_straight, profiles_of, stretches_of
+from .profiles import STRETCH, Profiles, calmed, is_even, is_straight, profiles_of, stretches_of
 from .refining import refined
 from .returns import Returns, views_of
+from .steps import FINE, divided_at_steps
 
 # A wall and a place without one are known if so many views, or more, saw them.
 LEAST_VIEWS = 3
 # Side of the squares in which the views of a place are counted [m].
 PLACE = 0.20
-# Points lie within so many standard deviations of their wall; bounds of that distance [m].
-DEVIATIONS, NEAREST, FARTHEST = 3.0, 0.06, 0.10
+# Points lie within so many standard deviations of their wall; bounds of that distance [m]. It is unknown whether those
+# a little farther away belong to it.
+DEVIATIONS, NEAREST, FARTHEST, DOUBTFUL = 3.5, 0.02, 0.10, 1.25
+# A surface that steps less than this from the line of a wall may still be taken for it [m].
+STEPPED = 0.15
 # Where a wall bends, its surface is at most this far from its line [m].
 BENT = 0.12
 # A curve that is shorter is a pillar or the like [m].
 LONG = 1.0
+# Past the end of a wall, it is unknown for so long whether returns so near to its line belong to it [m].
+ONWARD, NEAR = 0.30, 0.02
 ROUNDS = 3
 # Of a longer recording, so many returns make the walls; then each return gets its wall.
 MOST_RETURNS = 1_500_000
@@ -96,11 +102,12 @@ def truth_by_many_views(recording: Recording, progress: Progress | None = None) 
         poses = refined(returns, given, poses, fit.walls, 0.20 / turn, max(fit.thickness, 0.01))
         fit = _fit(returns, scan, poses, views)
         say(turn + 2, ROUNDS + 2)
-    piece = labels_of(fit.placed, scan, poses, views, fit.walls)
-    wall_of = divided_at_openings(fit.walls, fit.wall_of, fit.placed, scan, poses)
+    pieces, wall_of = parted(fit, scan, poses, views)
+    piece, height = labels_of(fit.placed, scan, poses, views, pieces)
+    wall_of = divided_at_openings(pieces, wall_of, fit.placed, scan, poses, fit.thickness)
     wall = np.where(piece >= 0, wall_of[piece] if len(wall_of) else -1, piece).astype(np.int32)
-    ends = ends_of(fit.walls, wall_of, piece)
-    return _result(recording, returns, given, poses, ends, wall, fit.height, first.thickness)
+    ends = ends_of(pieces, wall_of, piece)
+    return _result(recording, returns, given, poses, ends, wall, height, first.thickness)
 
 
 class _Fit(NamedTuple):
@@ -134,33 +141,60 @@ def walls_of(
     return pieces_of(cells, *without_shadows(cells, walls, owner))
 
 
+def parted(
+    fit: _Fit, scan: NDArray[np.int32], poses: Floats, views: NDArray[np.int64]
+) -> tuple[Walls, NDArray[np.int64]]:
+    """The pieces of walls, divided where the surface steps, and the wall of each."""
+    fine = _profiles(fit.placed, scan, poses, views, fit.walls, FINE, STEPPED)
+    return divided_at_steps(fit.walls, fit.wall_of, fine)
+
+
+def _profiles(
+    placed: NDArray[np.float32], scan: NDArray[np.int32], poses: Floats, views: NDArray[np.int64], walls: Walls,
+    length: float, reach: float = BENT,
+) -> Profiles:  # fmt: skip
+    every = -(-len(placed) // MOST_RETURNS)
+    some, of = placed[::every], scan[::every]
+    found, height = nearest_walls(some, of, poses, walls, reach)
+    near = np.flatnonzero(found >= 0)
+    return profiles_of(some[near], found[near], height[near], views[of[near]], walls, length)
+
+
 def labels_of(
     placed: NDArray[np.float32], scan: NDArray[np.int32], poses: Floats, views: NDArray[np.int64], walls: Walls
-) -> NDArray[np.int32]:
-    """(n,) the wall of each return, −1 for none, UNKNOWN where fewer than LEAST_VIEWS views saw the place.
+) -> tuple[NDArray[np.int32], NDArray[np.float32]]:
+    """(n,) the wall of each return, −1 for none, UNKNOWN where fewer than LEAST_VIEWS views saw the place; and (n,) its
+    height over the wall [m].
 
-    Long curves are UNKNOWN too: whoever finds lines there is neither right nor wrong. Rough surfaces, such as a hedge,
-    are no walls.
+    Returns that lie a little farther from their wall than others do are UNKNOWN, and so are long curves: whoever finds
+    lines there is neither right nor wrong. Rough surfaces, such as a hedge, are no walls.
     """
     found, height = nearest_walls(placed, scan, poses, walls, BENT)
     wall, near = np.full(len(placed), -1, np.int32), np.flatnonzero(found >= 0)
+    firm = np.zeros(len(walls), np.bool_)
     if len(near):
-        spots, own, heights = placed[near], found[near], height[near]
-        profiles = profiles_of(spots, own, heights, views[scan[near]], walls)
-        straight, even = is_straight(spots, own, heights, walls), is_even(profiles)
-        limit = np.clip(4 * walls.rms, NEAREST, FARTHEST)
-        stretch = stretches_of(spots, own, walls, profiles.starts)
-        bent = np.abs(heights - profiles.mean[stretch]) < DEVIATIONS * profiles.scatter[stretch]
-        good = (np.abs(heights) < limit[own]) | bent
-        wall[near[good]] = own[good]
-        long = walls.high - walls.low > LONG
-        wall[near[good & ~(straight & even)[own]]] = -1
+        profiles = _profiles(placed, scan, poses, views, walls, STRETCH)
+        straight = is_straight(_profiles(placed, scan, poses, views, walls, FINE, BEND), walls)
+        firm, own = straight & is_even(profiles), found[near]
+        stretch = stretches_of(placed[near], own, walls, profiles.starts)
+        limit = np.clip(DEVIATIONS * calmed(profiles.scatter, profiles), NEAREST, FARTHEST)[stretch]
+        off = np.abs(height[near] - np.clip(calmed(profiles.height, profiles), -BEND, BEND)[stretch])
+        good, long = off < DOUBTFUL * limit, walls.high - walls.low > LONG
+        wall[near[off < limit]] = own[off < limit]
+        wall[near[good & (off >= limit)]] = UNKNOWN
+        wall[near[good & ~firm[own]]] = -1
         wall[near[(~straight & long)[own] & good]] = UNKNOWN
-        few = profiles.views[stretch] < LEAST_VIEWS
-        wall[near[few & good]] = UNKNOWN
+        wall[near[(profiles.views[stretch] < LEAST_VIEWS) & good]] = UNKNOWN
     elsewhere = wall == -1
+    wall[elsewhere & on_the_way(placed, scan, poses, walls.only(firm))] = UNKNOWN
     wall[elsewhere & (views_at(placed, views[scan]) < LEAST_VIEWS)] = UNKNOWN
-    return wall
+    return wall, height
+
+
+def on_the_way(placed: NDArray[np.float32], scan: NDArray[np.int32], poses: Floats, walls: Walls) -> NDArray[np.bool_]:
+    """(n,) whether each return lies where a wall would go on past its ends."""
+    longer = Walls(walls.normal, walls.offset, walls.low - ONWARD, walls.high + ONWARD, walls.rms)
+    return nearest_walls(placed, scan, poses, longer, NEAR)[0] >= 0
 
 
 def ends_of(pieces: Walls, wall_of: NDArray[np.int64], piece: NDArray[np.int32]) -> Floats:

@@ -10,8 +10,9 @@ from .growing import Walls
 
 # Of all beams, so many are looked at.
 MOST_RAYS = 400_000
-# A beam passes through a gap if it ends so far behind it [m], and so far from the ends of the gap.
-BEHIND, ASIDE = 0.04, 0.04
+# A beam passes through a gap if it ends so far behind it [m], or so many times the rms of the walls, and so far from
+# the ends of the gap [m].
+BEHIND, THICKNESSES, ASIDE = 0.04, 3.0, 0.04
 # So many of these beams make a gap an opening.
 LEAST_RAYS = 3
 
@@ -19,11 +20,13 @@ Floats = NDArray[np.float64]
 
 
 def divided_at_openings(
-    pieces: Walls, wall_of: NDArray[np.int64], placed: NDArray[np.float32], scan: NDArray[np.int32], poses: Floats
-) -> NDArray[np.int64]:
+    pieces: Walls, wall_of: NDArray[np.int64], placed: NDArray[np.float32], scan: NDArray[np.int32], poses: Floats,
+    thickness: float,
+) -> NDArray[np.int64]:  # fmt: skip
     """The wall of each piece, where pieces with an opening between them are different walls.
 
-    Pieces are in order along their walls. placed: (n, 2) all returns in the world; scan: (n,), poses: (m, 3).
+    Pieces are in order along their walls. placed: (n, 2) all returns in the world; scan: (n,), poses: (m, 3);
+    thickness: rms of the walls [m].
     """
     before = np.flatnonzero(np.diff(wall_of) == 0)
     gaps = np.column_stack(
@@ -32,7 +35,14 @@ def divided_at_openings(
     every = max(1, len(placed) // MOST_RAYS)
     count = np.zeros(len(gaps), np.int64)
     if len(gaps):
-        count_crossings(placed[::every], np.ascontiguousarray(scan[::every]), poses, gaps, BEHIND, count)
+        count_crossings(
+            placed[::every],
+            np.ascontiguousarray(scan[::every]),
+            poses,
+            gaps,
+            max(BEHIND, THICKNESSES * thickness),
+            count,
+        )
     divided = np.ones(len(wall_of), np.bool_)
     divided[before + 1] = count >= LEAST_RAYS
     return np.cumsum(divided) - 1

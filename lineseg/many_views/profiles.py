@@ -1,4 +1,4 @@
-"""How straight and how even the walls are: the height of the surface over its line, stretch by stretch."""
+"""The height of the surface over the line of its wall, stretch by stretch: how straight and how even the walls are."""
 
 from __future__ import annotations
 
@@ -15,18 +15,22 @@ STRETCH = 0.20
 CURVED, LEAST_SAGITTA = 0.025, 0.015
 # A surface that scatters by so many times what most do, and by more than this [m], is rough: a hedge, books, people.
 ROUGH, LEAST_SCATTER = 2.0, 0.025
+# Median absolute deviation of a normal distribution, in standard deviations.
+MAD = 0.6745
 
 Floats = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
 class Profiles:
-    """starts: (w + 1,) the first stretch of each wall; mean, scatter: (s,) height of the points [m], its standard
-    deviation, NaN where there are none; points, views: (s,) numbers.
+    """starts: (w + 1,) the first stretch of each wall; at: (s,) the middle of each stretch along its wall [m];
+    height: (s,) median height of its points, NaN without points; scatter: (s,) their robust standard deviation [m];
+    points, views: (s,) numbers.
     """
 
     starts: NDArray[np.int64]
-    mean: Floats
+    at: Floats
+    height: Floats
     scatter: Floats
     points: NDArray[np.int64]
     views: NDArray[np.int64]
@@ -36,15 +40,44 @@ class Profiles:
         """(s,) the wall of each stretch."""
         return np.repeat(np.arange(len(self.starts) - 1), np.diff(self.starts))
 
+    @property
+    def scatter_of_walls(self) -> Floats:
+        """(w,) mean standard deviation of the points of each wall [m]."""
+        known, walls = self.points > 0, len(self.starts) - 1
+        wall, points = self.wall[known], self.points[known]
+        return np.bincount(wall, self.scatter[known] * points, walls) / np.maximum(np.bincount(wall, points, walls), 1)
+
+
+def calmed(values: Floats, profiles: Profiles) -> Floats:
+    """(s,) the median of the value of each stretch and those of its two neighbours, or of the three at an end of its
+    wall, where returns of other walls lie. Stretches without points have that of the wall; NaN for none at all.
+    """
+    wall = profiles.wall
+    usual = medians(wall[profiles.points > 0], values[profiles.points > 0], len(profiles.starts) - 1)
+    filled = np.where(profiles.points > 0, values, usual[wall])
+    first, last = profiles.starts[wall], profiles.starts[wall + 1] - 1
+    place = np.clip(np.arange(len(values)), np.minimum(first + 1, last), np.maximum(last - 1, first))
+    sides = [filled[np.clip(place + step, first, last)] for step in (-1, 0, 1)]
+    return np.median(sides, axis=0)
+
+
+def starts_of(walls: Walls, length: float) -> NDArray[np.int64]:
+    """(w + 1,) the first stretch of each wall."""
+    count = np.maximum(np.ceil((walls.high - walls.low) / length), 1).astype(np.int64)
+    return np.concatenate(([0], np.cumsum(count)))
+
 
 def stretches_of(
-    placed: NDArray[np.floating], found: NDArray[np.int32], walls: Walls, starts: NDArray[np.int64]
+    placed: NDArray[np.floating],
+    found: NDArray[np.int32],
+    walls: Walls,
+    starts: NDArray[np.int64],
+    length: float = STRETCH,
 ) -> NDArray[np.int64]:
     """(n,) the stretch of each point that has a wall."""
-    along = walls.along[found]
-    at = (placed * along).sum(axis=1) - walls.low[found]
+    at = (placed * walls.along[found]).sum(axis=1) - walls.low[found]
     most = np.diff(starts)[found] - 1
-    return starts[found] + np.clip(np.floor(at / STRETCH).astype(np.int64), 0, most)
+    return starts[found] + np.clip(np.floor(at / length).astype(np.int64), 0, most)
 
 
 def profiles_of(
@@ -53,44 +86,68 @@ def profiles_of(
     height: NDArray[np.floating],
     view: NDArray[np.int64],
     walls: Walls,
+    length: float = STRETCH,
 ) -> Profiles:
     """The profile of each wall from its points (n, 2), their walls, heights [m] and views."""
-    starts = np.concatenate(
-        ([0], np.cumsum(np.maximum(np.ceil((walls.high - walls.low) / STRETCH), 1).astype(np.int64)))
-    )
-    stretch, total = stretches_of(placed, found, walls, starts), int(starts[-1])
-    points = np.bincount(stretch, minlength=total)
-    with np.errstate(invalid="ignore", divide="ignore"):
-        mean = np.bincount(stretch, height, total) / points
-        scatter = np.sqrt(np.maximum(np.bincount(stretch, height.astype(np.float64) ** 2, total) / points - mean**2, 0))
+    starts = starts_of(walls, length)
+    stretch, total = stretches_of(placed, found, walls, starts, length), int(starts[-1])
+    wall = np.repeat(np.arange(len(walls)), np.diff(starts))
+    at = walls.low[wall] + (np.arange(total) - starts[wall] + 0.5) * length
+    middle = medians(stretch, height, total)
+    scatter = medians(stretch, np.abs(height - middle[stretch]), total) / MAD
     kinds = int(view.max(initial=0)) + 1
     pairs = np.unique(stretch * kinds + view)
-    return Profiles(starts, mean, scatter, points, np.bincount(pairs // kinds, minlength=total))
+    points, views = np.bincount(stretch, minlength=total), np.bincount(pairs // kinds, minlength=total)
+    return Profiles(starts, at, middle, scatter, points, views)
+
+
+def medians(group: NDArray[np.int64], values: NDArray[np.floating], groups: int) -> Floats:
+    """(groups,) the median of the values (n,) of each group, NaN for none; of an even number, the upper one."""
+    order = np.lexsort((values, group))
+    counts = np.bincount(group, minlength=groups)
+    middle = np.cumsum(counts) - counts + counts // 2
+    found = np.full(groups, np.nan)
+    found[counts > 0] = values[order[middle[counts > 0]]]
+    return found
 
 
 def is_even(profiles: Profiles) -> NDArray[np.bool_]:
     """(w,) whether the surface of each wall scatters no more than most do."""
     known = profiles.points > 0
-    wall, walls = profiles.wall[known], len(profiles.starts) - 1
-    points = profiles.points[known]
-    scatter = np.bincount(wall, profiles.scatter[known] * points, walls) / np.maximum(
-        np.bincount(wall, points, walls), 1
-    )
-    usual = float(np.median(np.repeat(scatter[wall], points))) if len(wall) else 0.0
+    scatter = profiles.scatter_of_walls
+    every = np.repeat(scatter[profiles.wall[known]], profiles.points[known])
+    usual = float(np.median(every)) if len(every) else 0.0
     return scatter < max(ROUGH * usual, LEAST_SCATTER)
 
 
-def is_straight(
-    placed: NDArray[np.floating], found: NDArray[np.int32], height: NDArray[np.floating], walls: Walls
-) -> NDArray[np.bool_]:
-    """(w,) whether each wall is straight: a parabola through its points (n, 2) hardly stands out in its middle."""
-    count = len(walls)
+def is_straight(fine: Profiles, walls: Walls) -> NDArray[np.bool_]:
+    """(w,) whether each wall is straight: a parabola through its profile hardly stands out in its middle.
+
+    The first and the last stretch are left out, because returns of other walls may lie in them.
+    """
+    known = fine.points > 0
+    wall, height, points = fine.wall[known], fine.height[known], np.minimum(fine.points[known], 20) ** 0.5
     middle, half = (walls.low + walls.high) / 2, (walls.high - walls.low) / 2
-    square = (((placed * walls.along[found]).sum(axis=1) - middle[found]) / half[found]) ** 2
-    # Near the ends, and far from the line, lie points of other walls.
-    inner = (np.abs(height) < np.maximum(2.5 * walls.rms, 0.02)[found]) & (square < 0.8)
-    found, height, square = found[inner], height[inner], square[inner]
-    points = np.maximum(np.bincount(found, minlength=count), 1)
-    square -= (np.bincount(found, square, count) / points)[found]
-    sagitta = np.bincount(found, square * height, count) / np.maximum(np.bincount(found, square**2, count), 1e-9)
+    at = (fine.at[known] - middle[wall]) / half[wall]
+    sagitta = np.zeros(len(walls))
+    for one, (first, last) in enumerate(zip(*_ranges(wall, len(walls)), strict=True)):
+        inner = slice(first + 1, last - 1)
+        if last - first >= 6:
+            sagitta[one] = _bulge(at[inner], height[inner], points[inner])
     return np.abs(sagitta) < np.maximum(CURVED * 2 * half, LEAST_SAGITTA)
+
+
+def _bulge(at: Floats, height: Floats, weights: Floats) -> float:
+    """The height of a parabola between −1 and 1 over its chord [m]; what lies far from a first one is left out."""
+    for _ in range(2):
+        off = np.abs(height - np.polyval(np.polyfit(at, height, 2, w=weights), at))
+        kept = off <= max(3 * float(np.median(off)) / MAD, 0.005)
+        if kept.sum() < 4:
+            break
+        at, height, weights = at[kept], height[kept], weights[kept]
+    return float(np.polyfit(at, height, 2, w=weights)[0])
+
+
+def _ranges(wall: NDArray[np.int64], walls: int) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """The half-open range of each wall in the rising `wall` (s,)."""
+    return np.searchsorted(wall, np.arange(walls)), np.searchsorted(wall, np.arange(walls), side="right")

@@ -1,0 +1,111 @@
+"""Where a wall steps: a door in its recess, a window or a cabinet is another wall than the one it stands in."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
+from numpy.typing import NDArray
+
+from .growing import Walls
+from .profiles import MAD, Profiles
+
+# Length of the stretches in which steps are looked for [m], and how many of them are compared on each side.
+FINE, BESIDE = 0.05, 4
+# A step is higher than this [m], and so many times as high as the surface is uneven on so many stretches beside it.
+LEAST_STEP, TIMES_USUAL, ALONG = 0.015, 3.0, 20
+# A step is so many times as high as the walls of the recording are uneven: where boards bend, none is one.
+TIMES_EVEN = 12.0
+# Between two steps are more stretches than this.
+APART = 5
+# Shorter parts are left out [m].
+LEAST_PART = 0.20
+
+Floats = NDArray[np.float64]
+
+
+def divided_at_steps(pieces: Walls, wall_of: NDArray[np.int64], fine: Profiles) -> tuple[Walls, NDArray[np.int64]]:
+    """The parts of the pieces between the steps, each on its own line, and the wall of each part.
+
+    Pieces are in order along their walls; fine: their profiles, in stretches of length FINE.
+    """
+    known = np.flatnonzero(fine.points > 0)
+    piece = fine.wall[known]
+    steps = steps_in(fine.height[known], wall_of[piece])
+    begins = steps | (np.diff(piece, prepend=-1) != 0)
+    first = np.flatnonzero(begins)
+    last = np.append(first[1:], len(known)) - 1 if len(first) else first
+    wall = np.cumsum(steps | (np.diff(wall_of[piece], prepend=-1) != 0)) - 1
+    ranges = zip(first.tolist(), (last + 1).tolist(), strict=True)
+    parts = [_line_of(pieces.only(piece[a : a + 1]), fine, known[a:b]) for a, b in ranges]
+    rows = np.array(parts).reshape(-1, 6)
+    long = rows[:, 4] - rows[:, 3] >= LEAST_PART
+    return Walls.of(rows[long]), wall[first][long]
+
+
+def steps_in(height: Floats, wall: NDArray[np.int64]) -> NDArray[np.bool_]:
+    """(s,) whether the surface steps before each stretch, given the heights (s,) and the walls (s,) of all in order."""
+    jump = jumps_of(height, wall)
+    found = np.zeros(len(height), np.bool_)
+    least = max(LEAST_STEP, TIMES_EVEN * evenness(height, wall))
+    for one in np.unique(wall[jump > least]).tolist():
+        first, stop = np.searchsorted(wall, (one, one + 1))
+        places = first + np.flatnonzero(jump[first:stop] > least)
+        for place in places[np.argsort(-jump[places], kind="stable")].tolist():
+            if not found[max(place - APART, 0) : place + APART + 1].any():
+                found[place] = True
+        edges = [first, *np.flatnonzero(found[:stop])[np.flatnonzero(found[:stop]) >= first].tolist(), stop]
+        for before, place, after in zip(edges, edges[1:-1], edges[2:], strict=False):
+            sides = height[max(before, place - ALONG) : place], height[place : min(after, place + ALONG)]
+            found[place] = jump[place] > TIMES_USUAL * max(_unevenness(side) for side in sides)
+    return found
+
+
+def evenness(height: Floats, wall: NDArray[np.int64]) -> float:
+    """How far the surface lies from straight [m] where it is straightest: the lower quartile of all places."""
+    firsts = np.searchsorted(wall, np.unique(wall)).tolist()
+    places = [k for a, b in zip(firsts, [*firsts[1:], len(wall)], strict=True) for k in range(a, b - ALONG, ALONG // 2)]
+    return float(np.percentile([_unevenness(height[k : k + ALONG]) for k in places], 25)) if places else 0.0
+
+
+def _unevenness(height: Floats) -> float:
+    """Robust standard deviation of heights (s,) from a line [m]."""
+    number = np.arange(len(height))
+    off = height - np.polyval(np.polyfit(number, height, 1), number)
+    return float(np.median(np.abs(off - np.median(off)))) / MAD
+
+
+def jumps_of(height: Floats, wall: NDArray[np.int64]) -> Floats:
+    """(s,) how far the surface jumps before each stretch [m], NaN where it has too few stretches on either side.
+
+    Where it bends, the medians of both sides differ, but lines through them meet: the smaller difference counts.
+    """
+    jump = np.full(len(height), np.nan)
+    if len(height) < 2 * BESIDE:
+        return jump
+    windows = sliding_window_view(height, BESIDE)
+    number = np.arange(BESIDE) - (BESIDE - 1) / 2
+    rise = number * (BESIDE / 2) / (number @ number)
+    middle, ahead, back = np.median(windows, axis=1), windows @ (1 / BESIDE + rise), windows @ (1 / BESIDE - rise)
+    level, line = middle[BESIDE:] - middle[:-BESIDE], back[BESIDE:] - ahead[:-BESIDE]
+    same = wall[2 * BESIDE - 1 :] == wall[: len(wall) - 2 * BESIDE + 1]
+    least = np.where(level * line > 0, np.minimum(np.abs(level), np.abs(line)), 0.0)
+    jump[BESIDE : len(height) - BESIDE + 1] = np.where(same, least, np.nan)
+    return jump
+
+
+def _line_of(piece: Walls, fine: Profiles, here: NDArray[np.intp]) -> Floats:
+    """(6,) normal, offset, low, high, rms of the line through the profile of a part."""
+    at, height = fine.at[here], fine.height[here]
+    weights = np.minimum(fine.points[here], 20).astype(np.float64)
+    middle, mean = np.average(at, weights=weights), np.average(height, weights=weights)
+    spread = np.average((at - middle) ** 2, weights=weights)
+    slope = np.average((at - middle) * (height - mean), weights=weights) / max(spread, 1e-9) if len(here) > 3 else 0.0
+    (nx, ny), offset = piece.normal[0], piece.offset[0]
+    turned = np.hypot(1.0, slope)
+    normal = np.array((nx + slope * ny, ny - slope * nx)) / turned
+    foot = np.array((nx, ny)) * (offset + mean) + np.array((-ny, nx)) * middle
+    along = np.array((-normal[1], normal[0]))
+    half = FINE / 2
+    ends = [foot @ along + (end - middle) * turned for end in (at[0] - half, min(at[-1] + half, piece.high[0]))]
+    rms = np.sqrt(np.average((height - mean - slope * (at - middle)) ** 2, weights=weights))
+    return np.array((*normal, foot @ normal, *ends, rms))
