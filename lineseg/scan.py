@@ -146,7 +146,8 @@ class Recording:
     frame_ids: the name of the laser's frame, scan by scan.
     bearings: (total,) [rad], only for scans whose beams are not evenly spaced.
     wall: (total,) int, only if the truth is known; walls: (walls, 4) of x1, y1, x2, y2 [m] in the world's frame, for
-    simulated recordings. track: the poses of the laser, see `poses` and `pose_source`; None if they are not known.
+    simulated recordings, or by many views. wall_source: what is said of walls that many views agree on, "" for others.
+    track: the poses of the laser, see `poses` and `pose_source`; None if they are not known.
     time_increment: (frames,) time between beams [s], None if not known.
     topic, topics: the stream these scans come from, and all that the file offers.
     pack: origin of a failure pack; None for other recordings.
@@ -168,6 +169,7 @@ class Recording:
     wall: NDArray[np.integer] | None = None
     track: Track | None = None
     walls: Floats | None = None
+    wall_source: str = ""
     time_increment: Floats | None = None
     topic: str = ""
     topics: tuple[Topic, ...] = field(default=())

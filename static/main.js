@@ -59,6 +59,7 @@ const inspect = createInspect(page, words.inspect, {
   pointing: scene.pointing,
   timeline: () => timeline,
   onTags: (tags) => labels.suggest(tags),
+  onMend: (values) => reread.mend(values),
 });
 const draw = createDraw(place("stage"), stage, words.draw, {
   onRecording: (recording) => change({ recording, step: page.view.step }),

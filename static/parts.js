@@ -24,6 +24,7 @@
  * @property {(survey: import("./wire.js").Survey) => void} [setSurvey]
  * @property {(trace: import("./learn/trace.js").Columns) => void} [setTrace]
  * @property {(loading: import("./wire.js").Loading) => void} [setLoading] a recording is being opened
+ * @property {(refused: import("./wire.js").Refused, why: string) => void} [setRefused] a recording could not be read as wanted
  * @property {(status: import("./wire.js").LiveStatus) => void} [setLive]
  * @property {(connection: import("./view/link.js").Connection, reason: string) => void} [setConnection]
  */

@@ -41,6 +41,7 @@ export function createReceiver(page, { address, notices, work, following, panel,
       else page.adoptDrawn();
     }
     if (where === "params") return panel.refuse(message);
+    if (refused) page.tell("setRefused", refused, message);
     notices.setLoaded();
     notices.setEmpty();
     const way = { note: text.stage.linkKept(linked.name), label: text.top.openFile, run: opening.choose };

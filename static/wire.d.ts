@@ -639,12 +639,13 @@ export interface World {
  * many there are, of which the first has the number `first`, the next `first + every`. stamp: of the scan [s];
  * since: time since the first scan of the file [s], null if the stamps cannot be believed. covered: number of
  * `valid` beams in segments. steps: number of decisions. difference: fates of the lines of A. truth: whether the
- * recording has its true walls. agreement: in the mode Inspect if the truth is known; labels: in the mode Inspect
- * if the recording can have labels. framing: of the decision on the screen, ahead: of the next one without its
- * outcome; null where the whole plan is shown. nodes: what the scene shows. references: available references;
- * judgedBy: the one in use, "" without truth. mayHavePoses: whether poses were or can be looked for; poses: what is
- * said of them, "" if nobody asked. world: null if the scene shows the frame of the laser. extent: box around the
- * points of the frame, bounds: of what the scene shows [m]. extractionUs: time of the extraction [µs].
+ * recording has its true walls; byViews: what is said of walls that many views agree on, "" for others. agreement:
+ * in the mode Inspect if the truth is known; labels: in the mode Inspect if the recording can have labels. framing:
+ * of the decision on the screen, ahead: of the next one without its outcome; null where the whole plan is shown.
+ * nodes: what the scene shows. references: available references; judgedBy: the one in use, "" without truth.
+ * mayHavePoses: whether poses were or can be looked for; poses: what is said of them, "" if nobody asked. world:
+ * null if the scene shows the frame of the laser. extent: box around the points of the frame, bounds: of what the
+ * scene shows [m]. extractionUs: time of the extraction [µs].
  */
 export interface Scene {
   view: View;
@@ -694,6 +695,7 @@ export interface Scene {
   explanation: Explanation | null;
   histograms: Record<string, Histogram>;
   truth: boolean;
+  byViews: string;
   agreement: Agreement | null;
   labels: Labels | null;
   reference: Reference;
@@ -762,6 +764,7 @@ export interface DrawnState {
   explanation: Explanation | null;
   histograms: Record<string, Histogram>;
   truth: boolean;
+  byViews: string;
   agreement: Agreement | null;
   labels: Labels | null;
   reference: Reference;
@@ -836,12 +839,17 @@ export interface WhatIfs {
   changes: WhatIf[];
 }
 
-/** The segments of the frame compared with its true lines; null if these are not known. */
+/**
+ * The segments of the frame compared with its true lines; null if these are not known.
+ *
+ * byViews: whether many views agree on these.
+ */
 export interface Judgement {
   frame: number;
   method: string;
   params: Record<string, number>;
   agreement: Agreement | null;
+  byViews: boolean;
 }
 
 /** Values of thresholds with which two beams would be parted or joined; first, last: of their line then, or −1. */

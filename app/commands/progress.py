@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TypeVar
@@ -46,3 +46,9 @@ def open_with_progress(file: Path, reading: Reading, tell: bool = True) -> Recor
         if text and tell:
             print(f"lineseg: {recording.name}: {text}", file=sys.stderr)
     return recording
+
+
+def tell_by_views(said: Mapping[str, str]) -> None:
+    """Print on stderr what is said of truths that many views agree on, by the files that they belong to."""
+    for file, text in said.items():
+        print(f"lineseg: {Path(file).name}: truth by many views: {text}", file=sys.stderr)

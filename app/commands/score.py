@@ -59,14 +59,17 @@ def score(
         recording = open_with_progress(file, how)
         frames = _agreements(recording, chosen, name, truth)
         total = Agreement.of_all(frames.values())
+        by_views = recording.wall_source if truth is None else ""
         if csv:
             _write_csv(recording.name if several else None, frames, header=not totals)
         elif json:
             report = {"file": recording.name, "reading": _used(recording), "method": name}
+            report |= {"by_many_views": by_views} if by_views else {}
             report |= {"params": chosen.numbers(), **_numbers(total)}
             print(dumps(report | {"frames": [{"frame": frame, **_numbers(each)} for frame, each in frames.items()]}))
         else:
-            _print_table(f"{recording.name}, {len(frames)} frames with true lines, {name}", total)
+            what = f"{len(frames)} frames with true lines{' by many views' if by_views else ''}"
+            _print_table(f"{recording.name}, {what}, {name}", total)
         totals.append(total)
 
     try:
@@ -84,7 +87,7 @@ def _agreements(recording: Recording, params: Thresholds, method: str, truth: Pa
     if truth is None and recording.wall is None:
         raise ValueError(
             f"{recording.name} has no truth; give a file of labels with --truth, or an NPZ with `wall`; "
-            "for scans with poses, `lineseg truth` makes one."
+            "for scans with poses, --walls by-views makes one."
         )
     found = counted(agreements(recording, params, method, *known), len(recording), "score")
     return {recording.number(frame): each for frame, each in enumerate(found) if each is not None}

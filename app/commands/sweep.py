@@ -13,7 +13,7 @@ from lineseg.params import Params
 from lineseg.writers import read_params
 
 from .flag_types import Files, Unset
-from .progress import progress_bar
+from .progress import progress_bar, tell_by_views
 from .reading import ReadingFlags, files_of, reading_of
 
 
@@ -78,6 +78,7 @@ def sweep(
         with pool(scheduler) as workers, progress_bar("sweep", "frame") as advance:
             result = measure_all(files_of(files), grid, workers, reading_of(reading), journal, advance)
         write_table(result, out)
+        tell_by_views({source.file: source.by_views for source in result.sources if source.by_views})
         complete = True
     finally:
         journal.close(remove=complete)

@@ -12,7 +12,7 @@ from lineseg.params import Params
 from lineseg.writers import params_text, read_params
 
 from .flag_types import Files, Unset
-from .progress import progress_bar
+from .progress import progress_bar, tell_by_views
 from .reading import ReadingFlags, files_of, reading_of
 
 
@@ -74,6 +74,8 @@ def tune(
         aim = Objective(kind, recall, completeness)
         tuning = Tuning(blocks, aim, study, thresholds, base)
         print(f"{aim.text}\n{aim.caution}", file=sys.stderr)
+        if blocks.truth:
+            tell_by_views(blocks.by_views)
         _search(tuning, trials)
         verdict = tuning.verdict()
     print(verdict.text, file=sys.stderr)

@@ -100,6 +100,7 @@ def state_of(
         "explanation": _explanation(found, view.selected) if view.selected is not None else None,
         "histograms": {name: _histogram(each) for name, each in found.histograms.items()},
         "truth": recording.walls is not None and recording.poses is not None,
+        "byViews": recording.wall_source,
         "agreement": agreement_told(judged.matching.agreement) if judged is not None else None,
         "labels": _labels(reference.known, view.frame) if reference.known is not None else None,
         "reference": view.reference,

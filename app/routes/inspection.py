@@ -119,6 +119,7 @@ def add_inspection(app: FastAPI, sessions: Sessions, files: LabelFiles) -> None:
             "method": view.method,
             "params": view.params.numbers(),
             "agreement": None if found is None else agreement_told(found.matching.agreement),
+            "byViews": reference.chosen == "wall" and bool(shown.recording.wall_source),
         }
 
     @app.get("/api/truth")

@@ -42,6 +42,8 @@ Watch = Callable[[View, Recording, str, Findings], None]
 log = logging.getLogger(__name__)
 # Shortest time between redraws of a live recording [s]; no scan is lost.
 FOLLOW_EVERY = 0.04
+# What takes long where the truth is to be made from poses.
+WALLS = "Looking for the walls that many scans agree on"
 # Longest time that closing waits for a picture [s].
 CLOSING_SECONDS = 10.0
 # Threads of tabs draw one after the other. Python runs one at a time anyway: more would only make each other wait, and
@@ -495,7 +497,7 @@ class Session:
 
         def tell(done: int, total: int) -> None:
             source = self._library.live.get(view.recording)
-            note = source.note if source is not None else ""
+            note = source.note if source is not None else WALLS if view.reading.walls else ""
             self._tell(Loading(recording=view.recording, label=label, done=done, total=total, note=note))
 
         def wanted() -> bool:

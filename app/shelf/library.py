@@ -152,7 +152,8 @@ class Library:
         return self._readings.get(id, Reading())
 
     def remember(self, id: str, reading: Reading) -> None:
-        """Note how a recording is read, for the next time; that of a file lasts."""
+        """Note how a recording is read, for the next time; that of a file lasts. A truth from poses is not kept."""
+        reading = reading.but(walls=None)
         if self.reading(id) == reading or id.startswith(("live:", DRAWN)):
             return
         self._readings[id] = reading

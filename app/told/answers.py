@@ -37,12 +37,16 @@ class WhatIfs(TypedDict):
 
 
 class Judgement(TypedDict):
-    """The segments of the frame compared with its true lines; null if these are not known."""
+    """The segments of the frame compared with its true lines; null if these are not known.
+
+    byViews: whether many views agree on these.
+    """
 
     frame: int
     method: str
     params: Params
     agreement: Agreement | None
+    byViews: bool
 
 
 class Otherwise(TypedDict):

@@ -245,7 +245,8 @@ class Scene(TypedDict):
     null if the recording is not live. frame: its number in the file or source, counted from 0; frames: how many there
     are, of which the first has the number `first`, the next `first + every`. stamp: of the scan [s]; since: time since
     the first scan of the file [s], null if the stamps cannot be believed. covered: number of `valid` beams in segments.
-    steps: number of decisions. difference: fates of the lines of A. truth: whether the recording has its true walls.
+    steps: number of decisions. difference: fates of the lines of A. truth: whether the recording has its true walls;
+    byViews: what is said of walls that many views agree on, "" for others.
     agreement: in the mode Inspect if the truth is known; labels: in the mode Inspect if the recording can have labels.
     framing: of the decision on the screen, ahead: of the next one without its outcome; null where the whole plan is
     shown. nodes: what the scene shows. references: available references; judgedBy: the one in use, "" without truth.
@@ -302,6 +303,7 @@ class Scene(TypedDict):
     explanation: Explanation | None
     histograms: dict[str, Histogram]
     truth: bool
+    byViews: str
     agreement: Agreement | None
     labels: Labels | None
     reference: Annotated[str, As("Reference")]

@@ -102,7 +102,7 @@ class Comparison:
         self.recording = recording
         self.truth = recording.wall is not None
         self.budget = budget if self.truth else 0
-        self.about = laser_of(recording)
+        self.about = laser_of(recording) + ("; truth by many views" if recording.wall_source else "")
         self.rows: list[Row] = []
 
     @property

@@ -95,7 +95,7 @@ def _read(source: Source, stack: ExitStack) -> Recording:
     recording = _whole(source, reader)
     if not recording.ranges.size:
         raise ValueError(f"{source.name} has no scan with a beam; open another file or topic.")
-    return applied(recording, source.reading, source.notes, source.named or source.path)
+    return applied(recording, source.reading, source.notes, source.named or source.path, source.progress)
 
 
 def _whole(source: Source, reader: type[Reader]) -> Recording:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from copy import copy
 from dataclasses import replace
 from functools import partial
@@ -20,14 +21,17 @@ from .posing import with_poses
 from .reading import METRES, RADIANS, Reading, Span, frames_of, span_of, values_of
 from .saying import line_of
 from .sweeping import without_motion
+from .walling import with_walls
 
 SAME = 5e-4
 
 
-def applied(recording: Recording, reading: Reading, notes: Notes, file: Path) -> Recording:
+def applied(
+    recording: Recording, reading: Reading, notes: Notes, file: Path, progress: Callable[[int, int], None]
+) -> Recording:
     """The recording as `reading` wants it, with its account. Raises ValueError if nothing would be left.
 
-    file: as the user named it.
+    file: as the user named it. progress: of what takes long.
     """
     recording = one_laser(recording, reading, notes)
     recording = _with_stamps(recording, reading, notes)
@@ -38,6 +42,8 @@ def applied(recording: Recording, reading: Reading, notes: Notes, file: Path) ->
     if reading.motion == "removed":
         shown = without_motion(shown, notes)
     shown = _chosen_beams(shown, used)
+    if reading.walls is not None:
+        shown = with_walls(shown, notes, progress)
     account = Account(
         given=reading,
         used=used,

@@ -25,6 +25,7 @@ from .source import Reader, Source
 MOST_BYTES = 8 << 30
 SHAPES = "ranges (frames, beams) or (beams,), angle_min and angle_increment scalars or (frames,)"
 
+LONGEST_SOURCE = 2000
 # Fields of view [rad] that a laser has, and that none has.
 NARROW_VIEW, LEAST_VIEW, MOST_VIEW = np.deg2rad((10.0, 60.0, 365.0))
 
@@ -33,7 +34,7 @@ class Npz(Reader):
     """ranges (F, N) or (N,) [m], angle_min, angle_increment [rad] scalars or (F,); optional range_min, range_max [m],
     stamps (F,) [s], frame_id, wall (F, N) int (−1 none, −2 unknown), walls (W, 4), time_increment [s] scalar or (F,).
     poses (F, 3) of x, y [m] and heading [rad] of the laser in the world, NaN where unknown; upside_down, if it is
-    mounted so.
+    mounted so. wall_source: what is said of walls that many views agree on.
 
     For scans of different length: beams (F,) int, the number of beams in each row. For unevenly spaced beams: bearings
     (F, N) [rad] instead of angle_min and angle_increment.
@@ -108,6 +109,8 @@ def save_npz(recording: Recording, target: str | Path | BinaryIO) -> None:
         arrays["bearings"] = rows(recording.bearings, np.nan)
     if recording.wall is not None:
         arrays["wall"] = rows(recording.wall, -1)
+    if recording.wall_source:
+        arrays["wall_source"] = np.array(recording.wall_source)
     tables = ("poses", "walls", "time_increment")
     arrays |= {name: array for name in tables if (array := getattr(recording, name)) is not None}
     if "poses" in arrays and recording.pose_source.upside_down:
@@ -200,6 +203,7 @@ def _recording(source: Source, arrays: dict[str, NDArray]) -> Recording:
         wall=_rows(arrays, "wall", ranges.shape, inside, np.int64),
         track=_track(arrays, frames),
         walls=_table(arrays, "walls", 4, None),
+        wall_source=_wall_source(arrays),
         time_increment=_per_frame(arrays, "time_increment", frames, 0.0) if "time_increment" in arrays else None,
         topic=topic.name,
         topics=(topic,),
@@ -215,6 +219,11 @@ def _track(arrays: dict[str, NDArray], frames: int) -> Track | None:
     missing = "the others are NaN in the file" if np.isnan(poses).any() else ""
     upside_down = bool(np.any(arrays.get("upside_down", False)))
     return Track.of(poses, PoseSource("the array poses", upside_down=upside_down, missing=missing))
+
+
+def _wall_source(arrays: dict[str, NDArray]) -> str:
+    text = arrays.get("wall_source", np.array(""))
+    return str(text)[:LONGEST_SOURCE] if text.shape == () and text.dtype.kind == "U" else ""
 
 
 def _frame_ids(arrays: dict[str, NDArray], frames: int) -> tuple[str, ...]:

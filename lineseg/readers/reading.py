@@ -13,6 +13,7 @@ Unit = Literal["m", "cm", "mm", "0.1mm", "1/4mm", "um", "in", "ft"]
 AngleUnit = Literal["rad", "deg", "gon", "mrad", "0.01deg", "1/64deg"]
 Direction = Literal["counter-clockwise", "clockwise"]
 Motion = Literal["kept", "removed"]
+Walls = Literal["by-views"]
 Stamps = Literal["message", "unwrapped", "recorded", "none"]
 METRES: dict[str, float] = {
     "m": 1.0, "cm": 0.01, "mm": 0.001, "0.1mm": 1e-4, "1/4mm": 0.25e-3, "um": 1e-6, "in": 0.0254, "ft": 0.3048,
@@ -153,6 +154,14 @@ class Reading:
         ReadingField(
             "motion in a sweep",
             "motion of the laser during a sweep: kept in the scan, or removed by its poses (default: kept)",
+            "scans",
+        ),
+    ] = None
+    walls: Annotated[
+        Walls | None,
+        ReadingField(
+            "truth from poses",
+            "where the file has no truth, take the walls that many scans with poses agree on (default: no truth)",
             "scans",
         ),
     ] = None

@@ -27,7 +27,10 @@ _reading = threading.Lock()
 
 @dataclass(frozen=True)
 class Source:
-    """A file as it is read, at one moment; beams, frames: its size."""
+    """A file as it is read, at one moment; beams, frames: its size.
+
+    truth: whether it has one; by_views: what is said of one that many views agree on, "" for others.
+    """
 
     file: str
     reading: Reading
@@ -36,6 +39,7 @@ class Source:
     frames: int
     beams: int
     truth: bool
+    by_views: str = ""
 
     def chunks(self) -> list[Chunk]:
         """All frames, in chunks of about CHUNK_BEAMS beams."""
@@ -68,9 +72,9 @@ def describe(place: tuple[str, Reading]) -> Source:
     file, reading = place
     status = Path(file).stat()
     recording = _opened(file, reading, status.st_mtime_ns, status.st_size)
-    beams = int(recording.offsets[-1])
-    truth = recording.wall is not None
-    return Source(file, reading, status.st_mtime_ns, status.st_size, len(recording), beams, truth)
+    size = len(recording), int(recording.offsets[-1])
+    truth = recording.wall is not None, recording.wall_source
+    return Source(file, reading, status.st_mtime_ns, status.st_size, *size, *truth)
 
 
 def measure_task(task: Task) -> NDArray[np.float64]:

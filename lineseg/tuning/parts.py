@@ -89,7 +89,8 @@ class FileBlocks:
     """Blocks of files, opened by the workers; split: whether every other block or every other file is held back.
 
     blind: compare with the lines of `judges`, found for each file, even if the truth is known; None: only if a file has
-    no truth. base: thresholds with their P_min and L_min.
+    no truth. base: thresholds with their P_min and L_min. by_views: what is said of the truth of files, by their names,
+    where many views agree on it.
     """
 
     def __init__(
@@ -123,6 +124,7 @@ class FileBlocks:
         self.name = ", ".join(Path(source.file).name for source in sources)
         blind = not known if blind is None else blind
         self.truth = known and not blind
+        self.by_views = {Path(source.file).name: source.by_views for source in sources if source.by_views}
         tasks = [(source, base) for source in sources] if blind else []
         panels = dict(workers.results(_panel, tasks))
         self._workers, self._panels = workers, [panels.get(number, ()) for number in owner]

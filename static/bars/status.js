@@ -92,7 +92,7 @@ function createTruthFigures(text, page) {
       element.classList.toggle("stale", answer === null);
       if (!answer) return;
       element.hidden = answer.agreement === null;
-      if (answer.agreement) setText(words, text.figures(answer.agreement));
+      if (answer.agreement) setText(words, text.figures(answer.agreement, answer.byViews));
     },
   });
   return {

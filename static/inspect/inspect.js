@@ -13,10 +13,11 @@ import { createWords } from "./words.js";
  * @param {import("../page.js").Page} page
  * @param {typeof import("../text/inspect.js").inspectText} text
  * @param {{pointing: import("../widgets/words.js").Pointing & {show: (finding: import("../wire.js").Finding | null) => void},
- *          timeline: () => import("../bars/timeline.js").Timeline, onTags: (tags: string[]) => void}} handlers
- *   onTags: all existing tags
+ *          timeline: () => import("../bars/timeline.js").Timeline, onTags: (tags: string[]) => void,
+ *          onMend: (values: import("../open/reread_fields.js").Values) => void}} handlers
+ *   onTags: all existing tags; onMend: reads the recording in another way
  */
-export function createInspect(page, text, { pointing, timeline, onTags }) {
+export function createInspect(page, text, { pointing, timeline, onTags, onMend }) {
   const inspecting = () => page.view.mode === "inspect";
   const weights = createWeights(text.weights, (weights) => page.change({ weights }));
   const words = createWords({
@@ -48,6 +49,7 @@ export function createInspect(page, text, { pointing, timeline, onTags }) {
     session: page.sessionId,
     onShow: (verdicts) => page.change({ layers: { verdicts } }),
     onReference: (reference) => page.change({ reference }),
+    onWalls: (made) => readWalls(page, onMend, made),
   });
 
   /** Tags, note and remarks of a frame. @param {number} frame */
@@ -99,4 +101,10 @@ export function createInspect(page, text, { pointing, timeline, onTags }) {
 /** The current result, in the form in which it would be pinned as A. @param {import("../page.js").Page} page */
 function presentOf({ view: { method, params } }) {
   return { method, params };
+}
+
+/** Reads the recording with the walls that many scans agree on, and draws them, or without. @param {import("../page.js").Page} page @param {(values: import("../open/reread_fields.js").Values) => void} onMend @param {boolean} made */
+function readWalls(page, onMend, made) {
+  onMend({ walls: made ? "by-views" : null });
+  if (made) page.change({ layers: { truth: true } });
 }

@@ -3,11 +3,13 @@
 import { fetchText } from "../fetch.js";
 import { keyOf } from "../view/key.js";
 import { h, setText } from "../widgets/dom.js";
+import { createFromPoses } from "./from_poses.js";
 import { TruthTable } from "./truth_table.js";
 
 /** @typedef {import("../wire.js").State} State */
 /** @typedef {typeof import("../text/inspect.js").inspectText.truth} Text */
-/** @typedef {{session: () => string, onShow: (shown: boolean) => void, onReference: (reference: "labels" | "wall") => void}} Handlers */
+/** @typedef {{session: () => string, onShow: (shown: boolean) => void, onReference: (reference: "labels" | "wall") => void,
+ *            onWalls: (made: boolean) => void}} Handlers  onWalls: makes the truth from poses, or forgets it */
 
 const REST_MS = 300;
 const PARTS = /** @type {const} */ (["recording", "method", "params", "judgedBy", "labelled"]);
@@ -35,9 +37,10 @@ class Truth {
   #explained = h("p", { class: "hint" });
   #known;
   #unknown;
+  #fromPoses;
 
   /** @param {Text} text @param {Handlers} handlers */
-  constructor(text, { session, onShow, onReference }) {
+  constructor(text, { session, onShow, onReference, onWalls }) {
     this.#text = text;
     this.#session = session;
     const show = h("input", { type: "checkbox", onchange: () => onShow(show.checked) });
@@ -67,7 +70,9 @@ class Truth {
       this.#explained,
     );
     this.#unknown = h("p", { class: "hint" }, text.unknown);
-    this.element = h("div", { class: "truth", "aria-label": text.label }, this.#known, this.#unknown);
+    this.#fromPoses = createFromPoses(text.fromPoses, onWalls);
+    const { element } = this.#fromPoses;
+    this.element = h("div", { class: "truth", "aria-label": text.label }, this.#known, this.#unknown, element);
     new MutationObserver(() => this.#askSoon()).observe(this.element, { attributeFilter: ["hidden"] });
   }
 
@@ -102,19 +107,27 @@ class Truth {
     this.#table.fill("all", answer.agreement);
   }
 
+  /** @param {import("../wire.js").Refused} refused @param {string} why */
+  setRefused(refused, why) {
+    this.#fromPoses.setRefused(refused, why);
+  }
+
   /** @param {State} state */
   setState(state) {
-    const { layers, judgedBy, references, agreement } = state;
+    const { layers, judgedBy, references, agreement, byViews } = state;
     this.#state = state;
     this.#show.checked = layers.verdicts;
     this.#known.hidden = judgedBy === "";
     this.#unknown.hidden = judgedBy !== "";
-    this.#by.replaceChildren(...references.map((name) => h("option", { value: name }, this.#text.references[name])));
+    this.#by.replaceChildren(
+      ...references.map((name) => h("option", { value: name }, this.#text.reference(name, byViews !== ""))),
+    );
     this.#by.value = judgedBy;
     this.#by.disabled = references.length < 2;
     this.#unlabelled.hidden = judgedBy !== "labels" || agreement !== null;
-    if (judgedBy) setText(this.#explained, `${this.#text.matching} ${this.#text.explained[judgedBy]}`);
+    if (judgedBy) setText(this.#explained, `${this.#text.matching} ${this.#text.explain(judgedBy, byViews !== "")}`);
     this.#table.fill("frame", agreement ?? {});
+    this.#fromPoses.setState(state);
     this.#askSoon();
   }
 }

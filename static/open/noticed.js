@@ -4,6 +4,9 @@ import { h } from "../widgets/dom.js";
 import { iconButton } from "../widgets/icon.js";
 import { changeWords } from "./reread_fields.js";
 
+// The page of the truth says it.
+const ELSEWHERE = "truth by many views";
+
 /** @typedef {import("../wire.js").State} State */
 /** @typedef {import("../wire.js").Reading} Reading */
 
@@ -36,7 +39,9 @@ export function createNoticed(text, { entries, onMend, onChange }) {
   /** @param {State} state */
   function items({ account }) {
     if (!account) return [];
-    const notices = account.notices.map(({ text: words, change: values }) => ({ words, values }));
+    const notices = account.notices
+      .filter(({ kind }) => kind !== ELSEWHERE)
+      .map(({ text: words, change: values }) => ({ words, values }));
     const guesses = account.guesses.map(({ field, value }) => text.guessedValue(field, value)).join(", ");
     const others = [guesses && text.guessed(guesses), account.skipped].filter(Boolean);
     return [...notices, ...others.map((words) => ({ words, values: {} }))];

@@ -57,6 +57,7 @@ export function createReread(page, text, notices) {
     /** What was noticed. */
     notice: noticed.element,
     openShown,
+    mend,
     /** The way on from an error. @param {import("../wire.js").Refused} refused @param {string} note */
     way: (refused, note) => ({ note, label: text.readAs, run: () => open(refused) }),
     /** Opens a recording of the menu, read as the last time. @param {import("../wire.js").RecordingEntry} entry */

@@ -59,13 +59,25 @@ export const inspectText = {
     unknown:
       "The true lines of this recording are not known. Mark them in Labels (E), or open an NPZ file whose array `wall` gives the number of the true wall for each beam.",
     judgedBy: "Compared with",
-    references: { labels: "labelled lines", wall: "walls of the recording" },
+    reference: (/** @type {"labels" | "wall"} */ name, /** @type {boolean} */ byViews) =>
+      name === "labels" ? "labelled lines" : byViews ? "walls by many views" : "walls of the recording",
     unlabelled: "The lines of this frame are not labelled. Mark them in Labels (E).",
     matching:
       "A segment matches a true line if both have more than half of their beams in common (intersection over union).",
-    explained: {
-      labels: "The true lines are those marked in Labels. Only frames with labelled lines count.",
-      wall: "A true line is a visible stretch of one wall that has at least P_min points and is at least L_min long.",
+    explain: (/** @type {"labels" | "wall"} */ name, /** @type {boolean} */ byViews) => {
+      if (name === "labels") return "The true lines are those marked in Labels. Only frames with labelled lines count.";
+      const line =
+        "A true line is a visible stretch of one wall that has at least P_min points and is at least L_min long.";
+      return byViews ? `${line} Beams that too few views support are unknown and count neither way.` : line;
+    },
+    fromPoses: {
+      make: "Truth from poses",
+      makeHelp:
+        "Puts all scans into the world by their poses, and takes the walls that several places agree on as the truth",
+      forget: "Without this truth",
+      possible: "Or take the walls that many scans agree on, if the recording has poses:",
+      without:
+        "A truth from poses is not possible: this recording has none. Read it with a trajectory, --poses FILE or Read as…",
     },
     rows: /** @type {[string, string, string, "count" | "share" | "mm"][]} */ ([
       ["trueLines", "true lines", "Visible stretches of a wall that meet P_min and L_min", "count"],

@@ -351,8 +351,11 @@ export const pageText = {
     beams: (/** @type {number} */ n) => `${n} beams`,
     truth: {
       help: "This frame compared with its true lines: TR, share of true lines that were found; FR, share of segments that are false; completeness, mean overlap of the matches. Click to see matched (solid), false (dotted) and missed (dashed) lines in the scene.",
-      figures: (/** @type {import("../wire.js").Agreement} */ { trueRate, falseRate, completeness }) =>
-        `TR ${shareOf(trueRate)} · FR ${shareOf(falseRate)} · completeness ${shareOf(completeness)}`,
+      figures: (
+        /** @type {import("../wire.js").Agreement} */ { trueRate, falseRate, completeness },
+        /** @type {boolean} */ byViews,
+      ) =>
+        `TR ${shareOf(trueRate)} · FR ${shareOf(falseRate)} · completeness ${shareOf(completeness)}${byViews ? " · by many views" : ""}`,
     },
     connection: { connecting: "connecting", open: "connected", lost: "not connected" },
     announce: (/** @type {number} */ n, /** @type {number} */ frame) =>

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -18,6 +19,8 @@ from lineseg import (
     difference,
     extract,
     open_recording,
+    save_npz,
+    simulate,
     survey,
     what_if,
     why,
@@ -151,6 +154,36 @@ def test_segments_are_judged_by_the_truth_in_numbers_and_in_the_scene(new_tab, h
     tab.page.get_by_role("checkbox", name="Show in the scene").check()
     tab.until("s.layers.verdicts")
     assert tab.page.locator(".verdict-key").all_inner_texts() == ["matched", "false", "missed"]
+
+
+def test_a_truth_is_made_from_poses_marked_and_forgotten(new_tab):
+    tab = new_tab("#mode=inspect&recording=sample:hallway.log&frame=7")
+    tab.page.get_by_role("tab", name="Truth").click()
+    tab.page.get_by_role("button", name="Truth from poses").click()
+    state = tab.until("s.byViews !== '' && s.agreement !== null && s.layers.truth")
+    assert (state["frame"], state["judgedBy"]) == (7, "wall")
+    assert state["agreement"]["trueLines"] > 2
+    tab.page.locator(".from-poses").get_by_text("walls hold together").wait_for()
+    tab.page.locator(".truth-figures", has_text="by many views").wait_for()
+    tab.page.get_by_label("Compared with").get_by_text("walls by many views").wait_for(state="attached")
+    tab.page.get_by_role("button", name="Without this truth").click()
+    tab.until("s.byViews === '' && s.agreement === null")
+    tab.page.get_by_role("button", name="Truth from poses").wait_for()
+
+
+def test_why_no_truth_can_be_made_is_said_where_it_was_asked_for(new_tab, tmp_path):
+    stamps = np.arange(6.0)
+    poses = np.tile((2.0, 2.0, 0.3), (6, 1))
+    world = simulate.room([(0, 0), (7, 0), (7, 5), (0, 5)])
+    standing = simulate.record(lambda stamp: world, poses, stamps, simulate.LMS_200, np.random.default_rng(1), "stands")
+    save_npz(replace(standing, wall=None, walls=None), tmp_path / "stands.npz")
+    tab = new_tab("#mode=inspect")
+    tab.upload(tmp_path / "stands.npz")
+    tab.until("s.label === 'stands.npz'")
+    tab.page.get_by_role("tab", name="Truth").click()
+    tab.page.get_by_role("button", name="Truth from poses").click()
+    tab.page.locator(".from-poses").get_by_text("the robot stands still").wait_for()
+    assert tab.state["byViews"] == ""
 
 
 def test_a_recording_without_truth_says_so(new_tab):

@@ -1,0 +1,27 @@
+"""Gives a recording without truth the walls that many of its scans agree on."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+from ..scan import Recording
+from .account import Notes
+
+# The kind of the notice that says how the truth was made, and of the one that says not to trust it.
+BY_VIEWS, DOUBTFUL = "truth by many views", "doubtful truth"
+
+
+def with_walls(recording: Recording, notes: Notes, progress: Callable[[int, int], None]) -> Recording:
+    """The recording with the truth by many views; one that has its truth keeps it.
+
+    Raises ValueError, which says why, where no truth can be made.
+    """
+    from ..many_views import truth_by_many_views
+
+    if recording.wall is not None:
+        notes.notice(BY_VIEWS, f"{recording.name} has the true wall of each beam, which stays its truth.")
+        return recording
+    found = truth_by_many_views(recording, progress)
+    notes.notice(BY_VIEWS if found.trusted else DOUBTFUL, f"Truth by many views: {found.text}")
+    return replace(found.recording, wall_source=found.text)
