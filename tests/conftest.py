@@ -1,16 +1,25 @@
 """Where the real recordings and the reference outputs are."""
 
+import gc
 import os
 from pathlib import Path
 
 import pytest
 from hypothesis import settings
 
+# What is imported stays, so it need not be gone through again and again in search of garbage.
+gc.disable()
+
 # How long an example takes says nothing about its truth, and what passes here is to pass everywhere.
 settings.register_profile("lineseg", settings.default, deadline=None, derandomize=True)
 # Fewer examples, for `make quick`.
 settings.register_profile("quick", settings.get_profile("lineseg"), max_examples=30)
 settings.load_profile("lineseg")
+
+
+def pytest_collection_finish() -> None:
+    gc.freeze()
+    gc.enable()
 
 
 def _folder(variable: str) -> Path:

@@ -39,9 +39,9 @@ FLAGS = (
     "--no-first-run",
     "--disable-quic",
 )
-# Nobody looks at the pixels of a scene of a test, only at what it is drawn from. Painting them without a graphics card
+# Nobody looks at the pixels of a scene of a test, or of rerun, only at what it is drawn from. Painting them without a card
 # takes as long as all the rest. Nor is it cleared, which alone would send a picture of it to the screen.
-UNPAINTED = """if (location.pathname.includes("/viser/"))
+UNPAINTED = """if (/\\/(viser|rerun)\\//.test(location.pathname))
     for (const draw of ["drawArrays", "drawElements", "drawArraysInstanced", "drawElementsInstanced", "clear"])
         WebGL2RenderingContext.prototype[draw] = () => {};"""
 SLIDER = "[data-knob={}] input[type=range]"
