@@ -49,8 +49,8 @@ from .routes.scene import add_scene
 from .routes.sweep_table import add_sweep_table
 from .routes.tab import add_sockets
 from .routes.tuning import add_tuning
-from .session.session import Watch
 from .session.sessions import SessionLimits, Sessions
+from .session.shown import Watch
 from .session.warm_up import WarmUp
 from .shelf.label_files import LabelFiles
 from .shelf.lesson_shelf import LessonShelf

@@ -630,26 +630,37 @@ export interface World {
 }
 
 /**
- * What is on the screen.
+ * What the View says, by itself for the parts of the page that need little of it.
  *
- * view: the whole View, as a patch that restores it. label: of the recording; pack: description in a failure pack.
- * topic: on the screen. place: equal for states of the same scans. readAs: the Reading that was asked for, with the
- * topic. account: what the file was taken for, null if there is no file. live: whether the newest frame is
- * followed, null if the recording is not live. frame: its number in the file or source, counted from 0; frames: how
- * many there are, of which the first has the number `first`, the next `first + every`. stamp: of the scan [s];
- * since: time since the first scan of the file [s], null if the stamps cannot be believed. covered: number of
- * `valid` beams in segments. steps: number of decisions. difference: fates of the lines of A. truth: whether the
- * recording has its true walls; byViews: what is said of walls that many views agree on, "" for others. agreement:
- * in the mode Inspect if the truth is known; labels: in the mode Inspect if the recording can have labels. framing:
- * of the decision on the screen, ahead: of the next one without its outcome; null where the whole plan is shown.
- * nodes: what the scene shows. references: available references; judgedBy: the one in use, "" without truth.
- * mayHavePoses: whether poses were or can be looked for; poses: what is said of them, "" if nobody asked. world:
- * null if the scene shows the frame of the laser. extent: box around the points of the frame, bounds: of what the
- * scene shows [m]. extractionUs: time of the extraction [µs].
+ * view: the whole View, as a patch that restores it. frame: its number in the file or source, counted from 0.
  */
-export interface Scene {
+export interface OfView {
   view: View;
   mode: View["mode"];
+  frame: number;
+  method: string;
+  params: Record<string, number>;
+  step: number | null;
+  layers: Record<string, boolean>;
+  selected: number | null;
+  camera: View["camera"];
+  score: string;
+  against: Against | null;
+  weights: Record<string, number>;
+  reference: Reference;
+}
+
+/**
+ * The recording on the screen.
+ *
+ * pack: description in a failure pack. place: equal for states of the same scans. readAs: the Reading that was
+ * asked for, with the topic. account: what the file was taken for, null if there is no file. live: whether the
+ * newest frame is followed, null if the recording is not live. frames: how many there are, of which the first has
+ * the number `first`, the next `first + every`. mayHavePoses: whether poses were or can be looked for; poses: what
+ * is said of them, "" if nobody asked. truth: whether the recording has its true walls; byViews: what is said of
+ * walls that many views agree on, "" for others.
+ */
+export interface OfRecording {
   recording: string;
   label: string;
   format: string;
@@ -659,27 +670,65 @@ export interface Scene {
   place: string;
   readAs: Record<string, string | number>;
   account: Account | null;
-  frame: number;
   frames: number;
   live: boolean | null;
   first: number;
   every: number;
-  stamp: number | null;
-  since: number | null;
-  frameId: string;
-  beams: number;
-  valid: number;
-  covered: number;
+  mayHavePoses: boolean;
+  poses: string;
+  truth: boolean;
+  byViews: string;
+}
+
+/**
+ * What is on the screen.
+ *
+ * stamp: of the scan [s]; since: time since the first scan of the file [s], null if the stamps cannot be believed.
+ * covered: number of `valid` beams in segments. steps: number of decisions. difference: fates of the lines of A.
+ * agreement: in the mode Inspect if the truth is known; labels: in the mode Inspect if the recording can have
+ * labels. framing: of the decision on the screen, ahead: of the next one without its outcome; null where the whole
+ * plan is shown. nodes: what the scene shows. references: available references; judgedBy: the one in use, ""
+ * without truth. world: null if the scene shows the frame of the laser. extent: box around the points of the frame,
+ * bounds: of what the scene shows [m]. extractionUs: time of the extraction [µs].
+ */
+export interface Scene {
+  view: View;
+  mode: View["mode"];
+  frame: number;
   method: string;
   params: Record<string, number>;
   step: number | null;
-  steps: number;
   layers: Record<string, boolean>;
   selected: number | null;
   camera: View["camera"];
   score: string;
   against: Against | null;
   weights: Record<string, number>;
+  reference: Reference;
+  recording: string;
+  label: string;
+  format: string;
+  pack: Pack | null;
+  topic: string;
+  topics: Topic[];
+  place: string;
+  readAs: Record<string, string | number>;
+  account: Account | null;
+  frames: number;
+  live: boolean | null;
+  first: number;
+  every: number;
+  mayHavePoses: boolean;
+  poses: string;
+  truth: boolean;
+  byViews: string;
+  stamp: number | null;
+  since: number | null;
+  frameId: string;
+  beams: number;
+  valid: number;
+  covered: number;
+  steps: number;
   difference: Record<string, number> | null;
   extent: [number, number, number, number];
   bounds: [number, number, number, number];
@@ -689,16 +738,11 @@ export interface Scene {
   framing: Framing | null;
   ahead: Framing | null;
   nodes: string[];
-  mayHavePoses: boolean;
-  poses: string;
   world: World | null;
   explanation: Explanation | null;
   histograms: Record<string, Histogram>;
-  truth: boolean;
-  byViews: string;
   agreement: Agreement | null;
   labels: Labels | null;
-  reference: Reference;
   references: ("labels" | "wall")[];
   judgedBy: "labels" | "wall" | "";
   extractionUs: number;
@@ -719,6 +763,17 @@ export interface Timings {
 export interface DrawnState {
   view: View;
   mode: View["mode"];
+  frame: number;
+  method: string;
+  params: Record<string, number>;
+  step: number | null;
+  layers: Record<string, boolean>;
+  selected: number | null;
+  camera: View["camera"];
+  score: string;
+  against: Against | null;
+  weights: Record<string, number>;
+  reference: Reference;
   recording: string;
   label: string;
   format: string;
@@ -728,27 +783,21 @@ export interface DrawnState {
   place: string;
   readAs: Record<string, string | number>;
   account: Account | null;
-  frame: number;
   frames: number;
   live: boolean | null;
   first: number;
   every: number;
+  mayHavePoses: boolean;
+  poses: string;
+  truth: boolean;
+  byViews: string;
   stamp: number | null;
   since: number | null;
   frameId: string;
   beams: number;
   valid: number;
   covered: number;
-  method: string;
-  params: Record<string, number>;
-  step: number | null;
   steps: number;
-  layers: Record<string, boolean>;
-  selected: number | null;
-  camera: View["camera"];
-  score: string;
-  against: Against | null;
-  weights: Record<string, number>;
   difference: Record<string, number> | null;
   extent: [number, number, number, number];
   bounds: [number, number, number, number];
@@ -758,16 +807,11 @@ export interface DrawnState {
   framing: Framing | null;
   ahead: Framing | null;
   nodes: string[];
-  mayHavePoses: boolean;
-  poses: string;
   world: World | null;
   explanation: Explanation | null;
   histograms: Record<string, Histogram>;
-  truth: boolean;
-  byViews: string;
   agreement: Agreement | null;
   labels: Labels | null;
-  reference: Reference;
   references: ("labels" | "wall")[];
   judgedBy: "labels" | "wall" | "";
   extractionUs: number;

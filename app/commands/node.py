@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import signal
 import sys
-from contextlib import AbstractContextManager, nullcontext
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 from pathlib import Path
 from types import FrameType
 from typing import TYPE_CHECKING, Annotated, Any
@@ -88,21 +89,27 @@ def node(
         return open_door(laser, running, prepare, _tell, user_folder(), host, port, token_of(None, token_file))
 
     prepare(*running.now)
-
-    def stop(number: int, frame: FrameType | None) -> None:
-        publisher.stop()
-
-    before = {each: signal.signal(each, stop) for each in (signal.SIGTERM, signal.SIGINT)}
-    try:
-        with door():
-            last = publisher.run()
-    finally:
-        for each, handler in before.items():
-            signal.signal(each, handler)
+    with _until_signal(publisher.stop), door():
+        last = publisher.run()
     if once and last is not None:
         from lineseg.writers import write_segments
 
         write_segments(sys.stdout, "jsonl", [(0, last.scan, last.extraction)], noise)
+
+
+@contextmanager
+def _until_signal(stop: Callable[[], None]) -> Iterator[None]:
+    """Ctrl-C and SIGTERM stop it."""
+
+    def heard(number: int, frame: FrameType | None) -> None:
+        stop()
+
+    before = {each: signal.signal(each, heard) for each in (signal.SIGTERM, signal.SIGINT)}
+    try:
+        yield
+    finally:
+        for each, handler in before.items():
+            signal.signal(each, handler)
 
 
 def _running(method: Choice, flags: Any) -> Running:

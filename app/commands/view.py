@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 from tyro.conf import OmitArgPrefixes, Positional, arg
 
@@ -17,6 +17,9 @@ from .flag_types import Several, Switch, Unset, lessons_folder
 from .reading import ReadingFlags, files_of, reading_of
 from .sources import address_of, list_topics
 from .token import token_of
+
+if TYPE_CHECKING:
+    from ..session.shown import Watch
 
 MOST_KEPT = 20_000
 
@@ -63,30 +66,17 @@ def view(
     from ..server import Settings, serve
 
     how = reading_of(reading)
-    lasers = [source for source in sources if is_address(source)]
-    robots = _robots(lasers, how)
-    if any(list_topics(robot) for robot in robots):
+    robots = _robots(sources, how)
+    if any(list_topics(laser) for laser in robots):
         return
-    named = [source for source in sources if source not in lasers]
-    files = [file.resolve() for file in files_of(named)] if named else []
-    how = _beside(how, files)
-    own_lessons = lessons_folder(lessons)
-    if not 1 <= keep <= MOST_KEPT:
-        raise ValueError(f"--keep is {keep}; allowed: 1 to {MOST_KEPT} scans")
-    for address in robot:
-        if not is_node(address):
-            check_address(address)
-    with contextlib.ExitStack() as stack:
-        watch = None
-        if rerun:
-            from ..rerun.live import live_rerun
-
-            watch = stack.enter_context(live_rerun()).show
+    files, how = _files(sources, how)
+    _check(keep, robot)
+    with _streaming(rerun) as watch:
         settings = Settings(
-            files=tuple(files),
-            reading=how if files else Reading(),
-            robots=tuple(robots),
-            lessons=own_lessons,
+            files=files,
+            reading=how,
+            robots=robots,
+            lessons=lessons_folder(lessons),
             may_send=robot,
             keep=keep,
             host=host,
@@ -99,6 +89,35 @@ def view(
         serve(settings, lambda address: print(f"lineseg is at {address} (Ctrl-C stops it)", flush=True))
 
 
+def _check(keep: int, robot: Sequence[str]) -> None:
+    if not 1 <= keep <= MOST_KEPT:
+        raise ValueError(f"--keep is {keep}; allowed: 1 to {MOST_KEPT} scans")
+    for address in robot:
+        if not is_node(address):
+            check_address(address)
+
+
+@contextlib.contextmanager
+def _streaming(rerun: bool) -> Iterator[Watch | None]:
+    """What is told of all that is shown, if rerun's viewer is to show it."""
+    if not rerun:
+        yield None
+        return
+    from ..rerun.live import live_rerun
+
+    with live_rerun() as stream:
+        yield stream.show
+
+
+def _files(sources: Sequence[str], how: Reading) -> tuple[tuple[Path, ...], Reading]:
+    """The files among the sources, and how they are read."""
+    named = [source for source in sources if not is_address(source)]
+    if not named:
+        return (), Reading()
+    files = tuple(file.resolve() for file in files_of(named))
+    return files, _beside(how, files)
+
+
 def _beside(how: Reading, files: Sequence[Path]) -> Reading:
     """The Reading, whose trajectory the page knows by its name alone."""
     if how.poses is None or not set(how.poses) & {"/", "\\", ":"}:
@@ -109,8 +128,9 @@ def _beside(how: Reading, files: Sequence[Path]) -> Reading:
     return how.but(poses=poses.name)
 
 
-def _robots(addresses: Sequence[str], how: Reading) -> list[Address]:
-    """Raises ValueError for an address that is none, and for a Reading that only files can have."""
+def _robots(sources: Sequence[str], how: Reading) -> tuple[Address, ...]:
+    """The addresses among the sources. Raises ValueError for what is none, and for a Reading that only files can have."""
+    addresses = [source for source in sources if is_address(source)]
     if addresses and (others := [name for name in how.given() if name != "topic"]):
         raise ValueError(f"{', '.join(others)} cannot be used with a robot, which says how its scans are to be read.")
-    return [address_of(address, how.topic) for address in dict.fromkeys(addresses)]
+    return tuple(address_of(address, how.topic) for address in dict.fromkeys(addresses))

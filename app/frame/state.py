@@ -43,9 +43,38 @@ def state_of(
 
     nodes: names of what the scene shows. looked: at what the page of a lesson looks, if it is about this recording.
     """
-    scan, trace = found.scan, found.trace
-    first, every = numbering(recording)
-    chosen = trace[view.step] if view.step is not None else None
+    scan, trace, step = found.scan, found.trace, view.step
+    return {
+        **_of_view(view, recording),
+        **_of_recording(view, recording, label),
+        "stamp": finite_or_none(scan.stamp),
+        "since": since,
+        "frameId": scan.frame_id,
+        "beams": len(scan),
+        "valid": int(scan.valid.sum()),
+        "covered": found.extraction.covered,
+        "steps": len(trace),
+        "difference": difference(pinned.extraction, found.extraction).counts if pinned is not None else None,
+        "extent": extent_of(scan, bounds),
+        "bounds": bounds,
+        "segments": segments_told(found),
+        "dropped": _dropped_once(found),
+        "decision": _decision(trace[step], type(view.params)) if step is not None else None,
+        "framing": _framed(found, view, step, looked),
+        "ahead": _framed(found, view, step + 1, looked) if step is not None else None,
+        "nodes": list(nodes),
+        "world": None,
+        "explanation": _explanation(found, view.selected) if view.selected is not None else None,
+        "histograms": {name: _histogram(each) for name, each in found.histograms.items()},
+        "agreement": agreement_told(judged.matching.agreement) if judged is not None else None,
+        "labels": _labels(reference.known, view.frame) if reference.known is not None else None,
+        "references": reference.available,
+        "judgedBy": reference.chosen,
+        "extractionUs": round(found.extraction_us, 1),
+    }
+
+
+def _of_view(view: View, recording: Recording) -> told.OfView:
     said = view.as_json()
     return {
         "view": said
@@ -55,6 +84,23 @@ def state_of(
             "live": view.live or not isinstance(recording, LiveRecording),
         },
         "mode": view.mode,
+        "frame": view.frame,
+        "method": view.method,
+        "params": said["params"],
+        "step": view.step,
+        "layers": said["layers"],
+        "selected": view.selected,
+        "camera": view.camera,
+        "score": view.score,
+        "against": said["against"],
+        "weights": said["weights"],
+        "reference": view.reference,
+    }
+
+
+def _of_recording(view: View, recording: Recording, label: str) -> told.OfRecording:
+    first, every = numbering(recording)
+    return {
         "recording": view.recording,
         "label": label,
         "format": recording.format,
@@ -64,49 +110,14 @@ def state_of(
         "place": view.place,
         "readAs": view.read_as.given(),
         "account": account_told(recording.account) if recording.account is not None else None,
-        "frame": view.frame,
         "frames": len(recording),
         "live": view.live if isinstance(recording, LiveRecording) else None,
         "first": first,
         "every": every,
-        "stamp": finite_or_none(scan.stamp),
-        "since": since,
-        "frameId": scan.frame_id,
-        "beams": len(scan),
-        "valid": int(scan.valid.sum()),
-        "covered": found.extraction.covered,
-        "method": view.method,
-        "params": said["params"],
-        "step": view.step,
-        "steps": len(trace),
-        "layers": said["layers"],
-        "selected": view.selected,
-        "camera": view.camera,
-        "score": view.score,
-        "against": said["against"],
-        "weights": said["weights"],
-        "difference": difference(pinned.extraction, found.extraction).counts if pinned is not None else None,
-        "extent": extent_of(scan, bounds),
-        "bounds": bounds,
-        "segments": segments_told(found),
-        "dropped": _dropped_once(found),
-        "decision": _decision(chosen, type(view.params)) if chosen is not None else None,
-        "framing": _framed(found, view, view.step, looked),
-        "ahead": _framed(found, view, view.step + 1, looked) if view.step is not None else None,
-        "nodes": list(nodes),
         "mayHavePoses": recording.track is not None,
         "poses": said_of(recording.poses, recording.pose_source) if view.space == "world" else "",
-        "world": None,
-        "explanation": _explanation(found, view.selected) if view.selected is not None else None,
-        "histograms": {name: _histogram(each) for name, each in found.histograms.items()},
         "truth": recording.walls is not None and recording.poses is not None,
         "byViews": recording.wall_source,
-        "agreement": agreement_told(judged.matching.agreement) if judged is not None else None,
-        "labels": _labels(reference.known, view.frame) if reference.known is not None else None,
-        "reference": view.reference,
-        "references": reference.available,
-        "judgedBy": reference.chosen,
-        "extractionUs": round(found.extraction_us, 1),
     }
 
 

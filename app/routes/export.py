@@ -17,8 +17,8 @@ from lineseg.writers import SEGMENT_WRITERS, figure_svg, figure_title, segment_l
 from ..handout.handouts import frame_page, lesson_page
 from ..made import about_of
 from ..scene.drawing import step_marks
-from ..session.session import Shown
 from ..session.sessions import Sessions
+from ..session.shown import Shown
 from ..shelf.label_files import LabelFiles
 from ..shelf.library import Library
 from .attachment import attachment

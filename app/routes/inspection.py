@@ -8,8 +8,8 @@ from starlette.exceptions import HTTPException
 from lineseg import Relation, Remark, Thresholds, what_if, why, why_apart
 
 from ..frame.judge import Reference, agreement_told, judged, judged_recording
-from ..session.session import Shown
 from ..session.sessions import Sessions
+from ..session.shown import Shown
 from ..shelf.label_files import LabelFiles
 from ..told.answers import Apart, Finding, Judgement, Truth, WhatIfs, Whys
 from ..told.words import words_of
@@ -50,12 +50,12 @@ def _finding(remark: Remark, params: type[Thresholds]) -> Finding:
 
 def add_inspection(app: FastAPI, sessions: Sessions, files: LabelFiles) -> None:
     """Routes of /api that inspect what a tab shows."""
+    _add_reasons(app, sessions)
+    _add_agreement(app, sessions, files)
 
-    def reference_of(session: str) -> tuple[Shown, Reference]:
-        """What a tab shows, and the true lines with which it is compared."""
-        shown = sessions.shown(session)
-        known = files.known(shown.view.recording, shown.recording)
-        return shown, Reference.of(shown.view.reference, shown.recording, known)
+
+def _add_reasons(app: FastAPI, sessions: Sessions) -> None:
+    """What would change, why two beams are apart, and what looks wrong."""
 
     @app.get("/api/what-if")
     def what_would_change(session: str = "") -> WhatIfs:
@@ -107,6 +107,16 @@ def add_inspection(app: FastAPI, sessions: Sessions, files: LabelFiles) -> None:
             "found": found,
             "whole": len(found) == len(wanted),
         }
+
+
+def _add_agreement(app: FastAPI, sessions: Sessions, files: LabelFiles) -> None:
+    """How well the segments agree with the true lines, in one frame and in all."""
+
+    def reference_of(session: str) -> tuple[Shown, Reference]:
+        """What a tab shows, and the true lines with which it is compared."""
+        shown = sessions.shown(session)
+        known = files.known(shown.view.recording, shown.recording)
+        return shown, Reference.of(shown.view.reference, shown.recording, known)
 
     @app.get("/api/judged")
     def judged_frame(session: str = "") -> Judgement:

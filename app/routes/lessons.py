@@ -22,6 +22,7 @@ from ..session.sessions import Sessions
 from ..shelf.lesson import USUAL, Lessons, NamedLesson
 from ..shelf.lesson_draft import drafted
 from ..shelf.lesson_markup import MEDIA
+from ..shelf.lesson_shelf import LessonShelf
 from ..shelf.library import Library
 from ..told.answers import Fitted, FrameToLabel, TimesHere
 from ..told.messages import TraceColumns
@@ -47,8 +48,23 @@ class NewLesson(Message):
 
 def add_lessons(app: FastAPI, library: Library, sessions: Sessions) -> None:
     """Routes of /api/lessons."""
-    shelf = library.lessons
     slow = SlowWork("measurements", 2, 60.0)
+    _add_shelf(app, library.lessons, slow)
+    _add_measured(app, sessions, slow)
+
+    @app.post("/api/lessons/new")
+    async def new(said: NewLesson, session: str = "") -> PlainTextResponse:
+        """The file of a lesson of one step with a question, about what this tab shows."""
+        shown = sessions.shown(session)
+        try:
+            made = await run_in_threadpool(drafted, shown.view, shown.found.scan, shown.found.trace, said.box)
+        except ValueError as error:
+            raise HTTPException(400, str(error)) from None
+        return PlainTextResponse(json.dumps(_with_texts(made, said), indent=2, ensure_ascii=False) + "\n")
+
+
+def _add_shelf(app: FastAPI, shelf: LessonShelf, slow: SlowWork) -> None:
+    """The lessons that are there, and their files."""
 
     @app.get("/api/lessons")
     def lessons() -> Lessons:
@@ -92,6 +108,10 @@ def add_lessons(app: FastAPI, library: Library, sessions: Sessions) -> None:
         except ValueError as error:
             raise HTTPException(400, str(error)) from None
 
+
+def _add_measured(app: FastAPI, sessions: Sessions, slow: SlowWork) -> None:
+    """What pages of lessons show about the recording of a tab."""
+
     @app.get("/api/lessons/noise")
     async def noise(session: str = "") -> Fitted:
         shown = sessions.shown(session)
@@ -113,16 +133,6 @@ def add_lessons(app: FastAPI, library: Library, sessions: Sessions) -> None:
         if method not in EXTRACTORS:
             raise HTTPException(400, f"there is no method {method[:40]!r}; choose from {', '.join(EXTRACTORS)}")
         return await run_in_threadpool(decisions_of, sessions.shown(session).found.scan, method)
-
-    @app.post("/api/lessons/new")
-    async def new(said: NewLesson, session: str = "") -> PlainTextResponse:
-        """The file of a lesson of one step with a question, about what this tab shows."""
-        shown = sessions.shown(session)
-        try:
-            made = await run_in_threadpool(drafted, shown.view, shown.found.scan, shown.found.trace, said.box)
-        except ValueError as error:
-            raise HTTPException(400, str(error)) from None
-        return PlainTextResponse(json.dumps(_with_texts(made, said), indent=2, ensure_ascii=False) + "\n")
 
 
 def _with_texts(made: dict[str, Any], said: NewLesson) -> dict[str, Any]:

@@ -19,7 +19,8 @@ from lineseg import EXTRACTORS, __version__
 from lineseg.failing import mistake
 
 from ..session.following import OWN
-from ..session.session import Page, Session
+from ..session.page import Page
+from ..session.session import Session
 from ..session.sessions import Sessions, TooManySessionsError
 from ..shelf.library import Library
 from ..told.messages import Failure, MethodEntry, Quick, ReadingEntry, Recordings, ScoreEntry, Surveyed, Welcome

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import logging
-import os
 import threading
 import time
-from collections.abc import Awaitable, Callable, Mapping
-from dataclasses import dataclass, replace
-from typing import Any, Literal
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from typing import Any
 
 from pydantic import BaseModel
 
@@ -16,102 +15,32 @@ from lineseg import Recording, Survey
 from lineseg.failing import mistake
 from lineseg.readers import Cancelled
 
-from ..frame.findings import Findings
 from ..frame.geometry import beam_near
-from ..frame.stepping import columns_of
 from ..live.ring import LiveRecording
 from ..newest import Newest
-from ..scene.picture import Picture
 from ..scene.portless import Door
 from ..scene.viser_scene import ViserScene
 from ..shelf.label_files import LabelFiles
 from ..shelf.library import Library
-from ..shelf.preview import for_the_page, named_in
-from ..told.drawn import DrawnState, Timings
-from ..told.messages import Drawn, Failure, Loading, Refused, Traced
+from ..shelf.preview import for_the_page
+from ..told.drawn import Timings
+from ..told.messages import Failure, Loading
 from ..view import View
-from .composing import Composer, Content
+from .composing import Composer
 from .following import Presence, Presenter, Pupil, mirrored
+from .loading import opened, refused
+from .pace import quick, takes_long, turn_of, waits_for
+from .page import NOBODY, Page, Told
+from .shown import Origin, Painted, Request, Shown, Watch
 from .strip import Strip, key_of
-from .turns import InOrder, Rounds
+from .turns import Rounds
 from .warm_up import WarmUp
-
-Origin = Literal["page", "scene"]
-Watch = Callable[[View, Recording, str, Findings], None]
 
 log = logging.getLogger(__name__)
 # Shortest time between redraws of a live recording [s]; no scan is lost.
 FOLLOW_EVERY = 0.04
-# What takes long where the truth is to be made from poses.
-WALLS = "Looking for the walls that many scans agree on"
 # Longest time that closing waits for a picture [s].
 CLOSING_SECONDS = 10.0
-# Threads of tabs draw one after the other. Python runs one at a time anyway: more would only make each other wait, and
-# show older Views, because each takes the newest when its turn comes.
-QUICK_TURN = InOrder()
-# Scans of more beams take longer [beams].
-QUICK_BEAMS = 2_000
-# What may take long does not make the others wait; its kernels run beside Python.
-SLOW_TURNS = threading.Semaphore(max(2, os.cpu_count() or 2))
-
-
-@dataclass(frozen=True)
-class Page:
-    """What a session needs of its page.
-
-    send: for its threads; returns when the page has taken the message, so a slow page slows its own session only.
-    tell: the same for the event loop. hang_up: called when the session ends.
-    """
-
-    send: Callable[[BaseModel], None]
-    tell: Callable[[BaseModel], Awaitable[None]]
-    hang_up: Callable[[], None]
-
-
-async def _unheard(message: BaseModel) -> None:
-    """No page is there."""
-
-
-NOBODY = Page(lambda message: None, _unheard, lambda: None)
-
-
-@dataclass(frozen=True)
-class Request:
-    """A View to draw; `number` counts the requests of a session."""
-
-    number: int
-    view: View
-    rev: int
-    origin: Origin
-
-
-@dataclass(frozen=True, eq=False)
-class Painted:
-    """A request with its picture, which viser has."""
-
-    request: Request
-    recording: Recording
-    content: Content
-    timings: Timings
-
-
-@dataclass(frozen=True, eq=False)
-class Shown:
-    """What is on the screen."""
-
-    view: View
-    recording: Recording
-    found: Findings
-    picture: Picture
-
-    @property
-    def position(self) -> int:
-        """Of the frame in the recording, from which some frames of the file may be left out."""
-        return self.recording.position(self.view.frame)
-
-    def paused(self, view: View) -> bool:
-        """Whether it shows a live recording that `view` does not follow."""
-        return isinstance(self.recording, LiveRecording) and self.view.recording == view.recording and not view.live
 
 
 class Session:
@@ -140,9 +69,7 @@ class Session:
         self._library = library
         self._composer = Composer(library, files)
         self._page: Page | None = None
-        self._told: Findings | None = None
-        self._traced: Findings | None = None
-        self._timed: Recording | None = None
+        self._told = Told()
         self._shown: Shown | None = None
         self._broken: set[str] = set()
         self._wanted = Request(0, view, 0, "page")
@@ -187,7 +114,7 @@ class Session:
             self.detached_at = None
             self.last_input = time.monotonic()
             self._page = page
-            self._told = self._traced = self._timed = None
+            self._told.forget()
             self._strip.keep(None)
             self._ask(self._wanted.view, self._wanted.rev if rev is None else rev, "page")
         self.presenter.tell("here")
@@ -410,28 +337,16 @@ class Session:
     def _news(self, painted: Painted) -> tuple[Page, list[BaseModel]]:
         """Note what is on the screen now. Returns the page, and what it does not know yet."""
         request, content, recording = painted.request, painted.content, painted.recording
-        view, found = content.view, content.found
-        growing = isinstance(recording, LiveRecording) and request.view.live
-        state: DrawnState = {**content.state, **painted.timings, "following": self._presence}
-        messages: list[BaseModel] = []
+        view = content.view
         with self._lock:
-            self._shown = Shown(view, recording, found, content.picture)
+            self._shown = Shown(view, recording, content.found, content.picture)
             self._done = request.number
             if self._wanted.number == request.number:
                 self._wanted = replace(request, view=view)
-            page, new_trace = self._page or NOBODY, self._told is not found
-            self._told = found
-            # The times of a recording that grows are sent once it is paused.
-            if page is not NOBODY and self._timed is not recording and not growing:
-                self._timed = recording
-                messages.append(content.times())
-            if page is not NOBODY and view.mode == "learn" and self._traced is not found:
-                self._traced = found
-                messages.append(Traced(trace=columns_of(found)))
+            page = self._page or NOBODY
+            messages = [] if page is NOBODY else self._told.news(painted, self._presence)
         self._library.live.follow(self.id, view.recording, view.method, view.params)
-        if new_trace:
-            state["marks"] = found.marks
-        return page, [*messages, Drawn(rev=request.rev, origin=request.origin, state=state)]
+        return page, messages
 
     def _afterwards(self, painted: Painted) -> None:
         self.presenter.show(painted.content.view)
@@ -441,7 +356,7 @@ class Session:
 
     def _painted(self, request: Request, recording: Recording) -> Painted | None:
         """Draws the newest View when its turn comes; None as for `_newest`."""
-        with SLOW_TURNS if takes_long(request.view) else QUICK_TURN:
+        with turn_of(request.view):
             return self._paint(request, recording)
 
     def _paint(self, request: Request, recording: Recording) -> Painted | None:
@@ -466,7 +381,7 @@ class Session:
             wanted = self._wanted
             if wanted.number == request.number:
                 return request
-            if _waits_for(wanted.view) != _waits_for(request.view):
+            if waits_for(wanted.view) != waits_for(request.view):
                 return None
             self._drawing.drop()
             return wanted
@@ -487,28 +402,16 @@ class Session:
                 self._ask(self._wanted.view, self._wanted.rev, "scene")
 
     def _load(self, request: Request) -> Recording:
-        view = request.view
-        if not view.recording:
-            raise ValueError("there is no recording to show; drop a file on the page")
-        shown = self.shown
+        view, shown = request.view, self.shown
         if shown is not None and shown.paused(view):
             return shown.recording
-        label = self._library.label(view.recording)
-
-        def tell(done: int, total: int) -> None:
-            source = self._library.live.get(view.recording)
-            note = source.note if source is not None else WALLS if view.reading.walls else ""
-            self._tell(Loading(recording=view.recording, label=label, done=done, total=total, note=note))
 
         def wanted() -> bool:
             with self._lock:
                 now = self._wanted.view
                 return now.place == view.place and not self._cancelled and not self._closing
 
-        recording = self._library.recording(view.recording, view.read_as, tell, wanted)
-        if not len(recording):
-            raise ValueError(f"{label} holds no scans")
-        return recording
+        return opened(self._library, view, self._tell, wanted)
 
     def _fall_back(self, request: Request, message: str | None) -> None:
         """Keep the present picture; if there is none, show the first recording that works."""
@@ -529,23 +432,10 @@ class Session:
         if message is None and cancelled:
             message = f"loading {self._library.label(view.recording)} was cancelled"
         if message is not None:
-            refused = None if cancelled else self._refused(view, message)
-            told = message if refused is None else for_the_page(message)
-            self._tell(Failure(where="recording", message=told, rev=request.rev, refused=refused))
+            file = None if cancelled else refused(self._library, view, message)
+            told = message if file is None else for_the_page(message)
+            self._tell(Failure(where="recording", message=told, rev=request.rev, refused=file))
         self._survey()
-
-    def _refused(self, view: View, message: str) -> Refused | None:
-        """What could not be read; None if it is no file that exists, or if no other Reading could help."""
-        try:
-            if not self._library.path(view.recording).exists():
-                return None
-        except ValueError:
-            return None
-        given, named = view.reading.given(), named_in(message)
-        if not (given or named or view.topic):
-            return None
-        label = self._library.label(view.recording)
-        return Refused(recording=view.recording, label=label, topic=view.topic, reading=given, named=named)
 
     def _tell(self, message: BaseModel) -> None:
         with self._lock:
@@ -556,24 +446,6 @@ class Session:
 
 def _ms(seconds: float) -> float:
     return round(1e3 * seconds, 2)
-
-
-def quick(recording: Recording) -> bool:
-    """Whether its scans are small enough to be drawn in the thread that answers all tabs."""
-    return recording.offsets[-1] <= QUICK_BEAMS * len(recording)
-
-
-def _waits_for(view: View) -> tuple[str, bool, bool]:
-    """What drawing it waits for: its recording, and its turn."""
-    return view.place, view.live, takes_long(view)
-
-
-def takes_long(view: View) -> bool:
-    """Whether drawing it may take much longer than a few milliseconds: other methods do, and what Inspect computes."""
-    if view.method != "region-growing" or view.mode == "inspect" or view.layers.verdicts or view.against is not None:
-        return True
-    # The poses of a bag take another pass over its file.
-    return view.space == "world"
 
 
 def _at_the_end(request: Request, recording: Recording) -> Request:

@@ -14,7 +14,8 @@ from ..shelf.label_files import LabelFiles
 from ..shelf.library import Library
 from ..view import View
 from .following import Presenter
-from .session import Session, Shown, Watch
+from .session import Session
+from .shown import Shown, Watch
 from .turns import Rounds
 from .warm_up import WarmUp
 

@@ -236,28 +236,38 @@ class World(TypedDict):
     upsideDown: bool
 
 
-class Scene(TypedDict):
-    """What is on the screen.
+class OfView(TypedDict):
+    """What the View says, by itself for the parts of the page that need little of it.
 
-    view: the whole View, as a patch that restores it. label: of the recording; pack: description in a failure pack.
-    topic: on the screen. place: equal for states of the same scans. readAs: the Reading that was asked for, with the
-    topic. account: what the file was taken for, null if there is no file. live: whether the newest frame is followed,
-    null if the recording is not live. frame: its number in the file or source, counted from 0; frames: how many there
-    are, of which the first has the number `first`, the next `first + every`. stamp: of the scan [s]; since: time since
-    the first scan of the file [s], null if the stamps cannot be believed. covered: number of `valid` beams in segments.
-    steps: number of decisions. difference: fates of the lines of A. truth: whether the recording has its true walls;
-    byViews: what is said of walls that many views agree on, "" for others.
-    agreement: in the mode Inspect if the truth is known; labels: in the mode Inspect if the recording can have labels.
-    framing: of the decision on the screen, ahead: of the next one without its outcome; null where the whole plan is
-    shown. nodes: what the scene shows. references: available references; judgedBy: the one in use, "" without truth.
-    mayHavePoses: whether poses were or can be looked for; poses: what is said of them, "" if nobody asked.
-    world: null if the scene shows the frame of the laser. extent: box around the points of the frame, bounds: of what
-    the scene shows [m].
-    extractionUs: time of the extraction [µs].
+    view: the whole View, as a patch that restores it. frame: its number in the file or source, counted from 0.
     """
 
     view: Annotated[dict[str, Any], As("View")]
     mode: Annotated[str, As('View["mode"]')]
+    frame: int
+    method: str
+    params: Params
+    step: int | None
+    layers: dict[str, bool]
+    selected: int | None
+    camera: Annotated[str, As('View["camera"]')]
+    score: str
+    against: Annotated[dict[str, Any] | None, As("Against | null")]
+    weights: dict[str, float]
+    reference: Annotated[str, As("Reference")]
+
+
+class OfRecording(TypedDict):
+    """The recording on the screen.
+
+    pack: description in a failure pack. place: equal for states of the same scans. readAs: the Reading that was asked
+    for, with the topic. account: what the file was taken for, null if there is no file. live: whether the newest frame
+    is followed, null if the recording is not live. frames: how many there are, of which the first has the number
+    `first`, the next `first + every`. mayHavePoses: whether poses were or can be looked for; poses: what is said of
+    them, "" if nobody asked. truth: whether the recording has its true walls; byViews: what is said of walls that
+    many views agree on, "" for others.
+    """
+
     recording: str
     label: str
     format: str
@@ -267,27 +277,36 @@ class Scene(TypedDict):
     place: str
     readAs: Reading
     account: Account | None
-    frame: int
     frames: int
     live: bool | None
     first: int
     every: int
+    mayHavePoses: bool
+    poses: str
+    truth: bool
+    byViews: str
+
+
+class Scene(OfView, OfRecording):
+    """What is on the screen.
+
+    stamp: of the scan [s]; since: time since the first scan of the file [s], null if the stamps cannot be believed.
+    covered: number of `valid` beams in segments. steps: number of decisions. difference: fates of the lines of A.
+    agreement: in the mode Inspect if the truth is known; labels: in the mode Inspect if the recording can have labels.
+    framing: of the decision on the screen, ahead: of the next one without its outcome; null where the whole plan is
+    shown. nodes: what the scene shows. references: available references; judgedBy: the one in use, "" without truth.
+    world: null if the scene shows the frame of the laser. extent: box around the points of the frame, bounds: of what
+    the scene shows [m].
+    extractionUs: time of the extraction [µs].
+    """
+
     stamp: float | None
     since: float | None
     frameId: str
     beams: int
     valid: int
     covered: int
-    method: str
-    params: Params
-    step: int | None
     steps: int
-    layers: dict[str, bool]
-    selected: int | None
-    camera: Annotated[str, As('View["camera"]')]
-    score: str
-    against: Annotated[dict[str, Any] | None, As("Against | null")]
-    weights: dict[str, float]
     difference: dict[str, int] | None
     extent: Box
     bounds: Box
@@ -297,16 +316,11 @@ class Scene(TypedDict):
     framing: Framing | None
     ahead: Framing | None
     nodes: list[str]
-    mayHavePoses: bool
-    poses: str
     world: World | None
     explanation: Explanation | None
     histograms: dict[str, Histogram]
-    truth: bool
-    byViews: str
     agreement: Agreement | None
     labels: Labels | None
-    reference: Annotated[str, As("Reference")]
     references: list[Reference]
     judgedBy: Reference | Literal[""]
     extractionUs: float

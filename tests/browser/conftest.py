@@ -39,8 +39,8 @@ FLAGS = (
     "--no-first-run",
     "--disable-quic",
 )
-# Nobody looks at the pixels of a scene of a test, or of rerun, only at what it is drawn from. Painting them without a card
-# takes as long as all the rest. Nor is it cleared, which alone would send a picture of it to the screen.
+# Nobody looks at the pixels of a scene in a test, or of rerun, only at what it is drawn from. Painting without a card
+# takes as long as all the rest. Nor is the scene cleared, which alone would send a picture of it to the screen.
 UNPAINTED = """if (/\\/(viser|rerun)\\//.test(location.pathname))
     for (const draw of ["drawArrays", "drawElements", "drawArraysInstanced", "drawElementsInstanced", "clear"])
         WebGL2RenderingContext.prototype[draw] = () => {};"""

@@ -6,7 +6,8 @@ import threading
 
 import pytest
 from lineseg_app.server import Settings
-from lineseg_app.session.session import QUICK_TURN, Session
+from lineseg_app.session.pace import QUICK_TURN
+from lineseg_app.session.session import Session
 from lineseg_app.session.sessions import SessionLimits
 from live import Address, Page, page_of, serving
 from websockets.exceptions import ConnectionClosed
