@@ -129,7 +129,7 @@ def _beside(how: Reading, files: Sequence[Path]) -> Reading:
 
 
 def _robots(sources: Sequence[str], how: Reading) -> tuple[Address, ...]:
-    """The addresses among the sources. Raises ValueError for what is none, and for a Reading that only files can have."""
+    """The addresses among the sources. Raises ValueError for a Reading that only files can have."""
     addresses = [source for source in sources if is_address(source)]
     if addresses and (others := [name for name in how.given() if name != "topic"]):
         raise ValueError(f"{', '.join(others)} cannot be used with a robot, which says how its scans are to be read.")
