@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 import os
 import sys
+from collections.abc import Callable
 
 import tyro
 from tyro.conf import DisallowNone, FlagCreatePairsOff
@@ -27,7 +28,7 @@ def run(arguments: list[str]) -> int:
         return 0
     try:
         tyro.extras.subcommand_cli_from_dict(
-            COMMANDS,
+            COMMANDS if arguments[0] in COMMANDS else {name: _listed(each) for name, each in COMMANDS.items()},
             prog="lineseg",
             description="Line segments from 2D laser scans.",
             args=arguments,
@@ -46,6 +47,15 @@ def run(arguments: list[str]) -> int:
         print(f"lineseg: {mistake(error)}", file=sys.stderr)
         return REFUSED
     return 0
+
+
+def _listed(command: Callable[..., None]) -> Callable[[], None]:
+    """What stands for a command in the list of all: the first line of its description."""
+
+    def listed() -> None: ...
+
+    listed.__doc__ = (command.__doc__ or "").partition("\n")[0]
+    return listed
 
 
 def _sentence(error: BaseException) -> str:

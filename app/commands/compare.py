@@ -32,11 +32,11 @@ def compare(
     out: Annotated[Unset[Path], arg(aliases=["-o"])] = None,
     figures: Unset[Path] = None,
 ) -> None:
-    """Compare methods as in the paper's tables: TR, FR, completeness, endpoint errors, time.
+    """Compare methods as in the paper's tables.
 
-    Each method is judged on one half of the frames with three settings: as installed; as proposed without truth, by the
-    same search on the other half for each; and tuned with the truth of the other half. Without truth, methods are only
-    timed. Ctrl-C stops and writes the results so far.
+    These have TR, FR, completeness, endpoint errors and time. Each method is judged on one half of the frames with
+    three settings: as installed; as proposed without truth, by the same search on the other half for each; and tuned
+    with the truth of the other half. Without truth, methods are only timed. Ctrl-C stops and writes the results so far.
 
     Args:
         files: recordings, or names of samples and simulated worlds (default: all samples and worlds).

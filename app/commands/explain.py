@@ -26,7 +26,9 @@ def explain(
     *,
     beside: Annotated[Unset[int], arg(metavar="BEAM")] = None,
 ) -> None:
-    """Say why a beam is in a line or in none, or why two beams are in one line or in two; and what would change that.
+    """Say why a beam is in a line or in none.
+
+    It also says what would change that; with --beside, why two beams are in one line or in two.
 
     Args:
         file: a recording.

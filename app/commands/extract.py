@@ -39,7 +39,9 @@ def extract(
     bearing_noise: Unset[float] = None,
     suggest: Switch = False,
 ) -> None:
-    """Write the segments of recordings as JSON lines, CSV or GeoJSON, with how they were read and extracted.
+    """Write the segments of recordings as JSON lines, CSV or GeoJSON.
+
+    With them is written how they were read and extracted.
 
     Args:
         files: recordings to read; * and ? stand for several.

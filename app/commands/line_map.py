@@ -24,10 +24,11 @@ def line_map(
     suggest: Switch = False,
     least_scans: int = 3,
 ) -> None:
-    """Put the lines of all frames into the world by the poses of the recording, and merge them into a map.
+    """Merge the lines of all frames into a map of the world.
 
-    Lines are merged if they overlap and lie within the noise of the beams and of the poses. Prints how many returns
-    lie on the map. For poses that were corrected, run `lineseg truth` first, and this on the file that it writes.
+    The poses of the recording place them. Lines are merged if they overlap and lie within the noise of the beams and of
+    the poses. Prints how many returns lie on the map. For poses that were corrected, run `lineseg truth` first, and
+    this on the file that it writes.
 
     Args:
         file: recording to read; its scans need poses.

@@ -39,10 +39,10 @@ def node(
     token_file: Unset[Path] = None,
     once: Switch = False,
 ) -> None:
-    """Publish the segments of a robot's scans to the robot, until Ctrl-C or SIGTERM.
+    """Publish the segments of a robot's scans to the robot.
 
-    The file of --params is read again when it changes. The page sends thresholds to a running node: Export, "Send
-    parameters to a robot"; they hold until the file changes.
+    Ctrl-C or SIGTERM ends it. The file of --params is read again when it changes. The page sends thresholds to a
+    running node: Export, "Send parameters to a robot"; they hold until the file changes.
 
     Args:
         source: ros2:/scan or ros2://DOMAIN/scan (DDS; ros2: lists the topics), zenoh:/scan or zenoh://router:7447/scan

@@ -22,7 +22,9 @@ def record(
     out: Annotated[Path, arg(aliases=["-o"])],
     steps: Switch = False,
 ) -> None:
-    """Write a recording for rerun: points, segments, decisions and scores of every frame.
+    """Write a recording for rerun.
+
+    It has the points, segments, decisions and scores of every frame.
 
     Args:
         file: recording to read.

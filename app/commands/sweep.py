@@ -41,10 +41,11 @@ def sweep(
     params: Unset[Path] = None,
     scheduler: Annotated[Unset[str], arg(metavar="ADDRESS")] = None,
 ) -> None:
-    """Try every combination of threshold values on whole recordings: coverage, segments, and, with truth, TR and FR.
+    """Try every combination of threshold values on whole recordings.
 
-    Give thresholds as FROM:TO:COUNT, as values separated by commas, or as one value. To resume an interrupted sweep,
-    run it again: finished work is kept in a file next to the table until the table is complete.
+    The table has coverage, segments and, with truth, TR and FR. Give thresholds as FROM:TO:COUNT, as values separated
+    by commas, or as one value. To resume an interrupted sweep, run it again: finished work is kept in a file next to
+    the table until the table is complete.
 
     Args:
         files: recordings to read; * and ? stand for several.

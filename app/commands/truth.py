@@ -23,10 +23,11 @@ def truth(
     out: Annotated[Path, arg(aliases=["-o"])],
     json: Switch = False,
 ) -> None:
-    """Find the walls that many scans with poses agree on, and write the recording with the wall of each beam.
+    """Find the walls that many scans with poses agree on.
 
-    Where too few scans from different places saw something, the truth is unknown (wall = -2): scores leave these beams
-    out. The poses are corrected a little where that makes the walls thinner.
+    The recording is written with the wall of each beam. Where too few scans from different places saw something, the
+    truth is unknown (wall = -2): scores leave these beams out. The poses are corrected a little where that makes the
+    walls thinner.
 
     Args:
         file: recording to read; its scans need poses.

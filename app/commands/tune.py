@@ -33,11 +33,10 @@ def tune(
     params: Unset[Path] = None,
     scheduler: Annotated[Unset[str], arg(metavar="ADDRESS")] = None,
 ) -> None:
-    """Search for thresholds with Optuna, and compare the best with the present ones and with the paper's defaults, on
-    held-back frames.
+    """Search for thresholds with Optuna.
 
-    Ctrl-C stops the search and judges the best setting so far. With --study the trials are kept, and the next call
-    continues them.
+    The best are compared with the present ones and with the paper's defaults, on held-back frames. Ctrl-C stops the
+    search and judges the best setting so far. With --study the trials are kept, and the next call continues them.
 
     Args:
         files: recordings to read; * and ? stand for several.

@@ -109,6 +109,13 @@ def test_every_threshold_is_a_flag_with_its_symbol_and_default(capsys):
         assert f"(default: {getattr(Params(), name)})" in text
 
 
+def test_the_list_of_commands_has_a_line_for_each(capsys):
+    with pytest.raises(SystemExit):
+        main(["--help"])
+    rows = re.findall(r"(?m)^[ │]*(\S+ \w+)", capsys.readouterr().out.partition("(required)")[2])
+    assert [row.split() for row in rows] == [["•", command] for command in COMMANDS]
+
+
 @pytest.mark.parametrize("command", COMMANDS)
 def test_the_help_says_what_each_flag_does_and_nothing_that_only_python_knows(capsys, command):
     with pytest.raises(SystemExit):
