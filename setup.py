@@ -12,6 +12,6 @@ setup(
         *DATA,
     ],
     package_dir={"lineseg_app": "app", **DATA},
-    package_data={"": ["py.typed", "*.md"], **{name: ["**/*"] for name in DATA}},
+    package_data={"": ["py.typed", "*.md", "*.pyi"], **{name: ["**/*"] for name in DATA}},
     include_package_data=False,
 )

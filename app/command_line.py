@@ -13,7 +13,7 @@ from tyro.conf import DisallowNone, FlagCreatePairsOff
 from lineseg import __version__
 from lineseg.failing import mistake
 
-from .commands import COMMANDS
+from .commands import COMMANDS, command
 
 log = logging.getLogger(__name__)
 REFUSED = 2
@@ -27,13 +27,7 @@ def run(arguments: list[str]) -> int:
         print(f"lineseg {__version__}")
         return 0
     try:
-        tyro.extras.subcommand_cli_from_dict(
-            COMMANDS if arguments[0] in COMMANDS else {name: _listed(each) for name, each in COMMANDS.items()},
-            prog="lineseg",
-            description="Line segments from 2D laser scans.",
-            args=arguments,
-            config=(DisallowNone, FlagCreatePairsOff),
-        )
+        _call(arguments)
         sys.stdout.flush()
     except BrokenPipeError:
         # The reader of a pipe, such as `head`, has closed it; Python would report the error again on exit.
@@ -49,12 +43,23 @@ def run(arguments: list[str]) -> int:
     return 0
 
 
-def _listed(command: Callable[..., None]) -> Callable[[], None]:
+def _call(arguments: list[str]) -> None:
+    config = (DisallowNone, FlagCreatePairsOff)
+    name, *rest = arguments
+    if name in COMMANDS:
+        tyro.cli(command(name), prog=f"lineseg {name}", args=rest, config=config)
+    else:
+        about = "Line segments from 2D laser scans."
+        every = {name: _listed(command(name)) for name in COMMANDS}
+        tyro.extras.subcommand_cli_from_dict(every, prog="lineseg", description=about, args=arguments, config=config)
+
+
+def _listed(function: Callable[..., None]) -> Callable[[], None]:
     """What stands for a command in the list of all: the first line of its description."""
 
     def listed() -> None: ...
 
-    listed.__doc__ = (command.__doc__ or "").partition("\n")[0]
+    listed.__doc__ = (function.__doc__ or "").partition("\n")[0]
     return listed
 
 

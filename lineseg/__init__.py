@@ -36,102 +36,43 @@ Declare a method of one's own
 `lineseg.examples` has a small program for each of these.
 """
 
-from .apart import Change, Relation, why_apart
-from .covariance import Noise, covariance, covariances
-from .doubt import SCORES
-from .doubt.misses import Miss, misses
-from .doubt.suspicion import WEIGHTS, doubts, suspicion, worst_first
-from .extractors import EXTRACTORS, Extractor, extract, trace
-from .knobs import Knob, Thresholds
-from .params import Params
-from .readers import Account, Cancelled, Guess, Notice, Reading, open_recording, save_npz
-from .readers.pack import read_pack
-from .scan import PackAbout, Recording, Scan, Topic
-from .segment import Dropped, Extraction, Segment
-from .survey import Survey, survey
-from .survey.committee import with_disputes
-from .survey.difference import Difference, difference, differences
-from .survey.remark import Remark
-from .survey.stability import with_stability
-from .survey.why import why
-from .tracing.decisions import Decision, Explanation, Trace, TracedLine
-from .truth import Agreement, Matching, agreement, agreements, match, near_lines, true_ends, true_lines
-from .truth.label_file import ConflictError, label_file, read_labels, save_labels
-from .truth.labels import FrameLabels, TrueLine
-from .what_if import WhatIf, what_if
-from .writers import figure_svg, params_text, read_params, write_segments
-from .writers.pack import write_pack
-from .writers.version import __version__
+from __future__ import annotations
 
-__all__ = [
-    "EXTRACTORS",
-    "SCORES",
-    "WEIGHTS",
-    "Account",
-    "Agreement",
-    "Cancelled",
-    "Change",
-    "ConflictError",
-    "Decision",
-    "Difference",
-    "Dropped",
-    "Explanation",
-    "Extraction",
-    "Extractor",
-    "FrameLabels",
-    "Guess",
-    "Knob",
-    "Matching",
-    "Miss",
-    "Noise",
-    "Notice",
-    "PackAbout",
-    "Params",
-    "Reading",
-    "Recording",
-    "Relation",
-    "Remark",
-    "Scan",
-    "Segment",
-    "Survey",
-    "Thresholds",
-    "Topic",
-    "Trace",
-    "TracedLine",
-    "TrueLine",
-    "WhatIf",
-    "__version__",
-    "agreement",
-    "agreements",
-    "covariance",
-    "covariances",
-    "difference",
-    "differences",
-    "doubts",
-    "extract",
-    "figure_svg",
-    "label_file",
-    "match",
-    "misses",
-    "near_lines",
-    "open_recording",
-    "params_text",
-    "read_labels",
-    "read_pack",
-    "read_params",
-    "save_labels",
-    "save_npz",
-    "survey",
-    "suspicion",
-    "trace",
-    "true_ends",
-    "true_lines",
-    "what_if",
-    "why",
-    "why_apart",
-    "with_disputes",
-    "with_stability",
-    "worst_first",
-    "write_pack",
-    "write_segments",
-]
+import ast
+import pkgutil
+import sys
+from importlib import import_module
+from types import ModuleType
+from typing import Any
+
+# Where each name is, as type checkers read it.
+_STUB = ast.parse(pkgutil.get_data(__name__, "__init__.pyi") or b"")
+_HOMES = {
+    alias.name: f"{__name__}.{node.module}"
+    for node in _STUB.body
+    if isinstance(node, ast.ImportFrom)
+    for alias in node.names
+}
+
+__all__ = list(_HOMES)  # pyright: ignore[reportUnsupportedDunderAll]
+
+
+class _Package(ModuleType):
+    """A package whose names are imported when they are first used: importing all of them takes half a second."""
+
+    def __getattr__(self, name: str) -> Any:
+        if name not in _HOMES:
+            raise AttributeError(f"module {__name__!r} has no attribute {name!r}", name=name, obj=self)
+        found = self.__dict__[name] = getattr(import_module(_HOMES[name]), name)
+        return found
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        # Importing the module `lineseg.survey` does not replace the function of this name.
+        if name not in _HOMES or not isinstance(value, ModuleType):
+            super().__setattr__(name, value)
+
+    def __dir__(self) -> list[str]:
+        return sorted({*self.__dict__, *_HOMES})
+
+
+sys.modules[__name__].__class__ = _Package

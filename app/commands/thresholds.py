@@ -11,7 +11,6 @@ from tyro.conf import UseAppendAction, arg
 
 from lineseg import EXTRACTORS, Extractor, Knob, Params, Thresholds
 from lineseg.scan import Recording
-from lineseg.tuning.proposal import propose
 from lineseg.writers import read_params
 from lineseg.writers.params_read import params_file
 
@@ -67,6 +66,8 @@ class Choice:
 
 def suggested(recording: Recording, present: Thresholds, method: str) -> Thresholds:
     """Thresholds that fit the recording; prints them, or why there are none, on stderr."""
+    from lineseg.tuning.proposal import propose
+
     found = propose(recording, present, method)
     print(found.text or "The present thresholds fit this recording.", file=sys.stderr)
     if found.changed:
