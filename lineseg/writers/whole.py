@@ -105,4 +105,4 @@ def _chunks(recording: Recording, survey: Survey) -> Iterator[tuple[list[_Frame]
         numbers = map(recording.number, range(start, stop))
         spans = map(slice, ends[:-1], ends[1:])
         frames = map(_Frame, numbers, stamps, recording.frame_ids[start:stop], spans)
-        yield list(frames), {name: rows[name].tolist() for name in rows.dtype.names}
+        yield list(frames), {name: rows[name].tolist() for name in rows.dtype.names or ()}
