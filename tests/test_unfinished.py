@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from lineseg_app.__main__ import main
 from lineseg_app.server import Settings
+from lineseg_app.shelf.recent import Recent
 from live import page_of, serving
 from processes import lineseg
 
@@ -109,3 +110,27 @@ def test_a_download_for_which_the_disk_has_no_space_is_refused_with_a_sentence(t
     assert answer.status_code == 507
     assert answer.json()["message"] == "the recording cannot be written: No space left on device."
     assert list(tiny.iterdir()) == []
+
+
+def test_an_upload_for_which_the_disk_has_no_space_is_refused_with_a_sentence(tiny, tmp_path, monkeypatch):
+    with serving(Settings(data_folder=tmp_path / "data")) as server:
+        monkeypatch.setattr("tempfile.tempdir", str(tiny))
+        for path, name in (("/api/upload", "walls.npz"), ("/api/lessons/file", "lesson.json")):
+            answer = server.post(path, params={"name": name}, content=b"x" * 200_000)
+            told = answer.json()["message"]
+            assert (answer.status_code, told) == (507, f"{name} could not be stored: No space left on device")
+        assert not [left for left in tiny.rglob("*") if left.is_file() and left.stat().st_size]
+
+
+def test_the_list_of_recent_files_is_whole_whatever_the_disk_says(tiny, tmp_path):
+    recent = Recent(tiny)
+    recent.add(tmp_path / "one.npz")
+    for number in range(12):
+        recent.add(tmp_path / f"{'long' * 5000}{number}.npz")
+    assert Recent(tiny).paths()[-1] == tmp_path / "one.npz"
+    assert [left.name for left in tiny.iterdir()] == ["recent.json"]
+    left = tiny / FILES.replace("*", "of a killed process")
+    left.touch()
+    os.utime(left, (0, 0))
+    Recent(tiny).add(tmp_path / "two.npz")
+    assert not left.exists()

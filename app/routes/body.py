@@ -13,12 +13,12 @@ from ..shelf.uploads import TooLargeError, TooManyError, TooSlowError
 
 async def body_of(request: Request, most: int, what: str) -> bytes:
     """All bytes of the body; answers 413, with what was too long, if there are more than `most`."""
-    body = b""
+    body = bytearray()
     async for chunk in request.stream():
         body += chunk
         if len(body) > most:
             raise HTTPException(413, f"{what} at most {most} bytes; this one is longer")
-    return body
+    return bytes(body)
 
 
 def announced_size(request: Request) -> int | None:

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import json
-import os
-import tempfile
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 from lineseg.readers import Reading
+from lineseg.unfinished import whole_file
 
 from ..places import user_folder
 
@@ -50,7 +49,8 @@ class Recent:
         ]
         try:
             self._file.parent.mkdir(parents=True, exist_ok=True)
-            _write(self._file, json.dumps(entries, indent=1))
+            with whole_file(self._file) as part:
+                part.write_text(json.dumps(entries, indent=1), encoding="utf-8")
         except OSError:
             return
 
@@ -74,15 +74,3 @@ def _entry(said: Any) -> tuple[Path, Reading] | None:
     except (TypeError, ValueError):
         # Of another version.
         return Path(path), Reading()
-
-
-def _write(file: Path, text: str) -> None:
-    """Replace the file atomically, so that a crash or a second program never leaves half a list."""
-    handle, name = tempfile.mkstemp(dir=file.parent, prefix=file.name)
-    try:
-        with os.fdopen(handle, "w", encoding="utf-8") as stream:
-            stream.write(text)
-        Path(name).replace(file)
-    except BaseException:
-        Path(name).unlink(missing_ok=True)
-        raise

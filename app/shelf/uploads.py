@@ -15,6 +15,8 @@ from pathlib import Path
 from .scratch import Scratch
 
 LONGEST_NAME = 120
+# Files of one lesson.
+MOST_TOGETHER = 100
 SILENT_SECONDS = 10.0
 # In bytes a second.
 SLOWEST = 4_000
@@ -103,6 +105,8 @@ class Uploads:
             upload = self._kept.get(id)
         if id and (upload is None or not upload.path.is_dir()):
             raise ValueError("the files that belong to this one are no longer on the server; drop all of them again")
+        if upload is not None and sum(1 for _ in upload.path.iterdir()) >= MOST_TOGETHER:
+            raise ValueError(f"at most {MOST_TOGETHER} files belong together")
         return upload
 
     def discard(self, id: str) -> None:
