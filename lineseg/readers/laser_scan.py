@@ -115,7 +115,7 @@ def decode_json(message: Any) -> LaserScan:
         raise ValueError("angle_increment [rad] is missing; give it, or angle_max")
     rest = (_number(message, "angle_increment", 0.0), _number(message, "range_min", 0.0))
     return _checked(
-        _whole(stamp, "sec", "secs"), _whole(stamp, "nanosec", "nsecs", "nsec"), str(header.get("frame_id", ""))[:200],
+        _whole(stamp, "sec", "secs"), _whole(stamp, "nanosec", "nsecs", "nsec"), _text(header.get("frame_id", "")),
         *angles, *rest, _number(message, "range_max", 0.0), ranges, _number(message, "time_increment", 0.0),
     )  # fmt: skip
 
@@ -145,6 +145,11 @@ def _number(message: Mapping[str, Any], name: str, usual: float | None = None) -
     if isinstance(value, bool) or not isinstance(value, int | float):
         raise ValueError(f"{name} is {_shown(value)}; it must be a number")
     return float(value)
+
+
+def _text(value: Any) -> str:
+    """Without halves of characters, which JSON may hold and no other message can."""
+    return str(value)[:200].encode("utf-8", "replace").decode()
 
 
 def _whole(stamp: Mapping[str, Any], *names: str) -> int:

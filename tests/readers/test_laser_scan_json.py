@@ -1,5 +1,7 @@
 """LaserScan as JSON from rosbridge, Foxglove or any program that posts it."""
 
+import json
+
 import numpy as np
 import pytest
 
@@ -44,3 +46,8 @@ def test_the_increment_follows_from_the_last_angle():
 def test_a_message_that_is_not_a_scan_is_named(message, sentence):
     with pytest.raises(ValueError, match=sentence):
         decode_json(message)
+
+
+def test_half_a_character_in_a_name_can_be_sent_on():
+    scan = decode_json(PLAIN | {"header": {"frame_id": json.loads('"la\\ud800ser"')}})
+    assert scan.frame_id.encode() == b"la?ser"
