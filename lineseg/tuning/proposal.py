@@ -268,8 +268,9 @@ class _Search:
             return f"{told} {knob.symbol} = {value:g} fits; {broken}."
         if not 1 / MUCH <= value / before <= MUCH:
             return f"{told} {knob.symbol} = {value:g} fits better than {before:g}."
-        new = [f"{knob.symbol} = {value:g}" for knob, value in _changes(self.present, proposed)]
-        return f"{told} {', '.join(new)} {'fits' if len(new) == 1 else 'fit'} a little better than the present values."
+        *others, last = (f"{knob.symbol} to {value:g}" for knob, value in _changes(self.present, proposed))
+        new = f"{', '.join(others)} and {last}" if others else last
+        return f"{told} Setting {new} would fit slightly better."
 
 
 def _allowed(scale: float) -> float:
