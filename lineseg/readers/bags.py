@@ -12,7 +12,6 @@ import numpy as np
 
 from ..scan import Recording, Topic
 from .decoders import MULTI_ECHO, POINT_CLOUDS, Decoder, decoder_of, is_laser
-from .laser_scan import LaserScan
 from .source import Source, Sweeps
 
 
@@ -103,27 +102,25 @@ def collect(
 
     Each publisher has a decoder of its own.
     """
-    scans: list[LaserScan] = []
+    sweeps = Sweeps()
     recorded: list[int] = []
     publishers: list[Decoder] = []
     for done, (decode, nanoseconds, data) in enumerate(messages):
         if done % 64 == 0:
             source.progress(done, total)
         try:
-            scans.append(decode(data))
+            sweeps.extend([decode(data)])
         except Exception as error:
             source.notes.skip(f"{source.name}: message {done} of {topic}", f"it cannot be read, {error}")
             continue
         recorded.append(nanoseconds)
         publishers.append(decode)
     source.progress(total, total)
-    if not scans:
+    if not len(sweeps):
         source.notes.nothing_left()
         others = ", ".join(each.name for each in topics if each.scans)
         way = f"choose one of {others}" if others else "no other topic of scans has any, so record it again"
         raise ValueError(f"{source.name}: the topic {topic} has no messages; {way}.")
-    sweeps = Sweeps()
-    sweeps.extend(scans)
     recording = sweeps.recording(source, topic=topic, topics=topics, format=format)
     times, senders = 1e-9 * np.array(recorded, np.float64), np.array(list(map(id, publishers)))
     if (np.diff(times) < 0).any():

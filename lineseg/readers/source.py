@@ -113,18 +113,44 @@ def known_suffixes() -> tuple[str, ...]:
     return tuple(suffix for reader in Reader.__subclasses__() for suffix in reader.suffixes)
 
 
+class Joined:
+    """Arrays joined as they come, so that the message that each was part of can be forgotten."""
+
+    def __init__(self) -> None:
+        self.lengths: list[int] = []
+        self._numbers: Floats = np.empty(0, np.float32)
+        self._used = 0
+
+    def append(self, numbers: Floats) -> None:
+        stop = self._used + len(numbers)
+        if numbers.dtype != self._numbers.dtype:
+            common = np.result_type(numbers, self._numbers) if self._used else numbers.dtype.newbyteorder("=")
+            self._numbers = self._numbers.astype(common, copy=False)
+        if stop > len(self._numbers):
+            # The system moves large arrays without a copy, and memory that was never written to costs nothing.
+            self._numbers.resize(max(stop, 2 * len(self._numbers)), refcheck=False)
+        self._numbers[self._used : stop] = numbers
+        self._used = stop
+        self.lengths.append(len(numbers))
+
+    def all(self) -> Floats:
+        """Nothing can be appended afterwards."""
+        self._numbers.resize(self._used, refcheck=False)
+        return self._numbers
+
+
 class Sweeps:
     """Collects scans one by one and joins them into a Recording."""
 
     def __init__(self) -> None:
-        self.ranges: list[Floats] = []
+        self.ranges = Joined()
         self.geometry: list[tuple[float, float, float, float, float]] = []
         self.frame_ids: list[str] = []
         self.time_increments: list[float] = []
         self.bearings: list[Floats] = []
 
     def __len__(self) -> int:
-        return len(self.ranges)
+        return len(self.ranges.lengths)
 
     def add(
         self,
@@ -147,20 +173,17 @@ class Sweeps:
 
     def extend(self, scans: Sequence[LaserScan]) -> None:
         """Adds messages."""
-        self.ranges += [each.ranges for each in scans]
-        self.geometry += [
-            (each.angle_min, each.angle_increment, each.range_min, each.range_max, each.stamp) for each in scans
-        ]
-        self.frame_ids += [each.frame_id for each in scans]
-        self.time_increments += [each.time_increment for each in scans]
+        for each in scans:
+            numbers = each.angle_min, each.angle_increment, each.range_min, each.range_max, each.stamp
+            self.add(each.ranges, *numbers, each.frame_id, time_increment=each.time_increment)
 
     def recording(self, source: Source, **fields: Any) -> Recording:
         """All scans as one Recording; `fields` override the collected values."""
         geometry = np.array(self.geometry, dtype=np.float64).reshape(-1, 5)
         columns: dict[str, Any] = {
             "name": source.name,
-            "ranges": np.concatenate(self.ranges) if self.ranges else np.empty(0, np.float32),
-            "offsets": np.concatenate(([0], np.cumsum([len(ranges) for ranges in self.ranges], dtype=np.int64))),
+            "ranges": self.ranges.all(),
+            "offsets": np.concatenate(([0], np.cumsum(self.ranges.lengths, dtype=np.int64))),
             "angle_min": geometry[:, 0],
             "angle_increment": geometry[:, 1],
             "range_min": geometry[:, 2],
