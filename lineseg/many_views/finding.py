@@ -18,7 +18,7 @@ from .growing import BEND, Walls, grown_walls
 from .labelling import nearest_walls
 from .merging import merged_walls, pieces_of, without_shadows
 from .openings import divided_at_openings
-from .profiles import STRETCH, Profiles, calmed, is_even, is_straight, profiles_of, stretches_of
+from .profiles import STRETCH, Profiles, calmed, is_even, is_straight, profiles_of, scatter_by_range, stretches_of
 from .refining import refined
 from .returns import Returns, views_of
 from .steps import FINE, divided_at_steps
@@ -177,8 +177,10 @@ def labels_of(
         straight = is_straight(_profiles(placed, scan, poses, views, walls, FINE, BEND), walls)
         firm, own = straight & is_even(profiles), found[near]
         stretch = stretches_of(placed[near], own, walls, profiles.starts)
-        limit = np.clip(DEVIATIONS * calmed(profiles.scatter, profiles), NEAREST, FARTHEST)[stretch]
         off = np.abs(height[near] - np.clip(calmed(profiles.height, profiles), -BEND, BEND)[stretch])
+        away = np.hypot(*(placed[near] - poses[scan[near], :2]).T)
+        scatter = np.maximum(calmed(profiles.scatter, profiles)[stretch], scatter_by_range(off, away))
+        limit = np.clip(DEVIATIONS * scatter, NEAREST, FARTHEST)
         good, long = off < DOUBTFUL * limit, walls.high - walls.low > LONG
         wall[near[off < limit]] = own[off < limit]
         wall[near[good & (off >= limit)]] = UNKNOWN

@@ -111,6 +111,13 @@ def medians(group: NDArray[np.int64], values: NDArray[np.floating], groups: int)
     return found
 
 
+def scatter_by_range(off: NDArray[np.floating], away: NDArray[np.floating]) -> Floats:
+    """(n,) the robust standard deviation of the distances `off` (n,) [m] of points as far `away` (n,) [m], metre by
+    metre: of a laser that scatters more on far walls."""
+    metre = away.astype(np.int64)
+    return (medians(metre, off, int(metre.max(initial=0)) + 1) / MAD)[metre]
+
+
 def is_even(profiles: Profiles) -> NDArray[np.bool_]:
     """(w,) whether the surface of each wall scatters no more than most do."""
     known = profiles.points > 0
