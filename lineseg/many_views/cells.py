@@ -52,7 +52,7 @@ def cells_of(placed: NDArray[np.floating], scan: NDArray[np.integer], poses: Flo
     quarter = np.floor(np.arctan2(toward[:, 1], toward[:, 0]) * (QUARTERS / (2 * np.pi))).astype(np.int64) % QUARTERS
     column, row = np.floor((placed - origin) / SIDE).astype(np.int64).T
     key = (column * ROW + row) * QUARTERS + quarter
-    order = np.lexsort((views[scan], key))
+    order = np.argsort(key * (int(views.max()) + 1) + views[scan])
     key, view = key[order], views[scan[order]]
     starts = np.flatnonzero((np.diff(key, prepend=-1) != 0) | (np.diff(view, prepend=-1) != 0))
     sizes = np.diff(starts, append=len(key))

@@ -226,8 +226,8 @@ def views_at(placed: NDArray[np.float32], view: NDArray[np.int64]) -> NDArray[np
 
 
 def _rms(height: NDArray[np.floating]) -> float:
-    known = height[np.isfinite(height)].astype(np.float64)
-    return float(np.sqrt(np.mean(known**2))) if len(known) else 0.0
+    known = height[np.isfinite(height)]
+    return float(np.sqrt(np.mean(known**2, dtype=np.float64))) if len(known) else 0.0
 
 
 def _result(

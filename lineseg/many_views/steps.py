@@ -24,22 +24,22 @@ Floats = NDArray[np.float64]
 
 
 def divided_at_steps(pieces: Walls, wall_of: NDArray[np.int64], fine: Profiles) -> tuple[Walls, NDArray[np.int64]]:
-    """The parts of the pieces between the steps, each on its own line, and the wall of each part.
+    """The parts of the pieces between the steps, each on the line of its new wall, and the wall of each part.
 
     Pieces are in order along their walls; fine: their profiles, in stretches of length FINE.
     """
     known = np.flatnonzero(fine.points > 0)
     piece = fine.wall[known]
     steps = steps_in(fine.height[known], wall_of[piece])
-    begins = steps | (np.diff(piece, prepend=-1) != 0)
-    first = np.flatnonzero(begins)
-    last = np.append(first[1:], len(known)) - 1 if len(first) else first
-    wall = np.cumsum(steps | (np.diff(wall_of[piece], prepend=-1) != 0)) - 1
-    ranges = zip(first.tolist(), (last + 1).tolist(), strict=True)
-    parts = [_line_of(pieces.only(piece[a : a + 1]), fine, known[a:b]) for a, b in ranges]
-    rows = np.array(parts).reshape(-1, 6)
-    long = rows[:, 4] - rows[:, 3] >= LEAST_PART
-    return Walls.of(rows[long]), wall[first][long]
+    begins = steps | (np.diff(wall_of[piece], prepend=-1) != 0)
+    wall = np.cumsum(begins) - 1
+    first = np.flatnonzero(begins | (np.diff(piece, prepend=-1) != 0))
+    parts, limits = np.split(known, first[1:]), np.flatnonzero(begins)
+    lines = [_line_of(fine, whole) for whole in np.split(known, limits[1:])] if len(known) else []
+    rows = [_part_of(pieces, fine, part, lines[wall[at]]) for part, at in zip(parts, first.tolist(), strict=False)]
+    table = np.array(rows).reshape(-1, 6)
+    long = table[:, 4] - table[:, 3] >= LEAST_PART
+    return Walls.of(table[long]), wall[first][long]
 
 
 def steps_in(height: Floats, wall: NDArray[np.int64]) -> NDArray[np.bool_]:
@@ -93,19 +93,25 @@ def jumps_of(height: Floats, wall: NDArray[np.int64]) -> Floats:
     return jump
 
 
-def _line_of(piece: Walls, fine: Profiles, here: NDArray[np.intp]) -> Floats:
-    """(6,) normal, offset, low, high, rms of the line through the profile of a part."""
-    at, height = fine.at[here], fine.height[here]
-    weights = np.minimum(fine.points[here], 20).astype(np.float64)
+def _line_of(fine: Profiles, whole: NDArray[np.intp]) -> tuple[float, float, float]:
+    """Middle along the old line, height and slope over it, of the line through the stretches `whole` of one wall."""
+    at, height = fine.at[whole], fine.height[whole]
+    weights = np.minimum(fine.points[whole], 20)
     middle, mean = np.average(at, weights=weights), np.average(height, weights=weights)
     spread = np.average((at - middle) ** 2, weights=weights)
-    slope = np.average((at - middle) * (height - mean), weights=weights) / max(spread, 1e-9) if len(here) > 3 else 0.0
-    (nx, ny), offset = piece.normal[0], piece.offset[0]
+    slope = np.average((at - middle) * (height - mean), weights=weights) / max(spread, 1e-9) if len(whole) > 3 else 0.0
+    return float(middle), float(mean), float(slope)
+
+
+def _part_of(pieces: Walls, fine: Profiles, part: NDArray[np.intp], line: tuple[float, float, float]) -> Floats:
+    """(6,) normal, offset, low, high, rms of a part: stretches of one piece, on the line of its wall."""
+    middle, mean, slope = line
+    piece = fine.wall[part[0]]
+    (nx, ny), offset = pieces.normal[piece], pieces.offset[piece]
     turned = np.hypot(1.0, slope)
     normal = np.array((nx + slope * ny, ny - slope * nx)) / turned
     foot = np.array((nx, ny)) * (offset + mean) + np.array((-ny, nx)) * middle
-    along = np.array((-normal[1], normal[0]))
-    half = FINE / 2
-    ends = [foot @ along + (end - middle) * turned for end in (at[0] - half, min(at[-1] + half, piece.high[0]))]
-    rms = np.sqrt(np.average((height - mean - slope * (at - middle)) ** 2, weights=weights))
-    return np.array((*normal, foot @ normal, *ends, rms))
+    at, begin = fine.at[part], foot @ np.array((-normal[1], normal[0]))
+    ends = at[0] - FINE / 2, min(at[-1] + FINE / 2, pieces.high[piece])
+    rms = np.sqrt(np.mean((fine.height[part] - mean - slope * (at - middle)) ** 2)) / turned
+    return np.array((*normal, foot @ normal, *(begin + (end - middle) * turned for end in ends), rms))

@@ -7,8 +7,8 @@ import pytest
 
 from lineseg import Recording, simulate
 from lineseg.many_views import truth_by_many_views
-from lineseg.poses import PoseSource, Track
-from lineseg.simulate import UTM_30LX, box, circle, room
+from lineseg.poses import PoseSource, Track, in_world
+from lineseg.simulate import UTM_30LX, box, circle, door, room
 from lineseg.truth import UNKNOWN, true_lines
 
 WORLD = room([(0, 0), (7, 0), (7, 5), (0, 5)]) + box((3.4, 4.7), 1.2, 0.5) + circle((5.4, 3.4), 0.2)
@@ -49,6 +49,32 @@ def test_walls_and_beams_agree_with_the_exact_truth():
     assert found.thickness < 0.02
     assert found.explained > 0.9
     assert found.shift.max() < 0.05
+
+
+def test_a_door_in_a_shallow_recess_is_a_wall_of_its_own():
+    doors = {2: [door(2.2, 1.2, 0.03)]}
+    recording = driven(drive().poses, room([(0, 0), (7, 0), (7, 5), (0, 5)], doors))
+    found = truth_by_many_views(recording).recording
+    wall, exact = (np.concatenate([scan.wall[scan.valid] for scan in each]) for each in (found, recording))
+    ends = recording.walls
+    assert ends is not None
+    leaf = int(np.flatnonzero(np.isclose(ends[:, [1, 3]], 5.03).all(axis=1))[0])
+    numbers = np.bincount(wall[(exact == leaf) & (wall >= 0)])
+    share = (exact[wall == numbers.argmax()] == leaf).mean()
+    assert numbers.max() > 0.9 * (exact == leaf).sum()
+    assert share > 0.95
+
+
+def test_walls_end_where_their_returns_do():
+    found = truth_by_many_views(drive()).recording
+    assert found.walls is not None
+    for k, (x1, y1, x2, y2) in enumerate(found.walls.tolist()):
+        of = [in_world(scan.xy[scan.wall == k], pose) for scan, pose in zip(found, found.poses, strict=True)]
+        spots = np.concatenate(of)
+        normal = np.array((y1 - y2, x2 - x1)) / np.hypot(x2 - x1, y2 - y1)
+        assert np.abs((spots - (x1, y1)) @ normal).max() < 0.13
+        assert spots.min(axis=0) == pytest.approx((min(x1, x2), min(y1, y2)), abs=0.15)
+        assert spots.max(axis=0) == pytest.approx((max(x1, x2), max(y1, y2)), abs=0.15)
 
 
 def test_poses_that_drift_are_corrected():
