@@ -19,9 +19,9 @@ quick test: export PYTHONDONTWRITEBYTECODE =
 quick: .venv/installed-dev
 	$(PYTEST) 2 -m "not server" --ignore=tests/browser --hypothesis-profile quick
 
-# One more than the two cores, since a browser, its server and its test wait for each other a third of the time.
+# Two for each of the two cores, since a browser, its server and its test wait for each other.
 test: .venv/installed-dev
-	$(PYTEST) 3
+	$(PYTEST) 4
 
 check: .venv/installed-dev check-page
 	$(BIN)/ruff check .

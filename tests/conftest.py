@@ -13,7 +13,7 @@ gc.disable()
 # How long an example takes says nothing about its truth, and what passes here is to pass everywhere.
 settings.register_profile("lineseg", settings.default, deadline=None, derandomize=True)
 # Fewer examples, for `make quick`.
-settings.register_profile("quick", settings.get_profile("lineseg"), max_examples=30)
+settings.register_profile("quick", settings.get_profile("lineseg"), max_examples=15)
 settings.load_profile("lineseg")
 
 
@@ -48,8 +48,22 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         imported = {getattr(value, "__module__", None) for value in vars(getattr(item, "module", item)).values()}
         if imported & helpers or "browser" in getattr(item, "fixturenames", ()):
             item.add_marker(pytest.mark.server)
-    # Last, because the loop of a browser runs in the main thread until the end, where tests before it run loops too.
-    items.sort(key=lambda item: "browser" in item.path.parts)
+    items.sort(key=_turn)
+
+
+# They begin first among those with a browser, so that no worker is left with a long one at the end.
+LONGEST = ("learn", "labels", "places", "lesson_views", "inspect", "tuner", "learn_scene", "rerun", "strip")
+
+
+def _turn(item: pytest.Item) -> int:
+    """When the tests of a file have their turn.
+
+    Those with a browser are last, because its loop runs in the main thread until the end, where other tests run loops.
+    """
+    if "browser" not in item.path.parts:
+        return 0
+    name = item.path.stem.removeprefix("test_")
+    return 1 + (LONGEST.index(name) if name in LONGEST else len(LONGEST))
 
 
 # What `.ci/run` does not install.

