@@ -6,9 +6,9 @@
 const LIGHT_MS = 12;
 // After other frames, viser rests for this many times as long as they took, but not for long [ms].
 const REST = 2;
-const LONGEST_REST_MS = 60;
+const LONGEST_REST_MS = 40;
 // A frame that takes longer is no longer waited for [ms].
-const PATIENCE_MS = 150;
+const PATIENCE_MS = 60;
 const POLL_MS = 4;
 
 /** Lets the scene rest after frames that take long. @param {any} scene the window of viser's page */
