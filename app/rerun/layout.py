@@ -11,6 +11,7 @@ from rerun.blueprint.encodings import TextLogColumn
 
 from lineseg import SCORES, Recording, Thresholds, __version__
 from lineseg.colours import SEGMENTS
+from lineseg.readers.reading import as_flags
 from lineseg.rerun import LINE, NO_LINE, POINT, THIN
 
 from ..frame.geometry import Bounds, bounds_of
@@ -83,6 +84,7 @@ def properties(
         "recording": label or recording.name,
         "topic": recording.topic,
         "method": method,
+        "reading": "" if recording.account is None else as_flags(recording.account.given.given()),
         "frames": f"{recording.number(frames[0])}:{recording.number(frames[-1]) + 1}" if frames else "",
     }
     return about | params.numbers()

@@ -48,7 +48,9 @@ def add_export(app: FastAPI, library: Library, sessions: Sessions, files: LabelF
         if view.step is not None:
             title += f", decision {view.step + 1} of {len(found.trace)}"
             marks, near = step_marks(view, shown.recording, found)
-        drawing = figure_svg(found.scan, found.extraction, title, view.params, marks, near)
+        account = shown.recording.account
+        reading = None if account is None else account.given
+        drawing = figure_svg(found.scan, found.extraction, title, view.params, marks, near, reading)
         return Response(drawing, media_type="image/svg+xml", headers=named(shown, "svg"))
 
     @app.post("/api/pack")

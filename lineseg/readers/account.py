@@ -67,7 +67,7 @@ class Account:
     """What a file was taken for.
 
     given: the Reading that was asked for; used: the same with all that was found in the file or guessed.
-    skipped: some of the scans that could not be read; skips: how many there are.
+    skipped: some of the scans that could not be read; skips: how many there are; skipping: "line" if these are lines.
     lasers: if several lasers share the topic, the values of frame_id, or of geometry, that choose one of them.
     find: makes the findings when they are first asked for, so that opening a file does not wait for them.
     """
@@ -77,6 +77,7 @@ class Account:
     guesses: tuple[Guess, ...] = ()
     skipped: tuple[Skipped, ...] = ()
     skips: int = 0
+    skipping: str = "scan"
     lasers: Mapping[str, tuple[str, ...]] = dataclass_field(default_factory=dict)
     find: Callable[[], Findings] = dataclass_field(default=Findings, repr=False)
 
@@ -114,7 +115,8 @@ class Account:
         if not self.skips:
             return ""
         first, were = self.skipped[0], " was" if self.skips == 1 else "s were"
-        return f"{self.skips} scan{were} skipped, the first at {first.place}: {first.why}."
+        end = "" if first.why.endswith("?") else "."
+        return f"{self.skips} {self.skipping}{were} skipped, the first at {first.place}: {first.why}{end}"
 
 
 class Notes:
@@ -140,6 +142,7 @@ class Notes:
         self.notices: list[Notice] = []
         self.skipped: list[Skipped] = []
         self.skips = 0
+        self.skipping = "scan"
 
     def guess(self, field: str, value: str, why: str, **change: Any) -> None:
         self.guesses.append(Guess(field, value, why, change))
@@ -156,4 +159,5 @@ class Notes:
     def nothing_left(self) -> None:
         """Raises ValueError for the first scan that was skipped; for readers that are left with none."""
         if self.skipped:
-            raise ValueError(f"{self.skipped[0].place}: {self.skipped[0].why}.")
+            end = "" if self.skipped[0].why.endswith("?") else "."
+            raise ValueError(f"{self.skipped[0].place}: {self.skipped[0].why}{end}")

@@ -50,6 +50,7 @@ def applied(
         guesses=guesses,
         skipped=tuple(notes.skipped),
         skips=notes.skips,
+        skipping=notes.skipping,
         lasers=notes.lasers,
         find=partial(_findings, whole, shown, used, guesses, notes),
     )

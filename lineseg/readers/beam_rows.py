@@ -235,6 +235,7 @@ def table_of(
     rows = [row for row in rows if row.text.strip(b" ,;\t|\r")]
     if (whole := _plain_table(rows, dialect, width)) is not None:
         return whole
+    source.notes.skipping = "line"
     table: list[list[float]] = []
     for row in rows:
         cells = dialect.cells(row.text)

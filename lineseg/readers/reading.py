@@ -345,8 +345,11 @@ def values_of(text: str) -> tuple[Span, ...]:
         return ()
     spans = []
     for word in text.split(","):
-        span = span_of(word if ":" in word else f"{word}:{word}")
-        if ":" not in word and not math.isfinite(span.low):
+        try:
+            span = span_of(word if ":" in word else f"{word}:{word}")
+        except ValueError:
+            span = Span(math.nan, math.nan)
+        if math.isnan(span.low) or (":" not in word and not math.isfinite(span.low)):
             raise ValueError(
                 f"{text!r} is not a list of values; give numbers and spans, such as 65.535,9.9:10, or none"
             )

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from ..colours import segment_colours
 from ..knobs import Thresholds
+from ..readers.reading import Reading, as_flags
 from ..scan import Recording, Scan
 from ..segment import Extraction
 
@@ -43,13 +44,17 @@ def figure_svg(
     thresholds: Thresholds | None = None,
     marks: Sequence[Mark] | None = None,
     near: NDArray[np.floating] | None = None,
+    reading: Reading | None = None,
 ) -> str:
     """The frame as an SVG document of WIDTH × HEIGHT in the frame of the laser, x to the right and y up.
 
     A cross marks the laser. The drawing is scaled to fit all valid points; the scale bar is below it.
-    thresholds: written under it. marks: drawn instead of the segments. near: (n, 2) points to fit instead [m].
+    thresholds: written under it. reading: how the file was read, written there as flags. marks: drawn instead of the
+    segments. near: (n, 2) points to fit instead [m].
     """
     notes = textwrap.wrap(_told(thresholds), LETTERS) if thresholds is not None else []
+    if reading is not None and reading.given():
+        notes += textwrap.wrap(f"read with {as_flags(reading.given())}", LETTERS)
     legend = [*(_segment_legend(scan, extraction) if marks is None else map(_key, marks)), (CROSS, "laser")]
     rows = in_rows(legend)
     foot = FOOT + ROW * (len(notes) + len(rows) - 1)

@@ -57,6 +57,7 @@ def write_pack(
     if recording.account is not None and former is None:
         about["reading"] = recording.account.used.given()
     title = figure_title(recording, frame, method.label)
+    given = None if recording.account is None else recording.account.given
     with zipfile.ZipFile(target, "w") as pack:
         # First, so that the first bytes identify the file.
         _add(pack, ABOUT, json.dumps(about, ensure_ascii=False, indent=2))
@@ -64,7 +65,7 @@ def write_pack(
         _add(pack, "frame.csv", "".join(_beams(scan, found.labels)))
         _add(pack, "segments.jsonl", "".join(segment_lines("jsonl", [(number, scan, found)])))
         _add(pack, "trace.jsonl", "".join(_decisions(traced)))
-        _add(pack, "picture.svg", figure_svg(scan, found, title, params))
+        _add(pack, "picture.svg", figure_svg(scan, found, title, params, reading=given))
         _add(pack, "note.txt", note + "\n")
 
 

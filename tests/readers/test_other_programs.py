@@ -233,3 +233,11 @@ def test_a_list_over_many_lines_takes_time_in_proportion_to_its_length(tmp_path)
     path.write_text("header {\n" + "value 1.5 of a list that is never closed\n" * 40_000)
     with pytest.raises(ValueError, match="no list of numbers"):
         open_recording(path)
+
+
+def test_lines_that_are_no_beams_are_counted_as_lines(tmp_path):
+    path = tmp_path / "log.csv"
+    path.write_text("angle_deg,distance_m\n" + rows("{:.0f},{:.3f}", DEGREES, TURN) + "end of log,\n")
+    account = open_recording(path).account
+    assert account is not None
+    assert account.skipped_text == "1 line was skipped, the first at log.csv:362: 'end of log' is not a number."

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scenes import scans, wall_ahead
 
-from lineseg import Params, Scan, extract, figure_svg
+from lineseg import Params, Reading, Scan, extract, figure_svg
 from lineseg.colours import segment_colours
 from lineseg.writers.figure import HEIGHT, WIDTH, bar_length
 
@@ -69,6 +69,9 @@ def test_the_drawing_carries_the_thresholds_and_the_colours_of_its_legend():
     scan = wall_ahead()
     drawing = figure_svg(scan, extract(scan), "wall.csv", Params(epsilon=0.042))
     assert "ε\u00a0=\u00a00.042\u00a0m" in drawing
+    assert "read with" not in drawing
+    given = figure_svg(scan, extract(scan), "wall.csv", reading=Reading(unit="mm", angle_min=-1.5))
+    assert "read with --unit mm --angle-min=-1.5" in given
     red, green, blue = segment_colours(extract(scan).segments)[0]
     # Of the segment, and of the legend.
     assert drawing.count(f"rgb({red} {green} {blue})") == 2
