@@ -302,7 +302,7 @@ def _read_named(
     if reading.columns is not None:
         given = columns_of(reading.columns)
         return _read_columns(source, reading, rows, dialect, given)
-    if reading.skip_columns is None and len(names) < FEW_COLUMNS:
+    if len(names) < FEW_COLUMNS:
         sample = list(islice(rows := iter(rows), SAMPLE))
         rows = chain(sample, rows)
         if 2 * sum(dialect.width(row.text) > len(names) + MANY_BEAMS for row in sample) > len(sample):
@@ -338,7 +338,8 @@ def _read_open_ended(
     if (unit := LENGTHS.get(names[-1].unit)) and reading.unit is None:
         source.notes.found["unit"] = unit
     at = column_of(names[:lead], lambda name: name.plain in STAMPS)
-    words = tuple("stamp" if column == at else "-" for column in range(lead))
+    before = lead if reading.skip_columns is None else reading.skip_columns
+    words = tuple("stamp" if column == at else "-" for column in range(before))
     return read_scans(source, reading, map(plain, rows), dialect, words)
 
 

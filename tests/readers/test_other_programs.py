@@ -241,3 +241,14 @@ def test_lines_that_are_no_beams_are_counted_as_lines(tmp_path):
     account = open_recording(path).account
     assert account is not None
     assert account.skipped_text == "1 line was skipped, the first at log.csv:362: 'end of log' is not a number."
+
+
+@pytest.mark.parametrize("head", ["", "stamp,mode,ranges\n", "laser 1, mode 2\nsecond line\n"])
+def test_the_advice_for_rows_without_angles_can_be_followed(tmp_path, head):
+    path = tmp_path / "odd.csv"
+    path.write_text(head + "".join(f"{at}.5,7,{','.join(WORDS[:97])}\n" for at in range(8)))
+    with pytest.raises(ValueError, match=r"without angles; give angle_increment, and angle_min .* and skip_columns"):
+        open_recording(path)
+    recording = open_recording(path, angle_min=LOW, angle_increment=STEP, skip_columns=2)
+    assert (len(recording), recording.beams) == (8, (97, 97))
+    assert recording[0].ranges == pytest.approx(WIDE[:97], abs=1e-3)
