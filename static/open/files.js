@@ -4,7 +4,8 @@ import { h } from "../widgets/dom.js";
 import { messageOf } from "../fetch.js";
 
 const PARAMETERS = /\.(ya?ml|launch|xml|json|py)$|flags[^/]*\.txt$/i;
-const RECORDING_INSIDE = /\.(db3|mcap|bag|log|gz|npz|csv|txt|dat)$/i;
+const RECORDING_INSIDE =
+  /\.(db3|mcap|bag|log|clf|carmen|gfs|plog|ubh|npz|npy|csv|tsv|txt|dat|asc|xy|jsonl|ndjson|pcd|ply|gz|zst|bz2|xz|zip|tar|tgz)$/i;
 const PART_OF_BAG = /\.(db3|mcap)(\.zstd)?$/i;
 const METADATA = "metadata.yaml";
 const NUMBER_OF_PART = /(_\d+)?\.(db3|mcap)(\.zstd)?$/i;
@@ -94,7 +95,8 @@ export function pick(files) {
   const rest = files.filter((file) => !PART_OF_BAG.test(file.name) && !(bags.length && about.includes(file)));
   const parameters = rest.filter(({ name, size }) => PARAMETERS.test(name) && size < LARGEST_PARAMETERS);
   const others = rest.filter((file) => !parameters.includes(file));
-  const single = others.filter(({ name }) => RECORDING_INSIDE.test(name));
+  // What else lies in a folder was not meant; what was dropped by itself was.
+  const single = others.filter((file) => !folders.has(file) || RECORDING_INSIDE.test(file.name));
   const chosen = bags.length || single.length ? single : others.slice(0, 1);
   const recordings = [
     ...bags.map((parts) => (parts.length > 1 ? [...parts, ...metadataOf(parts, about, bags.length)] : parts)),
