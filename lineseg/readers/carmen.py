@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 from functools import partial
+from itertools import islice
 from typing import NamedTuple
 
 import numpy as np
@@ -27,7 +28,7 @@ BEHIND = re.compile(rb"[^\n]{1,60}?\s(?=(?:[FR]LASER|R(?:OBOT|AW)LASER[1-4]|LASE
 TAILS = {"FLASER": 6, "RLASER": 6, "LASER_READING": 3, "ROBOTLASER": 11, "RAWLASER": 0}
 LASERS = {name.encode(): name for name in ("FLASER", "RLASER", "LASER_READING")}
 LASERS |= {f"{name}{n}".encode(): f"{name}{n}" for name in ("ROBOTLASER", "RAWLASER") for n in (1, 2, 3, 4)}
-MOST_LINES, MOST_BEFORE = 100, 80
+MOST_LINES = 100
 WITHOUT_ANGLES = ("FLASER", "RLASER", "LASER_READING")
 MAXIMA = {"FLASER": b"robot_front_laser_max", "RLASER": b"robot_rear_laser_max"}
 # Lasers with these numbers of beams look over half a turn, as the format assumes of all.
@@ -66,12 +67,13 @@ class CarmenLog(Reader):
     def read(source: Source) -> Recording:
         lasers: dict[str, list[Line]] = {}
         settings: dict[bytes, bytes] = {}
+        with source.path.open("rb") as file:
+            behind = any(map(BEHIND.match, islice(file, MOST_LINES)))
         for number, text in source.lines():
+            if behind and (before := BEHIND.match(text)):
+                text = text[before.end() :]
             word = text.split(None, 1)[:1]
             laser = LASERS.get(word[0]) if word else None
-            if laser is None and b"LASER" in text[:MOST_BEFORE] and (before := BEHIND.match(text)):
-                text = text[before.end() :]
-                laser = LASERS.get(text.split(None, 1)[0])
             if laser:
                 decode, tail = DECODERS[laser]
                 try:

@@ -18,7 +18,7 @@ DASH = re.compile(rb"\s*-\s+(?=[-+]?\.?(?:\d|nan|inf)\S*\s*$)", re.IGNORECASE)
 ROW_END = re.compile(rb"\\\\(?:\[[^\]]*\])?\s*(?:\\\w+\s*)*$|\\(?:tabularnewline|cr)\b.*$")
 DEGREES = re.compile(rb"\^\{?\\circ\}?|\\textdegree|\\degree")
 MARKS = re.compile(rb"\$|\\(?:,|\w+\{|)|[{}]")
-MANY = 10
+MANY, ENOUGH = 10, 16
 
 
 class Dress(NamedTuple):
@@ -56,6 +56,8 @@ DRESSES = (
 
 def undressing(lines: list[bytes]) -> Callable[[bytes], bytes] | None:
     """What takes off the dress that most of the lines wear; None if they wear none."""
+    # Titles may stand above.
+    lines = lines[-ENOUGH:]
     worn = (dress for dress in DRESSES if 2 * sum(map(bool, map(dress.fits, lines))) > len(lines))
     dress = next(worn, None)
     return None if dress is None else dress.off

@@ -303,7 +303,7 @@ def _read_named(
         given = columns_of(reading.columns)
         return _read_columns(source, reading, rows, dialect, given)
     if len(names) < FEW_COLUMNS:
-        sample = list(islice(rows := iter(rows), SAMPLE))
+        sample = list(islice(rows := iter(rows), FEW_ROWS))
         rows = chain(sample, rows)
         if 2 * sum(dialect.width(row.text) > len(names) + MANY_BEAMS for row in sample) > len(sample):
             return _read_open_ended(source, reading, rows, dialect, names)
