@@ -40,6 +40,7 @@ from .routes.export import add_export
 from .routes.inspection import add_inspection
 from .routes.labels import add_labels
 from .routes.lessons import add_lessons
+from .routes.line_map import add_line_map
 from .routes.page import add_page
 from .routes.push import add_push
 from .routes.rereading import add_rereading
@@ -143,6 +144,7 @@ def create_app(settings: Settings) -> FastAPI:
     add_export(app, library, sessions, files)
     add_scene(app, sessions)
     add_inspection(app, sessions, files)
+    add_line_map(app, library, sessions)
     add_labels(app, library, files)
     add_lessons(app, library, sessions)
     add_class(app, library, sessions)

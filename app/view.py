@@ -48,7 +48,8 @@ STRIP_SCORES = {**SCORES, SUSPICION.name: SUSPICION, DIFFERENCE.name: DIFFERENCE
 class Layers:
     """What is drawn; `replay` is the geometry of the decision on the screen, `ghosts` the missed lines in Inspect.
 
-    In the world: `trajectory` of the laser, `past` scans, and `all_lines` of the recording.
+    In the world: `trajectory` of the laser, `past` scans, `all_lines` of the recording, and the
+    `line_map` that they are merged into.
     """
 
     points: bool = True
@@ -68,6 +69,7 @@ class Layers:
     trajectory: bool = True
     past: bool = True
     all_lines: bool = False
+    line_map: bool = False
 
     def but(self, /, **values: bool) -> Self:
         """A copy with some layers switched. Raises ValueError, listing the known names, for an unknown one."""

@@ -622,11 +622,13 @@ export interface Framing {
 /**
  * The laser in the world. pose: x, y [m] and heading [rad], null if it is not known at this frame.
  *
- * upsideDown: whether its beams turn clockwise seen from above.
+ * upsideDown: whether its beams turn clockwise seen from above. map: what is said of the line map, "" while it is
+ * made and if it is not shown.
  */
 export interface World {
   pose: number[] | null;
   upsideDown: boolean;
+  map: string;
 }
 
 /**
@@ -1186,6 +1188,18 @@ export interface RunningNode {
 export interface Robots {
   addresses: string[];
   nodes: RunningNode[];
+}
+
+/**
+ * The lines of the map on the screen.
+ *
+ * ends: x1, y1, x2, y2 [m]; sigma: across, at their middle [m]; seen: lines of frames on each.
+ */
+export interface MapLines {
+  text: string;
+  ends: number[][];
+  sigma: number[];
+  seen: number[];
 }
 
 /** Finds a decision by its properties: the nth (from 0, or negative from the end) that matches all of them. */

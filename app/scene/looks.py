@@ -22,6 +22,7 @@ LINES = {
     "grid": 1.0,
     "all lines": 1.2,
     "trajectory": 1.6,
+    "line map": 2.6,
     "pinned": 9.0,
     "invalid": 1.0,
     "truth": 3.0,
@@ -41,11 +42,11 @@ LINES = {
 }
 # Each lies over those before it.
 ORDER = (
-    "grid", "past", "all lines", "trajectory",
+    "grid", "past", "all lines", "line map", "trajectory",
     "pinned", "invalid", "truth", "laser", "ray", "selected ray", "dropped", "band", "missed", "ghosts",
     "points", "segments", "matched", "false", "normals", "other", "growing",
     "seeds", "endpoints", "window", "predicted",
     "candidate", "selected",
 )  # fmt: skip
 # These are drawn where they are in the world; all others where the laser sees them.
-IN_THE_WORLD = ("grid", "past", "all lines", "trajectory")
+IN_THE_WORLD = ("grid", "past", "all lines", "line map", "trajectory")

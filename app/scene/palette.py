@@ -37,6 +37,7 @@ class Theme:
     past: Colour
     past_line: Colour
     trajectory: Colour
+    mapped: Colour
 
 
 LIGHT = Theme(
@@ -46,7 +47,7 @@ LIGHT = Theme(
     predicted=(110, 70, 215), other=(0, 119, 187),
     pinned=(140, 147, 158), changed=(178, 102, 210),
     matched=(0, 119, 187), missed=(20, 22, 26), false=(222, 105, 20), ghost=(110, 70, 215),
-    past=(142, 147, 154), past_line=(95, 145, 190), trajectory=(222, 105, 20),
+    past=(142, 147, 154), past_line=(95, 145, 190), trajectory=(222, 105, 20), mapped=(16, 62, 105),
 )  # fmt: skip
 DARK = Theme(
     point=(150, 156, 164), invalid=(100, 106, 115), strong=(245, 246, 248), faint=(120, 126, 134),
@@ -55,7 +56,7 @@ DARK = Theme(
     predicted=(170, 140, 255), other=(51, 160, 238),
     pinned=(100, 106, 118), changed=(150, 88, 190),
     matched=(51, 160, 238), missed=(245, 246, 248), false=(255, 140, 70), ghost=(170, 140, 255),
-    past=(100, 106, 115), past_line=(66, 112, 155), trajectory=(255, 140, 70),
+    past=(100, 106, 115), past_line=(66, 112, 155), trajectory=(255, 140, 70), mapped=(150, 205, 250),
 )  # fmt: skip
 # In place of both themes: the colour of a field is its number, as no segment has it.
 NUMBERED = Theme(*((number, 1, 254) for number in range(len(fields(Theme)))))

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lineseg import Recording, Scan, Segment, Survey, difference
+from lineseg.line_map import LineMap
 from lineseg.survey.difference import KEPT
 from lineseg.survey.remark import Ghost
 
@@ -60,8 +61,12 @@ class Place(NamedTuple):
     upside_down: bool
 
 
-def picture_in_world(view: View, drawn: Picture, world: World, survey: Survey | None) -> Picture:
-    """A picture of a frame in the world; without a pose, the frame is left out. survey: of all frames, if known."""
+def picture_in_world(
+    view: View, drawn: Picture, world: World, survey: Survey | None, line_map: LineMap | None = None
+) -> Picture:
+    """A picture of a frame in the world; without a pose, the frame is left out. survey, line_map: of all frames,
+    if known.
+    """
     theme, layers = DARK if view.dark else LIGHT, view.layers
     frame = world.recording.position(view.frame)
     pose = world.pose(frame)
@@ -73,6 +78,8 @@ def picture_in_world(view: View, drawn: Picture, world: World, survey: Survey | 
         lines["trajectory"] = world.trajectory(theme)
     if layers.all_lines and survey is not None:
         lines["all lines"] = world.all_lines(survey, theme)
+    if layers.line_map and line_map is not None:
+        lines["line map"] = world.line_map(line_map, theme)
     if layers.past and view.past != "none":
         points["past"] = world.all_seen(theme) if view.past == "all" else world.last_seen(frame, int(view.past), theme)
     if layers.laser and pose is not None:

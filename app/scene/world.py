@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lineseg import Recording, Survey
+from lineseg.line_map import LineMap
 from lineseg.poses import in_world
 
 from ..frame.geometry import Bounds
@@ -133,6 +134,11 @@ class World:
         ends = np.stack([np.column_stack((rows[f"x{end}"], rows[f"y{end}"])) for end in (1, 2)], axis=1)
         placed = in_world(ends, poses, self.upside_down)
         return lines_between(placed[:, 0], placed[:, 1], theme.past_line)
+
+    def line_map(self, found: LineMap, theme: Theme) -> Lines:
+        """The lines of all frames, merged."""
+        starts, ends = found.ends[:, :2], found.ends[:, 2:]
+        return self._kept(("map", found, theme), lambda: lines_between(starts, ends, theme.mapped))
 
     @cached_property
     def _shapes(self) -> dict:

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 
 from lineseg import Recording, Survey
+from lineseg.line_map import LineMap
 from lineseg.survey.disputes import lines_missed
 
 from ..frame.clock import Clock
@@ -59,8 +60,10 @@ class Composer:
         self._world = lru_cache(maxsize=2)(World.of)
         self._live_bounds: tuple[str, int, Bounds] = ("", 0, (0.0, 0.0, 0.0, 0.0))
 
-    def compose(self, view: View, recording: Recording, survey: Survey | None = None) -> Content:
-        """survey: the lines of all frames, if they are known."""
+    def compose(
+        self, view: View, recording: Recording, survey: Survey | None = None, mapped: LineMap | str | None = None
+    ) -> Content:
+        """survey: the lines of all frames, if they are known; mapped: their map, or why there is none."""
         view = _inside(view, recording)
         frame = recording.position(view.frame)
         found = self._findings(recording, frame, view.method, view.params)
@@ -76,7 +79,8 @@ class Composer:
         drawing = picture(view, recording, found, bounds, pinned, judgement, ghosts)
         world = self._world(recording) if view.space == "world" and view.mode != "learn" else None
         if world is not None:
-            drawing = picture_in_world(view, drawing, world, survey)
+            line_map = mapped if isinstance(mapped, LineMap) else None
+            drawing = picture_in_world(view, drawing, world, survey, line_map)
             bounds = world.bounds
         label = self._library.label(view.recording)
         clock = self._clock(recording)
@@ -85,7 +89,8 @@ class Composer:
         state = state_of(view, recording, label, found, bounds, reference, since, pinned, judgement, nodes, looked)
         if world is not None:
             pose = world.pose(frame)
-            state["world"] = {"pose": pose and list(pose), "upsideDown": world.upside_down}
+            said = mapped.text if isinstance(mapped, LineMap) else mapped or ""
+            state["world"] = {"pose": pose and list(pose), "upsideDown": world.upside_down, "map": said}
         return Content(view, found, drawing, state, clock)
 
     def _looked_at(self, view: View) -> Looked | None:

@@ -13,6 +13,7 @@ from pydantic import BaseModel
 
 from lineseg import Recording, Survey
 from lineseg.failing import mistake
+from lineseg.line_map import LineMap
 from lineseg.readers import Cancelled
 
 from ..frame.geometry import beam_near
@@ -29,6 +30,7 @@ from ..view import View
 from .composing import Composer
 from .following import Presence, Presenter, Pupil, mirrored
 from .loading import opened, refused
+from .map_work import MapWork, Surveyed, shows_map
 from .pace import quick, takes_long, turn_of, waits_for
 from .page import NOBODY, Page, Told
 from .shown import Origin, Painted, Request, Shown, Watch
@@ -83,7 +85,8 @@ class Session:
         self._drawing = Newest(f"session {id[:6]}", self._work)
         self._strip = Strip(f"strip {id[:6]}", warm_up.surveyed, self._tell, self._surveyed)
         # The lines of all frames, as far as they were found last.
-        self._lines: tuple[Recording, Survey] | None = None
+        self._lines: Surveyed | None = None
+        self._map = MapWork(f"map {id[:6]}", self._mapped)
         self._followed = 0.0
         self.presenter = Presenter()
         self._leave_presenter: Callable[[], None] | None = None
@@ -186,6 +189,7 @@ class Session:
         self.follow(None)
         self.presenter.tell("gone")
         self._strip.close()
+        self._map.close()
         self._drawing.close()
         self._alone.acquire(timeout=CLOSING_SECONDS)
         self._scene.stop()
@@ -367,7 +371,9 @@ class Session:
             newest = _at_the_end(newest, recording)
         begun = time.perf_counter()
         lines = self._lines
-        content = self._composer.compose(newest.view, recording, lines[1] if lines and lines[0] is recording else None)
+        survey = lines.lines if lines is not None and lines.recording is recording else None
+        mapped = self._map.of(recording) if shows_map(newest.view) else None
+        content = self._composer.compose(newest.view, recording, survey, mapped)
         drawn = time.perf_counter()
         self._scene.draw(content.picture, content.view.params, content.view.dark)
         # They are kept with what was found.
@@ -393,13 +399,34 @@ class Session:
             if shown is not None and self._page is not None:
                 passing = key_of(self._wanted.view) != key_of(shown.view)
                 self._strip.want(shown.view, shown.recording, self._wanted.rev, passing)
+                self._want_map()
 
     def _surveyed(self, recording: Recording, survey: Survey) -> None:
         """Draw the lines of all frames where they are shown."""
         with self._lock:
-            self._lines = recording, survey
+            self._lines = Surveyed(recording, survey)
+            self._want_map()
             if self._wanted.view.space == "world" and self._wanted.view.layers.all_lines:
                 self._ask(self._wanted.view, self._wanted.rev, "scene")
+
+    def _want_map(self) -> None:
+        """Have the map made of what the screen shows, as long as it shows the map."""
+        lines, shown = self._lines, self._shown
+        same = lines is not None and shown is not None and lines.recording is shown.recording
+        self._map.want(lines if same and self._page is not None and shows_map(self._wanted.view) else None)
+
+    def _mapped(self) -> None:
+        """Draw the map where it is shown."""
+        with self._lock:
+            if shows_map(self._wanted.view):
+                self._ask(self._wanted.view, self._wanted.rev, "scene")
+
+    @property
+    def line_map(self) -> LineMap | None:
+        """The map on the screen."""
+        with self._lock:
+            found = self._map.of(self._shown.recording) if self._shown is not None else None
+        return found if isinstance(found, LineMap) else None
 
     def _load(self, request: Request) -> Recording:
         view, shown = request.view, self.shown

@@ -349,3 +349,15 @@ class Robots(TypedDict):
 
     addresses: list[str]
     nodes: list[RunningNode]
+
+
+class MapLines(TypedDict):
+    """The lines of the map on the screen.
+
+    ends: x1, y1, x2, y2 [m]; sigma: across, at their middle [m]; seen: lines of frames on each.
+    """
+
+    text: str
+    ends: list[list[float]]
+    sigma: list[float]
+    seen: list[int]

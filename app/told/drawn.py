@@ -229,11 +229,13 @@ class Framing(TypedDict):
 class World(TypedDict):
     """The laser in the world. pose: x, y [m] and heading [rad], null if it is not known at this frame.
 
-    upsideDown: whether its beams turn clockwise seen from above.
+    upsideDown: whether its beams turn clockwise seen from above. map: what is said of the line map, "" while it is made
+    and if it is not shown.
     """
 
     pose: list[float] | None
     upsideDown: bool
+    map: str
 
 
 class OfView(TypedDict):

@@ -3,6 +3,7 @@
 import { download } from "../widgets/clipboard.js";
 import { openDialog } from "../widgets/dialog.js";
 import { h } from "../widgets/dom.js";
+import { fetchMap } from "./line_map.js";
 import { pngOf } from "./picture.js";
 import { fetchFile } from "./save.js";
 
@@ -88,8 +89,20 @@ export function createTake(text, { session, state, note, work }) {
         title: text.all,
         items: Object.entries(text.formats).map(([to, label]) => ({ label, run: () => saveSegments(to) })),
       },
+      ...(state()?.mayHavePoses ? [maps(work, text, (to) => address("line-map", { to }))] : []),
     ],
   };
+}
+
+/** @param {Work} work @param {typeof import("../text/export.js").exportText} text @param {(to: string) => string} url @returns {import("../widgets/menu.js").Group} */
+function maps(work, text, url) {
+  const save = (/** @type {string} */ to) =>
+    work(text.mapping, async (show, signal) => {
+      const { name, content } = await fetchMap(url(to), text.broken, show, signal);
+      download(name, content);
+    });
+  const items = Object.entries(text.maps).map(([to, label]) => ({ label, run: () => save(to) }));
+  return { title: text.map, items };
 }
 
 /**

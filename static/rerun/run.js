@@ -1,6 +1,6 @@
 // @ts-check
+import { linesOf } from "../fetch.js";
 import { rerunText } from "../text/rerun.js";
-import { messageOf } from "../fetch.js";
 
 /** @typedef {{recording: string, bytes: number}} Recorded */
 
@@ -14,25 +14,7 @@ import { messageOf } from "../fetch.js";
  */
 export async function record(session, steps, onProgress, signal) {
   const query = new URLSearchParams({ session, steps: String(steps) });
-  const response = await fetch(`/api/rerun?${query}`, { method: "POST", signal });
-  if (!response.ok || !response.body) throw new Error(messageOf(await response.text()));
-  const reader = response.body.pipeThrough(new TextDecoderStream()).getReader();
-  let rest = "";
-  /** @type {Recorded | null} */
-  let recorded = null;
-  for (;;) {
-    const { done, value } = await reader.read();
-    if (done && recorded) return recorded;
-    if (done) throw new Error(rerunText.broken);
-    const lines = (rest + value).split("\n");
-    rest = lines.pop() ?? "";
-    for (const line of lines) {
-      const told = JSON.parse(line);
-      if (told.message) throw new Error(told.message);
-      if (told.recording) recorded = told;
-      else onProgress(told.done, told.total);
-    }
-  }
+  return linesOf(`/api/rerun?${query}`, rerunText.broken, signal, ({ done, total }) => onProgress(done, total));
 }
 
 /** @param {string} recording @param {string} [name] to be saved as */

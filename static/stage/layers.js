@@ -42,7 +42,7 @@ export function createLayers(words, onLayers) {
     /** Offers the true walls only if they are known, and the world only in it. @param {import("../wire.js").State} state */
     setState({ truth, world }) {
       rows[names.indexOf("truth")].hidden = !truth;
-      for (const name of ["trajectory", "past", "all_lines"]) rows[names.indexOf(name)].hidden = !world;
+      for (const name of ["trajectory", "past", "all_lines", "line_map"]) rows[names.indexOf(name)].hidden = !world;
     },
     /** @param {Readonly<import("../wire.js").View>} view */
     setView({ layers }) {

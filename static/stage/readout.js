@@ -9,12 +9,13 @@ export function createReadout(holder, text) {
   const element = h("div", { class: "readout", "aria-hidden": "true", hidden: true });
   holder.append(element);
   return {
-    /** @param {Point | null} at of the plan [m] @param {import("../wire.js").Sweep | null} sweep */
-    show(at, sweep) {
+    /** @param {Point | null} at of the plan [m] @param {import("../wire.js").Sweep | null} sweep @param {string} [more] */
+    show(at, sweep, more = "") {
       element.hidden = at === null;
       if (!at) return;
       const bearing = Math.atan2(at[1], at[0]);
-      setText(element, text(at, Math.hypot(...at), (180 * bearing) / Math.PI, sweep && beamTowards(sweep, bearing)));
+      const words = text(at, Math.hypot(...at), (180 * bearing) / Math.PI, sweep && beamTowards(sweep, bearing));
+      setText(element, [words, more].filter(Boolean).join("   "));
     },
   };
 }

@@ -4,6 +4,7 @@ import { createExplanation } from "../tune/explanation.js";
 import { h } from "../widgets/dom.js";
 import { createCamera } from "./camera.js";
 import { createKey } from "./key.js";
+import { createMapLines } from "./map_lines.js";
 import { createLayers } from "./layers.js";
 import { CanvasStage } from "./canvas_stage.js";
 import { createFlatPicture } from "./flat_picture.js";
@@ -15,6 +16,8 @@ import { mountNotices } from "./notices.js";
 import { createReadout } from "./readout.js";
 import { createRuler } from "./ruler.js";
 import { createWorld } from "./world.js";
+
+const MAP_REACH_PX = 8;
 
 /**
  * @param {import("../page.js").Page} page
@@ -41,12 +44,16 @@ export function mountScene(
     onFraming: (framing) => names.set(framing?.names ?? [], framing?.measures ?? [], framing?.normal),
   });
   const layers = createLayers(text, (switched) => page.change({ layers: switched }));
+  const mapLines = createMapLines(page.sessionId);
   const readout = createReadout(holder, text.stage.readout);
   const pointing = createPointing(page, holder, stage, {
     onLight,
     onThreshold,
     label: text.stage.beam,
-    onPlace: readout.show,
+    onPlace: (at, sweep) => {
+      const line = at && mapLines.at(at, MAP_REACH_PX / (stage.sight?.pxPerMetre ?? Infinity));
+      readout.show(at, sweep, line ? text.stage.world.mapped(line.length, line.sigma, line.seen) : "");
+    },
   });
   const ruler = createRuler(holder, stage, text.stage.ruler, {
     sweep: () => pointing.sweep,
@@ -66,7 +73,7 @@ export function mountScene(
   holder.append(tools, world.list, layers.list, explanation.element);
   holder.setAttribute("aria-label", text.stage.label);
   return {
-    parts: [notices, layers, camera, world, key, pointing, ruler, explanation, ...(flat ? [flat] : [])],
+    parts: [notices, mapLines, layers, camera, world, key, pointing, ruler, explanation, ...(flat ? [flat] : [])],
     stage,
     notices,
     camera,

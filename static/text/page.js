@@ -132,6 +132,9 @@ export const pageText = {
       ride: { label: "Move with the robot", help: "The picture moves along, instead of standing still" },
       poses: (/** @type {string} */ said) => `Poses: ${said}.`,
       lost: "This frame has no pose, so it is not shown.",
+      map: (/** @type {string} */ said) => (said ? `Line map: ${said}` : "Line map: merging the lines of all frames…"),
+      mapped: (/** @type {number} */ length, /** @type {number} */ sigma, /** @type {number} */ seen) =>
+        `map line ${length.toFixed(2)} m ±${(1000 * sigma).toFixed(0)} mm, from ${seen.toLocaleString("en")}`,
     },
     empty: "Drop a recording here",
     emptyHint: "CARMEN log, ROS bag, MCAP, NPZ or text. Or choose a sample from the menu above.",
@@ -211,6 +214,10 @@ export const pageText = {
     trajectory: { label: "Trajectory", help: "The way of the laser through the world" },
     past: { label: "Other scans", help: "What the laser saw in other frames" },
     all_lines: { label: "Lines of all frames", help: "The lines of every frame, where they are in the world" },
+    line_map: {
+      label: "Line map",
+      help: "The lines of all frames, merged where they are one within the noise of beams and poses; point at one for its length and how well it is known",
+    },
     laser: { label: "Laser", help: "Position and direction of the laser" },
     grid: { label: "Grid", help: "Squares of equal size; the scale bar shows how large they are" },
   }),
