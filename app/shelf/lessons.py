@@ -156,6 +156,8 @@ def _filled(home: Home, id: str, lesson: Lesson) -> NamedLesson:
     numbers = Numbers(scan, usual, params, task.goal.at if task.goal else None, lesson.decisions)
     lesson = lesson.model_copy(update={"steps": tuple(steps), "task": _filled_task(task, numbers, home)})
     ranges = accepted(task.goal, scan, params) if task.goal else {}
+    if task.goal and task.goal.changed and not ranges:
+        raise MistakeError(("task", "goal"), f"no value of {' or '.join(task.goal.changed)} alone does what is asked")
     return NamedLesson(id=id, accepted=ranges, own=home.folder is not None, **lesson.model_dump())
 
 

@@ -48,6 +48,7 @@ class Page {
   #shownTrace = /** @type {import("../wire.js").Columns | null} */ (null);
   #origin = /** @type {"page" | "scene"} */ ("page");
   #waiting = false;
+  /** Whether it was said that only the result is stored. */ #onlyResult = false;
   #stage;
   #overlay;
   #closeUp;
@@ -332,6 +333,8 @@ class Page {
     this.#origin = "page";
     this.#learn.setState(/** @type {any} */ (state), origin);
     if (!whole) this.#learn.stepper.say(text.resultOnly(segments.length));
+    else if (this.#onlyResult) this.#learn.stepper.say(null);
+    this.#onlyResult = !whole;
     document.documentElement.dataset.drawn = JSON.stringify([stand.method, this.#place.params, step, segments.length]);
   }
 

@@ -10,7 +10,8 @@ const LARGEST = 1_000_000;
 export async function hasLesson(files) {
   const small = files.filter(({ name, size }) => /\.json$/i.test(name) && size <= LARGEST);
   const texts = await Promise.all(small.map((file) => file.text()));
-  return texts.some((text) => /"steps"\s*:/.test(text) && /"(title|task)"\s*:/.test(text));
+  const names = ["title", "about", "steps", "task"].map((name) => new RegExp(`"${name}"\\s*:`));
+  return texts.some((text) => names.filter((name) => name.test(text)).length >= 2);
 }
 
 /** Sends the files, and returns their lessons. @param {File[]} files @returns {Promise<Lesson[]>} rejected with a sentence */

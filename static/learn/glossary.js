@@ -63,9 +63,12 @@ export class Glossary {
 
   /** Buttons that open the lists. */
   buttons() {
-    const quiet = (/** @type {string} */ words, /** @type {() => void} */ onclick) =>
-      h("button", { type: "button", class: "button quiet", onclick }, words);
-    return [quiet(this.#text.questions, () => this.ask()), quiet(this.#text.open, () => this.open())];
+    const quiet = (/** @type {string} */ words, /** @type {string} */ to, /** @type {() => void} */ onclick) =>
+      h("button", { type: "button", class: `button quiet ${to}`, onclick }, words);
+    return [
+      quiet(this.#text.questions, "to-questions", () => this.ask()),
+      quiet(this.#text.open, "to-terms", () => this.open()),
+    ];
   }
 
   /** Opens the list of the questions that lessons answer. */

@@ -126,7 +126,7 @@ class Learn {
       { class: "lesson-head replay-head" },
       h("h2", { class: "lesson-title" }, text.replay),
       ...this.#glossary.buttons(),
-      h("button", { type: "button", class: "button quiet", onclick: onLeft }, text.lesson.all),
+      h("button", { type: "button", class: "button quiet to-overview", onclick: onLeft }, text.lesson.all),
     );
     const method = h(
       "div",

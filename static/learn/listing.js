@@ -65,6 +65,7 @@ export class Listing {
       return row;
     });
     const items = notes.map((note, k) => h("li", { id: `note-${phase}-${k}` }, ...symbols(note)));
+    for (const { needs, note } of lines) if (needs && note) this.#needing.push([needs, items[notes.indexOf(note)]]);
     return h(
       "div",
       { class: "algorithm", "data-phase": phase },
@@ -117,7 +118,7 @@ function darken(line) {
 
 /** @param {number} k @param {string} note @param {string} phase @param {string} misprint */
 function noteMark(k, note, phase, misprint) {
-  const mark = h("button", { type: "button", class: "note-mark", "aria-label": `${misprint}: ${note}` }, "abcdef"[k]);
+  const mark = h("button", { type: "button", class: "note-mark", "aria-label": `${misprint}: ${note}` });
   mark.setAttribute("aria-describedby", `note-${phase}-${k}`);
   tooltip(mark, note, "left");
   return mark;

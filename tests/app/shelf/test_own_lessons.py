@@ -83,6 +83,10 @@ def task(**kind: Any) -> dict[str, Any]:
         (lesson(steps=[{"text": "![](wall.png)"}]), "(wall.png) has no words in its square brackets"),
         (task(), "a task has one of goal, choice and number; this one has none"),
         (task(choice=[{"text": "1"}, {"text": "2"}]), 'some of the answers to choose must have "right": true'),
+        (
+            task(goal={"lines": [90, 99], "changed": ["epsilon", "delta"]}),
+            "task.goal: no value of epsilon or delta alone does what is asked",
+        ),
         (task(number={"answer": "many"}), "task.number.answer: 'many' does not begin with a number, such as 45 mm"),
     ],
 )
