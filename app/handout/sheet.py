@@ -87,7 +87,8 @@ def _picture(recording, scan: Scan, lesson: NamedLesson, page: Step | Task) -> s
         return ""
     view = View(mode="learn", frame=lesson.frame, method=method, params=params, step=step)
     shown = picture(replace(view, dark=False), recording, found, bounds_of(recording))
-    words = found.trace[step].text if step is not None else f"{len(found.extraction.segments)} lines"
+    count = len(found.extraction.segments)
+    words = found.trace[step].text if step is not None else f"{count} {'line' if count == 1 else 'lines'}"
     return f"<figure>{print_svg(shown, framing, words)}<figcaption>{_line(words)}</figcaption></figure>"
 
 
