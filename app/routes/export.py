@@ -84,6 +84,12 @@ def add_export(app: FastAPI, library: Library, sessions: Sessions, files: LabelF
             raise HTTPException(400, str(error)) from None
         return Response(page, media_type="text/html", headers=named(shown, "html"))
 
+    _add_segments(app, library, sessions)
+
+
+def _add_segments(app: FastAPI, library: Library, sessions: Sessions) -> None:
+    """The segments of all frames."""
+
     @app.get("/api/segments")
     async def segments(session: str = "", to: str = "jsonl") -> StreamingResponse:
         shown = sessions.shown(session)
