@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from lineseg import Recording, simulate
+from lineseg import Recording, Scan, simulate
 from lineseg.many_views import truth_by_many_views
 from lineseg.poses import PoseSource, Track, in_world
 from lineseg.simulate import UTM_30LX, box, circle, door, room
@@ -26,6 +26,11 @@ def drive() -> Recording:
 
 def with_poses(recording: Recording, poses) -> Recording:
     return replace(recording, track=Track.of(np.asarray(poses, float), PoseSource("odometry")), walls=None)
+
+
+def walls_in(scan: Scan) -> np.ndarray:
+    assert scan.wall is not None
+    return scan.wall
 
 
 def differing(recording: Recording, truth: Recording) -> float:
@@ -55,7 +60,7 @@ def test_a_door_in_a_shallow_recess_is_a_wall_of_its_own():
     doors = {2: [door(2.2, 1.2, 0.03)]}
     recording = driven(drive().poses, room([(0, 0), (7, 0), (7, 5), (0, 5)], doors))
     found = truth_by_many_views(recording).recording
-    wall, exact = (np.concatenate([scan.wall[scan.valid] for scan in each]) for each in (found, recording))
+    wall, exact = (np.concatenate([walls_in(scan)[scan.valid] for scan in each]) for each in (found, recording))
     ends = recording.walls
     assert ends is not None
     leaf = int(np.flatnonzero(np.isclose(ends[:, [1, 3]], 5.03).all(axis=1))[0])
@@ -68,8 +73,9 @@ def test_a_door_in_a_shallow_recess_is_a_wall_of_its_own():
 def test_walls_end_where_their_returns_do():
     found = truth_by_many_views(drive()).recording
     assert found.walls is not None
+    assert found.poses is not None
     for k, (x1, y1, x2, y2) in enumerate(found.walls.tolist()):
-        of = [in_world(scan.xy[scan.wall == k], pose) for scan, pose in zip(found, found.poses, strict=True)]
+        of = [in_world(scan.xy[walls_in(scan) == k], pose) for scan, pose in zip(found, found.poses, strict=True)]
         spots = np.concatenate(of)
         normal = np.array((y1 - y2, x2 - x1)) / np.hypot(x2 - x1, y2 - y1)
         assert np.abs((spots - (x1, y1)) @ normal).max() < 0.13
