@@ -29,7 +29,7 @@ export function mountPanels(page, place, words, { scene, inspect, labelling }) {
     pages: [inspect.pages.frames, labelling, inspect.pages.truth],
     explanation: scene.explanation,
     pointing: scene.pointing,
-    profiles: createProfiles(page, layout, words.tuning.profiles).group,
+    profiles: createProfiles(page, layout, words.tuning.profiles),
   });
   const learn = mountLearn(
     { stage: place("stage"), view: scene.stage, dock: place("stepper"), panel: place("learn") },

@@ -10,13 +10,13 @@ import { PRESETS } from "./presets.js";
 /**
  * The menu of the paper's thresholds and of lasers whose ε and κ are known.
  * @param {typeof import("../text/page.js").pageText.tune} text
- * @param {{knobs: () => Knob[], onParams: (params: Params) => void, profiles: () => import("../widgets/menu.js").Group}} handlers
+ * @param {{knobs: () => Knob[], onParams: (params: Params) => void, profiles: import("./profiles.js").Profiles}} handlers
  */
 export function createPresetMenu(text, { knobs, onParams, profiles }) {
   const menu = createMenu({ label: text.presetChoose, name: text.preset, groups });
   tooltip(menu.button, text.presetHelp, "left");
 
-  // Two presets may have the same values.
+  // Two of them may have the same values.
   let chosen = "";
   /** @param {string} name @param {Params} params */
   function choose(name, params) {
@@ -33,20 +33,22 @@ export function createPresetMenu(text, { knobs, onParams, profiles }) {
       run: () => choose(laser, params),
     }));
     const paper = { label: text.presetPaper, note: "", run: () => choose(text.presetPaper, defaultsOf(knobs())) };
+    const { title, items } = profiles.group();
+    const own = { title, items: items.map((item) => ({ ...item, run: () => ((chosen = item.label), item.run()) })) };
     // Presets set ε for a laser; the thresholds of other methods mean something else.
-    if (!forLasers(knobs())) return [profiles()];
-    return [{ title: "", items: [paper] }, { title: text.presetHelp, items: lasers }, profiles()];
+    if (!forLasers(knobs())) return [own];
+    return [{ title: "", items: [paper] }, { title: text.presetHelp, items: lasers }, own];
   }
 
   return {
     element: menu.element,
-    /** Names the preset that the thresholds are. @param {Params} params */
+    /** Names the preset or profile that the thresholds are. @param {Params} params */
     show(params) {
       const is = (/** @type {Params} */ preset) =>
         Object.entries(defaultsOf(knobs())).every(([name, usual]) => params[name] === (preset[name] ?? usual));
       const names = PRESETS.filter((preset) => is(preset.params)).map(({ laser }) => laser);
       if (is({})) names.unshift(text.presetPaper);
-      const fitting = forLasers(knobs()) ? names : [];
+      const fitting = [...(forLasers(knobs()) ? names : []), ...profiles.named(params)];
       menu.setLabel(fitting.includes(chosen) ? chosen : (fitting[0] ?? text.presetChoose));
     },
   };

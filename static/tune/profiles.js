@@ -12,6 +12,8 @@ const KEY = "lineseg.profiles";
 const FORMAT = "lineseg profile 1";
 const LONGEST_NAME = 60;
 
+/** @typedef {ReturnType<typeof createProfiles>} Profiles */
+
 /**
  * @param {import("../page.js").Page} page
  * @param {{get: () => import("../layout/layout.js").Sizes, set: (sizes: import("../layout/layout.js").Sizes) => void}} layout
@@ -32,6 +34,11 @@ export function createProfiles(page, layout, text) {
   }
 
   return {
+    /** The names of those that set these thresholds. @param {import("../wire.js").Params} params */
+    named: (params) =>
+      Object.values(kept())
+        .filter(({ view }) => view.method === page.view.method && isIn(view.params, params))
+        .map(({ name }) => name),
     /** For the menu of presets. @returns {import("../widgets/menu.js").Group} */
     group: () => ({
       title: text.title,
@@ -133,4 +140,9 @@ function profileIn(words) {
   } catch {
     return null;
   }
+}
+
+/** @param {import("../wire.js").Params | undefined} some @param {import("../wire.js").Params} params */
+function isIn(some, params) {
+  return Object.entries(some ?? {}).every(([name, value]) => params[name] === value);
 }

@@ -11,7 +11,7 @@ import { hasHistogram, Threshold } from "./threshold.js";
 /** @typedef {import("../wire.js").Knob} Knob */
 /** @typedef {import("../wire.js").Params} Params */
 /** @typedef {typeof import("../text/page.js").pageText.tune} Text */
-/** @typedef {{onParams: (params: Params, gesture: string | null) => void, onUndo: () => void, onRedo: () => void, profiles: () => import("../widgets/menu.js").Group}} Handlers */
+/** @typedef {{onParams: (params: Params, gesture: string | null) => void, onUndo: () => void, onRedo: () => void, profiles: import("./profiles.js").Profiles}} Handlers */
 
 export class Thresholds {
   #text;

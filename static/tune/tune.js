@@ -10,7 +10,7 @@ import { createTuner } from "./tuner.js";
  * @param {{panel: HTMLElement, replay: HTMLElement}} places
  * @param {typeof import("../text/words.js").words} text
  * @param {{pages: {name: string, label: string, content: HTMLElement}[], explanation: ReturnType<typeof import("./explanation.js").createExplanation>,
- *          pointing: import("../widgets/words.js").Pointing, profiles: () => import("../widgets/menu.js").Group}} others
+ *          pointing: import("../widgets/words.js").Pointing, profiles: import("./profiles.js").Profiles}} others
  *   pages: further pages of the panel, for the mode Inspect
  */
 export function createTune(page, places, text, { pages, explanation, pointing, profiles }) {

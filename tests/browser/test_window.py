@@ -162,3 +162,7 @@ def test_a_profile_is_kept_under_a_name_and_chosen_like_a_preset(new_tab: Callab
     menu.click()
     page.get_by_role("menuitem", name="our RPLIDAR").click()
     tab.until("s.params.epsilon === 0.07 && s.layers.normals")
+    tab.eventually(lambda: menu.inner_text() == "our RPLIDAR", "the button does not name the profile")
+    page.keyboard.press("Control+z")
+    tab.until("s.params.epsilon === 0.02")
+    tab.eventually(lambda: menu.inner_text() != "our RPLIDAR", "the button names a profile that was undone")
