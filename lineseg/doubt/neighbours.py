@@ -29,7 +29,8 @@ def compare_frames(segments, offsets, views, start, stop, votes, brief, gone, ju
 
     brief: total length of the segments that neither the previous nor the next frame has, after correcting for motion
     [m]; gone: of those that both have and this frame lacks although it looks there [m]. jump: how many more, or fewer,
-    segments the frame has than both. jolt: see `turned_back`.
+    segments the frame has than both. jolt: see `turned_back`; 0
+    unless the lines show that it turned so, see `explains`.
     All are 0 for the first and the last frame.
     """
     known = -1
@@ -57,7 +58,8 @@ def compare_frames(segments, offsets, views, start, stop, votes, brief, gone, ju
                         past, sought = motion_between(before, behind, votes), True
                     if is_among(before[i], behind, past):
                         gone[frame] += before[i].length
-            jolt[frame] = turned_back(come, forth)
+            if explains(come, before, here) and explains(forth, here, behind):
+                jolt[frame] = turned_back(come, forth)
 
 
 @entry_kernel
@@ -92,6 +94,20 @@ def turned_back(come, forth):
     """
     turn, back = math.asin(come[1]), -math.asin(forth[1])
     return min(abs(turn), abs(back)) if turn * back > 0.0 else 0.0
+
+
+@kernel
+def explains(motion, here, there):
+    """Whether more than half of the lines, by length, are those of the other frame after the motion.
+
+    Where few lines are the same, any turn aligns some of them.
+    """
+    whole = found = 0.0
+    for i in range(len(here)):
+        whole += here[i].length
+        if is_among(here[i], there, motion):
+            found += here[i].length
+    return 2.0 * found > whole
 
 
 @kernel

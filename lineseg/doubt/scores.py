@@ -109,7 +109,7 @@ SCORES = {
         Score(
             "jolt", "jolt", "rad",
             "Angle by which the sensor turned to this frame and back again to the next, estimated from the segments.",
-            "higher", least=0.1, weight=4.0,
+            "higher", least=0.1, weight=6.0,
         ),
         Score(
             "unstable", "unstable segments", "",
@@ -126,7 +126,8 @@ SCORES = {
         ),
         Score(
             "lapsed", "undisputed lines interrupted", "m",
-            "Total length of the interrupted lines that three of the same four extractions find in the previous frame.",
+            "Total length of the interrupted lines that three of the same four extractions find in the previous frame, "
+            "and of which this frame shows enough: nothing nearer hides a part of them.",
             "higher", least=0.5, weight=3.0,
         ),
         Score(

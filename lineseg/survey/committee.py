@@ -20,8 +20,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arguments import need_recording
-from ..doubt.neighbours import VOTES, mark_frame, views_of
+from ..doubt.neighbours import VOTES, mark_frame, moved, views_of
 from ..doubt.scores import COLUMN
+from ..doubt.visible import shows_enough
 from ..kernel import entry_kernel, kernel
 from ..params import Params
 from ..scan import Recording
@@ -29,6 +30,7 @@ from ..total_least_squares import Scatter, line_through, signed_distance
 from ..truth import demands_of
 from ..tuning.proposal import propose, rescaled
 from .difference import length_of, shared_beams
+from .geometry import geometry_of
 from .result import Survey
 from .threads import survey
 
@@ -173,12 +175,21 @@ def disputed(recording: Recording, base: Survey, committee: Committee, frames: N
     scores, judges = base.need_scores().copy(), len(committee.walls)
     scores[:, COLUMN.disputed] = faults / judges
     scores[:, COLUMN.blank] = np.where(np.diff(base.offsets) == 0, seen / judges, 0.0)
-    lapsed = scores[:, COLUMN.gone].copy()
-    most = int(np.diff(base.offsets).max(initial=0))
-    marks = np.empty((2, most), np.bool_)
-    confirm_gone(base.segments, base.offsets, views_of(recording), votes, CONFIRMING, np.empty(VOTES), marks, lapsed)
-    scores[:, COLUMN.lapsed] = lapsed
+    if len(base):
+        scores[:, COLUMN.lapsed] = _lapsed(recording, base, votes, wanted)
     return replace(base, scores=scores)
+
+
+def _lapsed(recording: Recording, base: Survey, votes: NDArray[np.int32], wanted: Params) -> NDArray[np.float64]:
+    lapsed = base.need_scores()[:, COLUMN.gone].astype(np.float64)
+    marks = np.empty((2, int(np.diff(base.offsets).max(initial=0))), np.bool_)
+    _, rays, place, _ = geometry_of(recording, 0, len(recording))
+    confirm_gone(
+        base.segments, base.offsets, views_of(recording), votes, CONFIRMING, np.empty(VOTES), marks,
+        recording.ranges, recording.offsets, rays, place, recording.range_min, recording.range_max,
+        float(wanted.min_points), wanted.min_length, lapsed,
+    )  # fmt: skip
+    return lapsed
 
 
 @entry_kernel
@@ -294,15 +305,26 @@ def segment_of(wall, segments, beams):
 
 
 @entry_kernel
-def confirm_gone(segments, offsets, views, votes, confirming, memory, marks, lapsed):
-    """Leave in `lapsed`, at first the score "gone", what so many judges find in the previous frame [m]."""
+def confirm_gone(
+    segments, offsets, views, votes, confirming, memory, marks, ranges, beams, rays, place, range_min, range_max,
+    min_points, min_length, lapsed,
+):  # fmt: skip
+    """Leave in `lapsed`, at first the score "gone", what so many judges find in the previous frame [m].
+
+    Only lines of which the frame shows enough. beams: where the ranges of each frame begin; place: see `Geometry`.
+    """
     for frame in range(1, len(offsets) - 2):
         if lapsed[frame] > 0.0:
             here = segments[offsets[frame] : offsets[frame + 1]]
             before = segments[offsets[frame - 1] : offsets[frame]]
             behind = segments[offsets[frame + 1] : offsets[frame + 2]]
-            mark_frame(before, here, behind, views[frame], memory, marks[0], marks[1])
+            to_here, _ = mark_frame(before, here, behind, views[frame], memory, marks[0], marks[1])
+            seen = ranges[beams[frame] : beams[frame + 1]]
+            sight = rays[2 * place[frame] : 2 * (place[frame] + len(seen))]
+            low, high = range_min[frame], range_max[frame]
             lapsed[frame] = 0.0
             for i in range(len(before)):
                 if marks[1, i] and votes[offsets[frame - 1] + i] >= confirming:
-                    lapsed[frame] += before[i].length
+                    ends = moved(before[i], to_here)
+                    if shows_enough(ends, sight, seen, low, high, min_points, min_length):
+                        lapsed[frame] += before[i].length

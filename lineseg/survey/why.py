@@ -14,11 +14,13 @@ from ..doubt.misses import misses, why_none
 from ..doubt.neighbours import VOTES, mark_frame, moved, views_of
 from ..doubt.scores import LOOSER, NEAR_EPSILON, SCORES, find_splits
 from ..doubt.suspicion import AROUND, WEIGHTS, doubts
+from ..doubt.visible import shows_enough
 from ..extractors import extract, trace
 from ..knobs import Thresholds
 from ..params import Params
 from ..region_growing.limits import limits_of
 from ..scan import Recording, Scan
+from ..truth import demands_of
 from .committee import Committee, disputed, judges_of
 from .disputes import confirmed, disputes
 from .frame_by_frame import judge_of
@@ -104,6 +106,12 @@ class _Scene:
         beams = (row["first"] + np.arange((row["last"] - row["first"]) % len(self.scan) + 1)) % len(self.scan)
         return beams[self._in_lines[beams]]
 
+    def shows_enough(self, ends: tuple[float, float, float, float]) -> bool:
+        """Whether the frame should have a line between these ends."""
+        scan, wanted = self.scan, demands_of(self.params)
+        limits = scan.range_min, scan.range_max, float(wanted.min_points), wanted.min_length
+        return bool(shows_enough(ends, np.ravel(scan.rays), scan.ranges, *limits))
+
     @cached_property
     def _in_lines(self) -> NDArray[np.bool_]:
         """(n,) the valid beams; for region growing without those on objects that lines pass behind."""
@@ -179,7 +187,7 @@ def _beside(scene: _Scene) -> Iterator[Remark]:
         because = f" – {reason}" if reason else ""
         text = f"a {row['length']:.1f} m line of both neighbouring frames is missing, {place}{because}"
         span = (int(beams[0]), int(beams[-1])) if len(beams) else (-1, -1)
-        sure = confirmed(row, walls, scene.params, beams_before)
+        sure = confirmed(row, walls, scene.params, beams_before) and scene.shows_enough(ends)
         yield Remark("lapsed" if sure else "gone", text, *span, ghosts=(ends,))
     if scene.score("jump") > SCORES["jump"].least:
         counts = f"{len(before)} in the previous frame, {len(behind)} in the next"

@@ -40,7 +40,7 @@ def fails_by_itself(file):
 @pytest.mark.parametrize("seed", [1, 2, 3])
 @pytest.mark.parametrize("name, found_least", [("hallway", 9), ("laboratory", 7)])
 def test_nine_of_ten_planted_failures_are_among_the_fifteen_worst(name, found_least, seed):
-    """The weights were chosen on the seeds 100 to 111: there 9.2 of 10 are found in the hallway, 8.3 of 9 here.
+    """The weights were chosen on the seeds 100 to 111; `benchmarks/suspicion.py` says how many are found on average.
 
     Frames that fail on their own, a third of each recording, are not counted among the fifteen: they rightly rank high.
     No wall of the laboratory is seen at an angle small enough for a line to bridge an open door.

@@ -1,0 +1,49 @@
+"""Whether a frame that lacks a line of its neighbours shows enough of it for the lack to be a failure."""
+
+from __future__ import annotations
+
+from ..kernel import entry_kernel, kernel
+
+# Lines of P_min points or L_min metres come and go as the robot moves: this many times as much counts.
+AMPLE = 1.5
+# A return differs by less than this from where its beam meets the line [m], or it is of something else.
+OFF_LINE = 0.15
+# So large a share of a wall is not hidden from one frame alone by what passes by.
+ALL_HIDDEN = 0.9
+
+
+@entry_kernel
+def shows_enough(ends, rays, ranges, range_min, range_max, min_points, min_length):
+    """Whether a line (x1, y1, x2, y2) should have been found; rays: (2·beams,) cosines, then sines.
+
+    The beams that point at it count if they have no return or one that lies on it: AMPLE times P_min of them, along
+    AMPLE times L_min. A line that something nearer hides in part is rightly missing. One that is hidden altogether is
+    not, because neither neighbour sees anything there.
+    """
+    beams, nearer, beyond = beams_at(ends, rays, ranges, range_min, range_max)
+    if beams < AMPLE * min_points:
+        return False
+    length = ((ends[2] - ends[0]) ** 2 + (ends[3] - ends[1]) ** 2) ** 0.5
+    seen = beams - nearer - beyond
+    ample = seen >= AMPLE * min_points and length * seen >= AMPLE * min_length * beams
+    return ample or (nearer > ALL_HIDDEN * beams and length >= AMPLE * min_length)
+
+
+@kernel
+def beams_at(ends, rays, ranges, range_min, range_max):
+    """How many beams point at a line, and how many of them return from before it, and from beyond it."""
+    x1, y1, dx, dy = ends[0], ends[1], ends[2] - ends[0], ends[3] - ends[1]
+    n, beams, nearer, beyond = len(ranges), 0, 0, 0
+    for k in range(n):
+        cos, sin, found = rays[k], rays[n + k], ranges[k]
+        across = cos * dy - sin * dx
+        if across == 0.0:
+            continue
+        # The beam and the line meet at this range, and at this share of the line.
+        expected, along = (x1 * dy - y1 * dx) / across, (x1 * sin - y1 * cos) / across
+        if expected > 0.0 and 0.0 <= along <= 1.0:
+            beams += 1
+            if found > 0.0 and found >= range_min and found < range_max:
+                nearer += found < expected - OFF_LINE
+                beyond += found > expected + OFF_LINE
+    return beams, nearer, beyond
