@@ -117,7 +117,9 @@ class Learn {
     const onMake = () => openMaking(text.making, { session, box, onMade: (lessons) => this.takeLessons(lessons) });
     const { onMissing, stored } = handlers;
     const onLeft = () => this.#showOverview();
-    const kept = { session, stored };
+    // A lesson that a link names may come after the View.
+    const onRead = () => this.#arrange(this.#event);
+    const kept = { session, stored, onRead };
     this.#lessons = new Lessons(words, this.#glossary, { onChange, onDraw, onGo, onMake, onMissing, onLeft, ...kept });
     this.#panel = panel;
     panel.setAttribute("aria-label", text.panel);

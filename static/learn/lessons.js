@@ -20,7 +20,7 @@ import { Showing } from "./shown.js";
 /** @typedef {import("../wire.js").Step} LessonStep */
 /** @typedef {import("../wire.js").NamedLesson} Lesson */
 /** @typedef {import("../wire.js").Lessons} Told */
-/** @typedef {{onChange: (patch: Patch, gesture?: string | null) => void, onLeft: () => void, onGo: (step: number | null) => void, onDraw: () => void, onMake: () => void, onMissing?: (id: string) => void, session: () => string, stored?: boolean}} Handlers */
+/** @typedef {{onChange: (patch: Patch, gesture?: string | null) => void, onLeft: () => void, onRead: () => void, onGo: (step: number | null) => void, onDraw: () => void, onMake: () => void, onMissing?: (id: string) => void, session: () => string, stored?: boolean}} Handlers */
 
 // Every lesson is about this method; a step may show another for comparison.
 const METHOD = "region-growing";
@@ -122,6 +122,7 @@ export class Lessons {
       this.#list.count > 1 ? `${this.#list.numberOf(chosen)} · ${chosen.title}` : chosen.title,
       [...this.#sliders.values()].map((slider) => slider.element),
     );
+    this.#handlers.onRead();
   }
 
   /** Shows the lesson and the page of a View that came from elsewhere: a link, or the presenter. @param {Readonly<View>} view */
@@ -193,6 +194,7 @@ export class Lessons {
     this.showing.turn(null);
     this.element.dataset.page = "";
     this.#list.show();
+    this.#handlers.onRead();
   }
 
   #forward() {

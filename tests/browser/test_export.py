@@ -32,7 +32,7 @@ def test_the_frame_is_taken_along_as_a_picture_and_all_segments_as_files(new_tab
     tab = new_tab("#frame=17&epsilon=0.02")
     tab.page.get_by_role("button", name="Export").click()
     headings = tab.page.locator(".menu:popover-open .menu-title").all_inner_texts()
-    assert headings[:3] == ["This frame", "Segments of all frames", "Parameters"]
+    assert headings[:4] == ["This frame", "Segments of all frames", "Line map", "Parameters"]
     tab.page.keyboard.press("Escape")
     found = extract(open_recording(HALLWAY)[17], Params(epsilon=0.02)).segments
     svg = saved(tab, "Picture (SVG)", tmp_path)
