@@ -302,7 +302,7 @@ def _guessed(source: Source, table: NDArray[np.float64]) -> Roles:
 
 def columns_of_beam(table: NDArray[np.float64]) -> tuple[float, Roles]:
     """The likeliest columns of a beam, and how unequal the steps of their angles are (`regularity`)."""
-    columns = [column for column in range(table.shape[1]) if np.isfinite(table[:, column]).mean() > 0.5]
+    columns = np.flatnonzero(np.isfinite(table).mean(axis=0) > 0.5).tolist()
     found: list[tuple[float, Roles]] = []
     for angle in columns:
         if np.nanmax(np.abs(table[:, angle])) <= MOST_DEGREES:
@@ -320,9 +320,11 @@ def _distance_beside(table: NDArray[np.float64], columns: list[int], angle: int)
     order = sorted((at for at in columns if at != angle), key=lambda at: (at < angle, abs(at - angle)))
     # A code for "no return" may be negative; distances are not.
     order = [at for at in order if len(np.unique(table[table[:, at] < 0, at])) <= FEW_CODES]
+    if len(order) < 2:
+        return order[0] if order else None
     found = (np.unique(table[np.isfinite(table[:, at]), at]) for at in order)
     varied = (at for at, values in zip(order, found, strict=True) if len(values) > min(3, len(table) - 1))
-    return next(varied, order[0] if order else None)
+    return next(varied, order[0])
 
 
 def _radians(angles: Floats) -> Floats:

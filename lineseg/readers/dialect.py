@@ -191,12 +191,13 @@ def text_of(cell: bytes) -> str:
 def dialect_of(lines: list[bytes]) -> Dialect:
     """The dialect of some lines, of which the first may be a header."""
     data = (lines if begins_with_number(lines[0]) else lines[1:]) or lines
+    whole = b" ".join(data)
     for mark in (b";", b"\t", b"|"):
-        if sum(mark in line for line in data) > len(data) / 2:
+        if mark in whole and sum(mark in line for line in data) > len(data) / 2:
             return Dialect(mark, _decimal_commas([line.split(mark) for line in data]))
-    if not any(b"," in line for line in data):
+    if b"," not in whole:
         return Dialect(b" ")
-    words = b" ".join(data).split()
+    words = whole.split()
     if len(words) >= 2 * len(data) and all(EITHER.fullmatch(word) for word in words):
         return Dialect(b" ", comma=True)
     if len(words) >= 2 * len(data) and all(ENGLISH.fullmatch(word) or is_number(word) for word in words):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -62,9 +63,15 @@ FOREIGN = (
 
 def foreign(name: str, head: bytes) -> None:
     """Raises ValueError with what the file is and the way on, if it is one of these."""
-    for begins, what, way in FOREIGN:
-        if re.match(begins, head, re.IGNORECASE if begins.startswith(rb"\s{") else 0):
+    for at, begins in enumerate(_beginnings()):
+        if begins.match(head):
+            _, what, way = FOREIGN[at]
             raise ValueError(f"{name} is {what}; {way}.")
+
+
+@cache
+def _beginnings() -> list[re.Pattern[bytes]]:
+    return [re.compile(begins, re.IGNORECASE if begins.startswith(rb"\s{") else 0) for begins, _, _ in FOREIGN]
 
 
 def unknown(name: str, head: bytes, expected: str, formats: str) -> ValueError:

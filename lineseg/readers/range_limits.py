@@ -35,6 +35,6 @@ def longest_return(ranges: Floats, announced: float | None = None) -> float:
     if announced is not None and announced > 0:
         beyond = np.unique(finite[finite >= announced])
         return announced if len(beyond) <= FEW_CODES else np.inf
-    if np.isclose(greatest, ROUND_MAXIMA, rtol=0, atol=1e-6).any() and np.count_nonzero(finite == greatest) > 1:
+    if any(abs(greatest - each) <= 1e-6 for each in ROUND_MAXIMA) and np.count_nonzero(finite == greatest) > 1:
         return greatest
     return np.inf

@@ -17,10 +17,11 @@ WIDEST, LEAST_BEAMS = 40, 30
 LEAST_LINES = 3
 
 
-def scans_over_lines(source: Source, dialect: Dialect, head: list[Row]) -> tuple[list[int], list[Floats]] | None:
+def scans_over_lines(
+    source: Source, dialect: Dialect, head: list[Row], width: int
+) -> tuple[list[int], list[Floats]] | None:
     """(line numbers, ranges) of scans that are parted by blank lines, by lines of words, or by a shorter line; or of
-    one scan in all lines. None if the file has one scan, or one beam, a line."""
-    width = max(dialect.width(row.text) for row in head)
+    one scan in all lines. None if the file has one scan, or one beam, a line. width: the most cells of a line."""
     if width == 2 or width > WIDEST or usual_angles(width) is not None:
         return None
     if width > 2:

@@ -50,6 +50,8 @@ from .source import Reader, Source
 from .spanning import scans_over_lines
 from .table import echo_columns, read_table
 
+# How most rows begin; nothing is to be done to them.
+PLAIN = frozenset(b"%c" % each for each in b"+-.0123456789")
 ECHO = re.compile(rb"%time[,;\t]field\.")  # the first line of `rostopic echo -p`
 SEPARATOR = re.compile(rb"sep=.", re.IGNORECASE)  # the first line of Excel's tables
 # A remark after a semicolon, and one behind the numbers of a line.
@@ -101,6 +103,9 @@ class Text(Reader):
 
 def _rows(source: Source) -> Iterator[Row]:
     for number, line in source.lines():
+        if line[:1] in PLAIN and b"#" not in line:
+            yield Row(number, line)
+            continue
         text = line.removeprefix(b"\xef\xbb\xbf") if number == 1 else line
         stripped = text.strip()
         if stripped and not (number == 1 and SEPARATOR.fullmatch(stripped)):
@@ -413,9 +418,9 @@ def _read_numbers(
         return _read_columns(source, reading, rows, dialect, columns_of(reading.columns))
     if names is not None:
         return read_beams(source, reading, rows, dialect, names)
-    if reading.skip_columns is None and (spans := scans_over_lines(source, dialect, head)) is not None:
-        return scans_of(source, reading, *spans, 0, None)
     width = max(dialect.width(row.text) for row in head)
+    if reading.skip_columns is None and (spans := scans_over_lines(source, dialect, head, width)) is not None:
+        return scans_of(source, reading, *spans, 0, None)
     few = width == 2 or (2 < width < FEW_COLUMNS and len(head) >= MANY_ROWS)
     if few and reading.skip_columns is None and reading.angle_increment is None:
         return read_beams(source, reading, rows, dialect, None)
