@@ -112,7 +112,7 @@ class Foxglove:
     def _why_none(self, topic: str | None) -> str:
         named = [channel for channel in self._channels.values() if channel["topic"] == topic]
         if named:
-            return f"{_shown(named[0])}; choose a sensor_msgs/LaserScan as {', '.join(ENCODINGS)}"
+            return f"{_shown(named[0])}; choose a sensor_msgs/LaserScan or foxglove.LaserScan as {', '.join(ENCODINGS)}"
         there = ", ".join(_shown(channel) for channel in list(self._channels.values())[:8])
         missing = f"has no topic {topic}" if topic else "has no sensor_msgs/LaserScan topic"
         return f"the robot {missing} yet; it has {there or 'no topic at all'}"
@@ -128,18 +128,27 @@ def _is_channel(channel: Any) -> bool:
 
 
 def _is_laser(channel: dict[str, Any]) -> bool:
-    return is_laser(channel["schemaName"], channel["encoding"]) and channel["encoding"] in ENCODINGS
+    try:
+        schema = _schema(channel)
+    except ValueError:
+        schema = b""  # told when it is needed to decode
+    return channel["encoding"] in ENCODINGS and is_laser(channel["schemaName"], channel["encoding"], schema)
 
 
 def _decoder(channel: dict[str, Any]) -> Decoder:
-    """Raises ValueError if the channel's schema cannot be used. Binary schemas come as base64."""
-    schema = b""
-    if channel["encoding"] == "protobuf":
-        try:
-            schema = base64.b64decode(str(channel.get("schema", "")), validate=True)
-        except ValueError as error:
-            raise ValueError(f"its schema is not base64 ({error})") from None
-    return decoder_of(channel["schemaName"], channel["encoding"], schema, 0)
+    """Raises ValueError if the channel's schema cannot be used."""
+    return decoder_of(channel["schemaName"], channel["encoding"], _schema(channel), 0)
+
+
+def _schema(channel: dict[str, Any]) -> bytes:
+    """The schema of a channel; binary ones come as base64. Raises ValueError for other text."""
+    text = str(channel.get("schema", ""))
+    if channel["encoding"] != "protobuf":
+        return text.encode("utf-8", "replace")
+    try:
+        return base64.b64decode(text, validate=True)
+    except ValueError as error:
+        raise ValueError(f"its schema is not base64 ({error})") from None
 
 
 def _shown(channel: dict[str, Any]) -> str:

@@ -57,7 +57,7 @@ class Robot:
 
     def channel(self, topic: str, encoding: str, schema: str = SCAN) -> Channel:
         kind = {"cdr": "ros2msg", "ros1": "ros1msg", "json": "jsonschema"}[encoding]
-        text = b'{"type": "object"}' if encoding == "json" else b""
+        text = b'{"type": "object", "properties": {"ranges": {"type": "array"}}}' if encoding == "json" else b""
         described = Schema(name=schema, encoding=kind, data=text)
         return Channel(topic, schema=described, message_encoding=encoding, context=self.context)
 
@@ -105,19 +105,30 @@ def test_scans_arrive_in_each_encoding_and_segments_go_back(robots: list[Robot],
         np.testing.assert_allclose(points, [[2.0, -2.0], [2.0, 2.0]], atol=1e-3)
 
 
-def test_scans_of_foxglove_arrive_as_protobuf(robots: list[Robot], tmp_path: Path):
+@pytest.mark.parametrize(
+    ("encoding", "schema"),
+    [("protobuf", "foxglove.LaserScan"), ("json", "foxglove.LaserScan"), ("json", "robot.Lidar")],
+)
+def test_scans_of_foxglove_arrive_with_their_time_also_under_another_name(
+    robots: list[Robot], tmp_path: Path, encoding, schema
+):
     robots.append(robot := Robot())
-    channel = LaserScanChannel("/scan", context=robot.context)
+    sent = scan_message(wall(3.0))
+    end = sent["angle_min"] + sent["angle_increment"] * (len(sent["ranges"]) - 1)
+    plain = {"frame_id": "laser", "start_angle": sent["angle_min"], "end_angle": end, "ranges": sent["ranges"]}
+    if encoding == "protobuf":
+        channel = LaserScanChannel("/scan", context=robot.context)
+        message = messages.LaserScan(**plain, timestamp=messages.Timestamp(7, 250_000_000))
+    else:
+        channel = robot.channel("/scan", encoding, schema)
+        message = json.dumps(plain | {"timestamp": {"sec": 7, "nsec": 250_000_000}, "pose": {}}).encode()
     with watching(robot.url, tmp_path) as server, page_of(server) as page:
         page.say(type="hello")
         assert robot.listener.subscribed.get(timeout=60) == "/scan"
-        sent = scan_message(wall(3.0))
-        end = sent["angle_min"] + sent["angle_increment"] * (len(sent["ranges"]) - 1)
-        ranges = [float(distance) for distance in sent["ranges"]]
-        message = messages.LaserScan(frame_id="laser", start_angle=sent["angle_min"], end_angle=end, ranges=ranges)
         channel.log(message)
         state = page.hear_a("drawn")["state"]
         assert (nearest(state), state["frameId"]) == (pytest.approx(3.0, abs=1e-3), "laser")
+        assert state["stamp"] == pytest.approx(7.25)
 
 
 def decoded(encoding: str, data: bytes) -> tuple[tuple[int, int, str], list[list[float]]]:
