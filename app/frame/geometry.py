@@ -1,4 +1,4 @@
-"""Bounding boxes of scans and recordings [m], and the beam nearest to a point."""
+"""Bounding boxes of scans and recordings [m], the line through points, and the beam nearest to a point."""
 
 from __future__ import annotations
 
@@ -35,6 +35,14 @@ def bounds_of(recording: Recording) -> Bounds:
     margin = 0.02 * max(float((high - low).max()), 1.0)
     low, high = low - margin, high + margin
     return float(low[0]), float(low[1]), float(high[0]), float(high[1])
+
+
+def fitted(xy: NDArray) -> tuple[float, float, float]:
+    """(a, b, c) of the line ax + by + c = 0 through points (n, 2) [m], by total least squares (Eq. 2)."""
+    middle = xy.mean(axis=0)
+    # The normal is the direction in which the points scatter least.
+    a, b = np.linalg.svd(xy - middle)[2][1].tolist()
+    return a, b, float(-(a * middle[0] + b * middle[1]))
 
 
 def extent_of(scan: Scan, bounds: Bounds) -> Bounds:

@@ -26,6 +26,7 @@ WORDS = {
     "predicted": "predicted point P′",
     "growing": "line at this step",
     "other": "second line",
+    "bent": "line fitted with P",
     "band": "band of ±ε",
     "ray": "laser beam",
     "endpoints": "ends of lines",

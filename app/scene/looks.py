@@ -36,6 +36,7 @@ LINES = {
     "laser": 2.0,
     "growing": 3.5,
     "other": 3.5,
+    "bent": 2.0,
     "band": 1.5,
     "ray": 1.5,
     "selected ray": 1.5,
@@ -44,7 +45,7 @@ LINES = {
 ORDER = (
     "grid", "past", "all lines", "line map", "trajectory",
     "pinned", "invalid", "truth", "laser", "ray", "selected ray", "dropped", "band", "missed", "ghosts",
-    "points", "segments", "matched", "false", "normals", "other", "growing",
+    "points", "segments", "matched", "false", "normals", "other", "bent", "growing",
     "seeds", "endpoints", "window", "predicted",
     "candidate", "selected",
 )  # fmt: skip

@@ -12,13 +12,16 @@ from lineseg.colours import SEGMENTS
 from lineseg.region_growing.prediction import predicted_ranges
 
 from ..frame.findings import Findings
+from ..frame.geometry import fitted
 from .palette import Colours, Theme
-from .shapes import Lines, Points, joined, lines_between, points_at
+from .shapes import Lines, Points, dashed, joined, lines_between, points_at
 
 Line = tuple[float, float, float]
 NO_XY = np.empty((0, 2))
 # A nearly parallel beam meets the line farther away than this [m]; it counts as never meeting it.
 FAR = 1e6
+# Dashes of a line that was not fitted.
+DASHES = 24
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,7 +73,10 @@ def _candidate_colours(found: Findings, candidates: tuple[int, ...]) -> Colours:
 
 
 def decision_geometry(found: Findings, step: int, theme: Theme) -> tuple[dict[str, Points], dict[str, Lines]]:
-    """The window under test, the fitted line with its ε band, P and P′ with the beam, and the candidate point."""
+    """The window under test, the fitted line with its ε band, P and P′ with the beam, and the candidate point.
+
+    Where it would have changed the decision, also the line fitted with the candidate.
+    """
     decision, scan = _as_compared(found, found.trace[step]), found.scan
     points: dict[str, Points] = {}
     lines: dict[str, Lines] = {}
@@ -93,12 +99,30 @@ def decision_geometry(found: Findings, step: int, theme: Theme) -> tuple[dict[st
         lines["other"] = lines_between(start, end, theme.other)
     if decision.beam >= 0 and is_line(decision.line):
         points["predicted"], lines["ray"] = prediction(scan, decision, theme)
+    if (bent := bent_line(found, decision)) is not None:
+        start, end = span(scan.xy[[*inside, decision.beam]], bent)
+        dash = float(np.linalg.norm(end - start)) / (2 * DASHES)
+        lines["bent"] = dashed(start[None], end[None], dash, theme.other)
     if decision.ends is not None:
         lines["growing"] = lines_between(decision.ends[:2], decision.ends[2:], tone)
         outermost = scan.xy[[decision.first, decision.last]]
         lines["ray"] = lines_between(outermost, np.reshape(decision.ends, (2, 2)), theme.candidate)
         points["candidate"] = points_at(outermost, theme.candidate)
     return points, lines
+
+
+def bent_line(found: Findings, decision: Decision) -> Line | None:
+    """The line that a refused point would have bent to itself by joining before it was compared; None if it is as
+    far from that line."""
+    scan = found.scan
+    refused = decision.kind == "growth stopped" and decision.check == "epsilon"
+    # Some methods also refuse beams without a return.
+    if not refused or decision.beam < 0 or not scan.valid[decision.beam]:
+        return None
+    inside = found.trace.beams(decision.first, decision.last)
+    point = scan.xy[decision.beam]
+    line = fitted(np.concatenate((scan.xy[inside[scan.valid[inside]]], point[None])))
+    return line if np.linalg.norm(point - foot(point, line)) < decision.limit else None
 
 
 def _as_compared(found: Findings, decision: Decision) -> Decision:

@@ -16,12 +16,12 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from lineseg.extractors import EXTRACTORS
 from lineseg.params import Params
 from lineseg.scan import Scan
 from lineseg.tracing.decisions import Decision, Trace
+
+from ..frame.geometry import fitted
 
 if TYPE_CHECKING:
     from .lesson import Find, Named
@@ -103,10 +103,8 @@ class Numbers:
             raise ValueError(f"{{joined}}: “{decision.kind}” is about no single beam")
         beams = [*traced.beams(decision.first, decision.last), decision.beam]
         xy = self.scan.xy[[beam for beam in beams if self.scan.valid[beam]]]
-        from_mean = xy - xy.mean(axis=0)
-        # The normal is the direction in which the points scatter least.
-        normal = np.linalg.svd(from_mean)[2][1]
-        return float(abs(from_mean[-1] @ normal))
+        a, b, c = fitted(xy)
+        return float(abs(xy[-1] @ (a, b) + c))
 
     def shown_decision(self) -> Decision | None:
         """The decision that the text shows. Raises ValueError if there is none such."""

@@ -268,3 +268,11 @@ def test_every_method_is_drawn_and_told_in_plain_numbers_at_every_step(method):
             state_of(view, recording, "hallway", found, bounds, Reference.of("labels", recording, None), None),
             allow_nan=False,
         )
+
+
+def test_the_line_that_a_refused_point_would_have_bent_to_itself_is_drawn_if_it_is_short():
+    for beam, bent in ((6, True), (20, False)):
+        walls = Recording.from_scans([wall_ahead(bump={beam: -0.06})])
+        trace = findings(walls, 0, "region-growing", Params()).trace
+        stop = next(each for each in trace if each.kind == "growth stopped" and each.beam == beam)
+        assert ("bent" in draw(View(step=stop.index), walls).nodes) == bent
