@@ -16,11 +16,13 @@ from .bundle import script_of, style_of
 
 SHEETS = (
     "base.css", "widgets/controls.css", "widgets/dialog.css", "widgets/tooltip.css", "widgets/decision.css",
-    "widgets/track.css", "widgets/words.css", "stage/stage.css", "stage/overlay.css", "bars/topbar.css", "keys.css",
-    "tune/explanation.css", "tune/replay.css", "tune/panel.css", "tune/sliders.css", "learn/learn.css",
-    "handout/handout.css", "handout/sheet.css",
+    "widgets/track.css", "widgets/words.css", "widgets/symbols.css", "stage/stage.css", "stage/overlay.css",
+    "bars/topbar.css", "keys.css", "tune/explanation.css", "tune/replay.css", "tune/panel.css", "tune/sliders.css",
+    "learn/learn.css", "learn/stepper.css", "learn/listing.css", "learn/formulas.css", "learn/charts.css",
+    "learn/lessons.css", "learn/answers.css", "learn/diagram.css", "learn/blocks.css", "learn/shown/shown.css",
+    "learn/ladder.css", "learn/glossary.css", "handout/handout.css", "handout/sheet.css",
 )  # fmt: skip
-LIST_SHEETS = ("base.css", "learn/learn.css", "handout/list.css")
+LIST_SHEETS = ("base.css", "learn/lessons.css", "handout/list.css")
 # Tells our pages from other files.
 GENERATOR = f'<meta name="generator" content="lineseg {__version__}">'
 # What asks the server, and what takes its place.
