@@ -94,31 +94,35 @@ def truth_by_many_views(recording: Recording, progress: Progress | None = None) 
     given = check(recording)
     returns = Returns.of(recording, given)
     given = np.ascontiguousarray(given[returns.frames], dtype=np.float64)
-    scan, views, poses = returns.scan, views_of(given), given
+    views, poses = views_of(given), given
+    some = returns.thinned(views, MOST_RETURNS)
+    scan = some.scan
     say(1, ROUNDS + 2)
-    first = fit = _fit(returns, scan, poses, views)
+    first = fit = _fit(some, scan, poses, views)
     say(2, ROUNDS + 2)
     for turn in range(1, ROUNDS):
         poses = refined(returns, given, poses, fit.walls, 0.20 / turn, max(fit.thickness, 0.01))
-        fit = _fit(returns, scan, poses, views)
+        fit = _fit(some, scan, poses, views)
         say(turn + 2, ROUNDS + 2)
     pieces, wall_of = parted(fit, scan, poses, views)
-    piece, height = labels_of(fit.placed, scan, poses, views, pieces)
+    known = Known.of(fit.placed, scan, poses, views, pieces)
     wall_of = divided_at_openings(pieces, wall_of, fit.placed, scan, poses, fit.thickness)
-    wall = np.where(piece >= 0, wall_of[piece] if len(wall_of) else -1, piece).astype(np.int32)
+    piece, height = np.empty(len(returns), np.int32), np.empty(len(returns), np.float32)
+    for part, here, scans in returns.parts():
+        piece[here], height[here] = known.labels(part.in_world(poses[scans]), part.scan, poses[scans])
     ends = ends_of(pieces, wall_of, piece)
+    wall = np.concatenate((wall_of, [UNKNOWN, -1]))[piece].astype(np.int32)
     return _result(recording, returns, given, poses, ends, wall, height, first.thickness)
 
 
 class _Fit(NamedTuple):
     """What the returns make with some poses: their places in the world, the pieces of walls, the wall of each piece,
-    the height of each return over its piece [m], and the rms of these.
+    and the rms distance of the returns from their pieces [m].
     """
 
     placed: NDArray[np.float32]
     walls: Walls
     wall_of: NDArray[np.int64]
-    height: NDArray[np.float32]
     thickness: float
 
 
@@ -126,15 +130,14 @@ def _fit(returns: Returns, scan: NDArray[np.int32], poses: Floats, views: NDArra
     placed = returns.in_world(poses)
     walls, wall_of = walls_of(placed, scan, poses, views)
     _, height = nearest_walls(placed, scan, poses, walls, FARTHEST)
-    return _Fit(placed, walls, wall_of, height, _rms(height))
+    return _Fit(placed, walls, wall_of, _rms(height))
 
 
 def walls_of(
     placed: NDArray[np.float32], scan: NDArray[np.int32], poses: Floats, views: NDArray[np.int64]
 ) -> tuple[Walls, NDArray[np.int64]]:
     """The uninterrupted pieces of walls in the points (n, 2) of all scans in the world, and the wall of each piece."""
-    every = -(-len(placed) // MOST_RETURNS)
-    cells = cells_of(placed[::every], scan[::every], poses, views)
+    cells = cells_of(placed, scan, poses, views)
     walls, owner = grown_walls(cells, BAND)
     walls, owner = without_shadows(cells, walls, owner)
     walls, owner = merged_walls(cells, walls, owner, BAND)
@@ -153,44 +156,74 @@ def _profiles(
     placed: NDArray[np.float32], scan: NDArray[np.int32], poses: Floats, views: NDArray[np.int64], walls: Walls,
     length: float, reach: float = BENT,
 ) -> Profiles:  # fmt: skip
-    every = -(-len(placed) // MOST_RETURNS)
-    some, of = placed[::every], scan[::every]
-    found, height = nearest_walls(some, of, poses, walls, reach)
+    found, height = nearest_walls(placed, scan, poses, walls, reach)
     near = np.flatnonzero(found >= 0)
-    return profiles_of(some[near], found[near], height[near], views[of[near]], walls, length)
+    return profiles_of(placed[near], found[near], height[near], views[scan[near]], walls, length)
 
 
-def labels_of(
-    placed: NDArray[np.float32], scan: NDArray[np.int32], poses: Floats, views: NDArray[np.int64], walls: Walls
-) -> tuple[NDArray[np.int32], NDArray[np.float32]]:
-    """(n,) the wall of each return, −1 for none, UNKNOWN where fewer than LEAST_VIEWS views saw the place; and (n,) its
-    height over the wall [m].
+@dataclass(frozen=True, eq=False)
+class Known:
+    """What is known of the pieces of walls, by which each return gets its piece.
 
-    Returns that lie a little farther from their wall than others do are UNKNOWN, and so are long curves: whoever finds
-    lines there is neither right nor wrong. Rough surfaces, such as a hedge, are no walls.
+    straight, firm: (w,) whether a piece is straight, and even too; profiles: of the pieces; height, scatter: (s,) of
+    their stretches [m]; by_range: how much points scatter, metre by metre of their range [m]; places: what was seen.
     """
-    found, height = nearest_walls(placed, scan, poses, walls, BENT)
-    wall, near = np.full(len(placed), -1, np.int32), np.flatnonzero(found >= 0)
-    firm = np.zeros(len(walls), np.bool_)
-    if len(near):
+
+    walls: Walls
+    straight: NDArray[np.bool_]
+    firm: NDArray[np.bool_]
+    profiles: Profiles
+    height: Floats
+    scatter: Floats
+    by_range: Floats
+    places: Places
+
+    @classmethod
+    def of(
+        cls, placed: NDArray[np.float32], scan: NDArray[np.int32], poses: Floats, views: NDArray[np.int64], walls: Walls
+    ) -> Known:
+        """From the points (n, 2) of many scans in the world and the scan (n,) of each."""
         profiles = _profiles(placed, scan, poses, views, walls, STRETCH)
         straight = is_straight(_profiles(placed, scan, poses, views, walls, FINE, BEND), walls)
-        firm, own = straight & is_even(profiles), found[near]
-        stretch = stretches_of(placed[near], own, walls, profiles.starts)
-        off = np.abs(height[near] - np.clip(calmed(profiles.height, profiles), -BEND, BEND)[stretch])
+        height = np.clip(calmed(profiles.height, profiles), -BEND, BEND)
+        scatter = calmed(profiles.scatter, profiles)
+        found, over = nearest_walls(placed, scan, poses, walls, BENT)
+        near = np.flatnonzero(found >= 0)
+        stretch = stretches_of(placed[near], found[near], walls, profiles.starts)
         away = np.hypot(*(placed[near] - poses[scan[near], :2]).T)
-        scatter = np.maximum(calmed(profiles.scatter, profiles)[stretch], scatter_by_range(off, away))
-        limit = np.clip(DEVIATIONS * scatter, NEAREST, FARTHEST)
-        good, long = off < DOUBTFUL * limit, walls.high - walls.low > LONG
-        wall[near[off < limit]] = own[off < limit]
-        wall[near[good & (off >= limit)]] = UNKNOWN
-        wall[near[good & ~firm[own]]] = -1
-        wall[near[(~straight & long)[own] & good]] = UNKNOWN
-        wall[near[(profiles.views[stretch] < LEAST_VIEWS) & good]] = UNKNOWN
-    elsewhere = wall == -1
-    wall[elsewhere & on_the_way(placed, scan, poses, walls.only(firm))] = UNKNOWN
-    wall[elsewhere & (views_at(placed, views[scan]) < LEAST_VIEWS)] = UNKNOWN
-    return wall, height
+        by_range = scatter_by_range(np.abs(over[near] - height[stretch]), away)
+        firm = straight & is_even(profiles)
+        return cls(walls, straight, firm, profiles, height, scatter, by_range, Places.of(placed, views[scan]))
+
+    def labels(
+        self, placed: NDArray[np.float32], scan: NDArray[np.int32], poses: Floats
+    ) -> tuple[NDArray[np.int32], NDArray[np.float32]]:
+        """(n,) the piece of each return, −1 for none, UNKNOWN where fewer than LEAST_VIEWS views saw the place; and
+        (n,) its height over the piece [m].
+
+        Returns that lie a little farther from their wall than others do are UNKNOWN, and so are long curves: whoever
+        finds lines there is neither right nor wrong. Rough surfaces, such as a hedge, are no walls.
+        """
+        walls, profiles = self.walls, self.profiles
+        found, height = nearest_walls(placed, scan, poses, walls, BENT)
+        wall, near = np.full(len(placed), -1, np.int32), np.flatnonzero(found >= 0)
+        if len(near):
+            own = found[near]
+            stretch = stretches_of(placed[near], own, walls, profiles.starts)
+            off = np.abs(height[near] - self.height[stretch])
+            metre = np.hypot(*(placed[near] - poses[scan[near], :2]).T).astype(np.int64)
+            by_range = self.by_range[np.minimum(metre, len(self.by_range) - 1)]
+            limit = np.clip(DEVIATIONS * np.maximum(self.scatter[stretch], by_range), NEAREST, FARTHEST)
+            good, long = off < DOUBTFUL * limit, walls.high - walls.low > LONG
+            wall[near[off < limit]] = own[off < limit]
+            wall[near[good & (off >= limit)]] = UNKNOWN
+            wall[near[good & ~self.firm[own]]] = -1
+            wall[near[(~self.straight & long)[own] & good]] = UNKNOWN
+            wall[near[(profiles.views[stretch] < LEAST_VIEWS) & good]] = UNKNOWN
+        elsewhere = wall == -1
+        wall[elsewhere & on_the_way(placed, scan, poses, walls.only(self.firm))] = UNKNOWN
+        wall[elsewhere & (self.places.views_at(placed) < LEAST_VIEWS)] = UNKNOWN
+        return wall, height
 
 
 def on_the_way(placed: NDArray[np.float32], scan: NDArray[np.int32], poses: Floats, walls: Walls) -> NDArray[np.bool_]:
@@ -202,7 +235,7 @@ def on_the_way(placed: NDArray[np.float32], scan: NDArray[np.int32], poses: Floa
 def ends_of(pieces: Walls, wall_of: NDArray[np.int64], piece: NDArray[np.int32]) -> Floats:
     """(w, 4) x1, y1, x2, y2 [m] of each wall, from the first to the last of its pieces that are in use."""
     ends = np.full((int(wall_of.max(initial=-1)) + 1, 4), np.nan)
-    used = np.unique(piece[piece >= 0])
+    used = _used(piece, len(pieces))
     for wall in range(len(ends)):
         of = used[wall_of[used] == wall]
         if len(of):
@@ -213,16 +246,35 @@ def ends_of(pieces: Walls, wall_of: NDArray[np.int64], piece: NDArray[np.int32])
     return ends
 
 
-def views_at(placed: NDArray[np.float32], view: NDArray[np.int64]) -> NDArray[np.int64]:
-    """(n,) from how many views something was seen in the square of each point."""
-    every = -(-len(placed) // MOST_RETURNS)
-    square = np.floor((placed - placed.min(axis=0)) / PLACE).astype(np.int64) @ np.array([1 << 24, 1])
-    squares, number = np.unique(square[::every], return_inverse=True)
-    kinds = int(view.max()) + 1
-    pairs = np.unique(number.astype(np.int64) * kinds + view[::every])
-    counts, at = np.bincount(pairs // kinds), np.searchsorted(squares, square)
-    at = np.minimum(at, len(squares) - 1)
-    return np.where(squares[at] == square, counts[at], 0)
+class Places(NamedTuple):
+    """From how many views something was seen in each square of the world. origin: (2,) corner of the first [m]."""
+
+    squares: NDArray[np.int64]
+    counts: NDArray[np.int64]
+    origin: NDArray[np.float32]
+
+    @classmethod
+    def of(cls, placed: NDArray[np.float32], view: NDArray[np.int64]) -> Places:
+        origin = placed.min(axis=0)
+        squares, number = np.unique(_squares(placed, origin), return_inverse=True)
+        kinds = int(view.max()) + 1
+        pairs = np.unique(number.astype(np.int64) * kinds + view)
+        return cls(squares, np.bincount(pairs // kinds), origin)
+
+    def views_at(self, placed: NDArray[np.float32]) -> NDArray[np.int64]:
+        """(n,) from how many views something was seen in the square of each point (n, 2)."""
+        square = _squares(placed, self.origin)
+        at = np.minimum(np.searchsorted(self.squares, square), len(self.squares) - 1)
+        return np.where(self.squares[at] == square, self.counts[at], 0)
+
+
+def _squares(placed: NDArray[np.float32], origin: NDArray[np.float32]) -> NDArray[np.int64]:
+    return np.floor((placed - origin) / PLACE).astype(np.int64) @ np.array([1 << 24, 1])
+
+
+def _used(wall: NDArray[np.int32], walls: int) -> NDArray[np.intp]:
+    """The walls that some returns (n,) lie on."""
+    return np.flatnonzero(np.bincount(wall[wall >= 0], minlength=walls))
 
 
 def _rms(height: NDArray[np.floating]) -> float:
@@ -234,9 +286,10 @@ def _result(
     recording: Recording, returns: Returns, given: Floats, poses: Floats, walls: Floats, wall: NDArray[np.int32],
     height: NDArray[np.float32], before: float,
 ) -> ManyViews:  # fmt: skip
-    used, numbers = np.unique(wall[wall >= 0], return_inverse=True)
-    wall = wall.copy()
-    wall[wall >= 0] = numbers
+    used = _used(wall, len(walls))
+    numbers = np.full(len(walls) + 2, -1, np.int32)
+    numbers[used], numbers[UNKNOWN] = np.arange(len(used)), UNKNOWN
+    wall = numbers[wall]
     of_beams = np.full(len(recording.ranges), UNKNOWN, np.int32)
     valid = np.concatenate([scan.valid for scan in recording])
     of_beams[~valid] = -1

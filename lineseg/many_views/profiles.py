@@ -122,11 +122,10 @@ def medians(group: NDArray[np.int64], values: NDArray[np.floating], groups: int)
 
 
 def scatter_by_range(off: NDArray[np.floating], away: NDArray[np.floating]) -> Floats:
-    """(n,) the robust standard deviation of the distances `off` (n,) [m] of points as far `away` (n,) [m], metre by
+    """(k,) the robust standard deviation of the distances `off` (n,) [m] of points as far `away` (n,) [m], metre by
     metre: of a laser that scatters more on far walls."""
     metre, every = away.astype(np.int64), -(-len(off) // MOST_POINTS)
-    scatter = medians(metre[::every], off[::every], int(metre.max(initial=0)) + 1) / MAD
-    return np.nan_to_num(scatter)[metre]
+    return np.nan_to_num(medians(metre[::every], off[::every], int(metre.max(initial=0)) + 1) / MAD)
 
 
 def is_even(profiles: Profiles) -> NDArray[np.bool_]:

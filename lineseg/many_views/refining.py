@@ -14,6 +14,8 @@ from .returns import Returns
 SHIFT, TURN = 0.05, np.radians(0.7)
 MOST_SHIFT, MOST_TURN = 0.25, np.radians(3.0)
 ITERATIONS = 6
+# Of a longer recording, so many returns move the scans onto the walls, and of each scan as many or more.
+MOST_RETURNS, LEAST_BEAMS = 3_000_000, 180
 # So many beams of a scan count as independent: those on one wall err alike where it bends.
 INDEPENDENT = 40.0
 
@@ -27,22 +29,25 @@ def refined(returns: Returns, given: Floats, poses: Floats, walls: Walls, reach:
     """
     moved = poses.copy()
     if len(walls):
+        most = len(returns) / max(len(poses), 1) / LEAST_BEAMS
+        step = int(np.clip(len(returns) / MOST_RETURNS, 1, max(most, 1)))
         move_scans(
-            returns.xy, returns.offsets, given, moved, rows_of(walls), *table_of(walls), reach, sigma, np.zeros((3, 4))
+            returns.xy, returns.offsets, step, given, moved, rows_of(walls), *table_of(walls), reach, sigma,
+            np.zeros((3, 4)),
         )  # fmt: skip
     return moved
 
 
 @entry_kernel
-def move_scans(xy, offsets, given, poses, rows, keys, starts, walls, origin, reach, sigma, system):
-    """Gauss-Newton for each scan on its distances to the walls, with Tukey's weights; see `refined`."""
+def move_scans(xy, offsets, step, given, poses, rows, keys, starts, walls, origin, reach, sigma, system):
+    """Gauss-Newton for each scan on the distances of every step-th return to the walls, with Tukey's weights."""
     for k in range(len(poses)):
         pose = poses[k]
         for _ in range(ITERATIONS):
             cos, sin = np.cos(pose[2]), np.sin(pose[2])
             system[:] = 0.0
             total = 0.0
-            for i in range(offsets[k], offsets[k + 1]):
+            for i in range(offsets[k], offsets[k + 1], step):
                 dx, dy = cos * xy[i, 0] - sin * xy[i, 1], sin * xy[i, 0] + cos * xy[i, 1]
                 wall, height = nearest(
                     pose[0] + dx, pose[1] + dy, pose[0], pose[1], rows, keys, starts, walls, origin, reach

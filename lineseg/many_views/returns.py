@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,6 +12,8 @@ from ..scan import Recording
 
 # Scans taken within a square of this side count as one view [m].
 VIEW = 0.3
+# A part has about so many returns.
+PART = 500_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,6 +63,38 @@ class Returns:
             turned = np.array(((cos, sin), (-sin, cos)))
             placed[here] = self.xy[here] @ turned + (x, y)
         return placed
+
+    def thinned(self, views: NDArray[np.int64], most: int) -> Returns:
+        """At most about `most` of the returns, evenly; views that have more than others give up more.
+
+        views: (m,) of each scan. What a robot saw while it stood still does not drown what it saw while it drove.
+        """
+        if len(self) <= most:
+            return self
+        counts = np.bincount(views, np.diff(self.offsets))
+        each = 0.0
+        for _ in range(20):
+            each += (most - np.minimum(counts, each).sum()) / max(int((counts > each).sum()), 1)
+        every = np.ceil(counts / each).astype(np.int64)[views].tolist()
+        limits = self.offsets.tolist()
+        kept = [
+            np.arange(first + k % step, stop, step)
+            for k, (first, stop, step) in enumerate(zip(limits, limits[1:], every, strict=False))
+        ]
+        offsets = np.concatenate(([0], np.cumsum([len(of_scan) for of_scan in kept])))
+        chosen = np.concatenate(kept)
+        return Returns(self.xy[chosen], self.beam[chosen], self.frames, offsets)
+
+    def parts(self) -> Iterator[tuple[Returns, slice, slice]]:
+        """The returns in parts of whole scans; which of the returns and which of the scans each part has."""
+        first = 0
+        while first < len(self.frames):
+            stop = int(np.searchsorted(self.offsets, self.offsets[first] + PART, side="right")) - 1
+            scans = slice(first, max(stop, first + 1))
+            here = slice(int(self.offsets[scans.start]), int(self.offsets[scans.stop]))
+            offsets = self.offsets[scans.start : scans.stop + 1] - here.start
+            yield Returns(self.xy[here], self.beam[here], self.frames[scans], offsets), here, scans
+            first = scans.stop
 
 
 def views_of(poses: NDArray[np.float64]) -> NDArray[np.int64]:
