@@ -31,10 +31,7 @@ class Stream:
 
     def decoder(self, source: Source) -> Decoder:
         """Raises ValueError if its messages cannot be read."""
-        try:
-            return decoder_of(self.type, self.encoding, self.schema, source.reading.echo or 0)
-        except ValueError as error:
-            raise ValueError(f"{source.name}: {self.topic}: {error}.") from None
+        return decoder_of(self.type, self.encoding, self.schema, source.reading.echo or 0)
 
 
 class NotABagError(ValueError):
@@ -74,11 +71,13 @@ def choose_streams(source: Source, streams: list[Stream]) -> tuple[str, tuple[To
     """The topic to read, all laser topics, and the streams of the chosen one."""
     laser = [stream for stream in streams if is_laser(stream.type, stream.encoding, stream.schema)]
     if not laser:
-        others = ", ".join(sorted({f"{stream.topic} ({_short(stream.type)})" for stream in streams}))
+        others = ", ".join(sorted({f"{stream.topic} ({_short(stream.type) or stream.encoding})" for stream in streams}))
         clouds = any(stream.type in POINT_CLOUDS for stream in streams)
         way = " A node such as pointcloud_to_laserscan makes scans of a point cloud." if clouds else ""
+        way = way if streams else " Record the topic of the laser again."
         sentence = f"{source.name} has no sensor_msgs/LaserScan topic; it has {others or 'no topic at all'}.{way}"
         raise ValueError(sentence)
+    laser = _readable(source, laser)
     counts: dict[str, int] = {}
     for stream in laser:
         counts[stream.topic] = counts.get(stream.topic, 0) + stream.messages
@@ -88,6 +87,29 @@ def choose_streams(source: Source, streams: list[Stream]) -> tuple[str, tuple[To
     if source.reading.echo is not None and not any(stream.type in MULTI_ECHO for stream in chosen):
         raise ValueError(f"{source.name}: echo cannot be used, because the beams of {topic} have one range each.")
     return topic, topics, chosen
+
+
+def _readable(source: Source, streams: list[Stream]) -> list[Stream]:
+    """The streams that can be decoded; the others are told.
+
+    Raises ValueError if there are none, or none of the wanted topic.
+    """
+    found: list[Stream] = []
+    errors: dict[str, ValueError] = {}
+    for stream in streams:
+        try:
+            stream.decoder(source)
+        except ValueError as error:
+            errors.setdefault(stream.topic, error)
+        else:
+            found.append(stream)
+    there = {stream.topic for stream in found}
+    for topic, error in errors.items():
+        if not any(stream.messages for stream in found) or (topic == source.reading.topic and topic not in there):
+            raise ValueError(f"{source.name}: {topic}: {error}.")
+        some = "Some of the messages" if topic in there else "The messages"
+        source.notes.notice("unreadable topic", f"{some} of {topic} were left out: {error}.")
+    return found
 
 
 def collect(

@@ -50,6 +50,14 @@ def storage_files(folder: Path) -> list[Path]:
     return sorted(files, key=lambda path: [int(part) if part.isdecimal() else part for part in _parts(path.name)])
 
 
+def missing_parts(folder: Path, files: list[Path]) -> list[str]:
+    """The storage files that a bag's metadata name beside these; none if it names none of these, which were renamed."""
+    named = listed_in(folder / METADATA) if (folder / METADATA).is_file() else []
+    there = {path.name.removesuffix(".zstd") for path in files}
+    missing = [name for name in named if name.removesuffix(".zstd") not in there]
+    return missing if len(missing) < len(named) else []
+
+
 def recording_in(folder: Path) -> Path:
     """The folder itself if it is a bag, else the one recording in it.
 

@@ -17,6 +17,8 @@ LEAST_NUMBERS = 100
 FOREIGN = (
     (rb"MATLAB [57]\.\d MAT-file", "a MATLAB file", f"load it with scipy.io.loadmat and save it with {ARRAYS}"),
     (rb"\x89HDF", "an HDF5 file, as MATLAB 7.3 also writes", f"load it with h5py and save it with {ARRAYS}"),
+    (rb"7\x7f\x06[\x82\x83]", "the log of an SQLite database that is being written",
+     "open the .db3 of the same name, with this file beside it"),
     (rb"PAR1", "a Parquet table", "save it as CSV, with pandas.read_parquet(…).to_csv('scans.csv')"),
     (rb"ARROW1|FEA1|\xff\xff\xff\xff\x10", "an Arrow table", "save it as CSV"),
     (rb"\x80[\x02-\x05]", "a Python pickle, which could run programs", f"load it yourself and save it with {ARRAYS}"),

@@ -136,8 +136,10 @@ class McapFile:
                     self._learn(opcode, body)
                 before = self._at
             self.broken = "its end is missing"
-        except (BrokenError, struct.error, UnicodeDecodeError) as error:
+        except (BrokenError, UnicodeDecodeError) as error:
             self.broken = str(error).rstrip(".")
+        except struct.error:
+            self.broken = f"a record before byte {self._at} is not whole"
 
     def _record(self) -> tuple[int, bytes] | None:
         """(opcode, content) of the next record; None at the end of the file. Raises BrokenError if it is not whole."""

@@ -7,7 +7,7 @@ import shutil
 import sqlite3
 from collections import Counter
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, closing, contextmanager
 from pathlib import Path
 from typing import Protocol
 from urllib.parse import quote
@@ -15,11 +15,11 @@ from urllib.parse import quote
 from ..scan import Recording
 from ..unfinished import temporary_folder
 from .account import Notes
-from .bags import NotABagError, Stream, choose_streams, collect, cut_off, guarded, tell_cut
+from .bags import NotABagError, Stream, choose_streams, collect, cut_off, detail, guarded, tell_cut
 from .bounded import MOST_MESSAGE, expand, limit_of, zstd_file
 from .decoders import Decoder, plain_type
-from .folder import storage_files
-from .mcap_records import McapFile
+from .folder import missing_parts, storage_files
+from .mcap_records import McapChannel, McapFile
 from .source import Reader, Source
 from .sqlite_pages import scan_pages
 from .wrapping import tell_break
@@ -61,7 +61,14 @@ class Ros2Bag(Reader):
 
     @staticmethod
     def read(source: Source) -> Recording:
-        return _read(source, storage_files(source.path) if source.path.is_dir() else [source.path], Ros2Bag.format)
+        if not source.path.is_dir():
+            return _read(source, [source.path], Ros2Bag.format)
+        files = storage_files(source.path)
+        if missing := missing_parts(source.path, files):
+            source.notes.notice(
+                "missing part", f"Its metadata.yaml also names {', '.join(missing)}, not in the folder."
+            )
+        return _read(source, files, Ros2Bag.format)
 
 
 class Mcap(Reader):
@@ -94,10 +101,8 @@ def messages_of(source: Source, wanted: Callable[[Stream], bool]) -> Iterator[tu
 def _read(source: Source, files: list[Path], format: str) -> Recording:
     hint = "`ros2 bag reindex` or `mcap recover` may repair it."
     with ExitStack() as stack:
-        storages: list[Storage] = []
-        for file in files:
-            with guarded(source, format, hint):
-                storages.append(stack.enter_context(_storage(file, stack, source.notes)))
+        with guarded(source, format, hint):
+            storages = _storages(source, files, stack)
         streams = [stream for storage in storages for stream in storage.streams]
         broken = next((storage.broken for storage in storages if storage.broken), "")
         if broken and not streams:
@@ -117,6 +122,23 @@ def _read(source: Source, files: list[Path], format: str) -> Recording:
 
         total = sum(stream.messages for stream in chosen)
         return collect(source, messages(), total, topic, topics, format)
+
+
+def _storages(source: Source, files: list[Path], stack: ExitStack) -> list[Storage]:
+    """The files that can be opened; the others are told. Raises what the first of them raised if there are none."""
+    found: list[Storage] = []
+    failed: list[tuple[str, Exception]] = []
+    for file in files:
+        try:
+            found.append(stack.enter_context(_storage(file, stack, source.notes)))
+        except Exception as error:  # what a library over a damaged file may raise
+            failed.append((file.name, error))
+    for name, error in failed:
+        if not found:
+            raise error
+        why = detail(error).removeprefix(f"{name} ")
+        source.notes.notice("lost part", f"{name} was left out, because it cannot be opened ({why}).")
+    return found
 
 
 @contextmanager
@@ -144,6 +166,11 @@ class _Database:
         self.database, self.file = database, file
         self.broken = ""
         held = [name for (name,) in database.execute("SELECT name FROM sqlite_master WHERE type = 'table'")]
+        if not held and _has_log(file):
+            raise NotABagError(
+                f"it is an SQLite database without tables; its messages may be in {file.name}-wal, as while a bag is "
+                "recorded, so copy both files"
+            )
         if held and not {"topics", "messages"} & {str(name).lower() for name in held}:
             raise NotABagError(
                 f"it is an SQLite database of {', '.join(map(str, held[:5]))}, not a ROS 2 bag; save its scans as CSV"
@@ -192,10 +219,17 @@ class _McapStorage:
                 file.counts.get(each.id, 0),
                 each.id,
                 each.encoding,
-                each.schema_data,
+                each.schema_data or self._example(each),
             )
-            for each in file.channels.values()
+            for each in list(file.channels.values())
         ]
+
+    def _example(self, channel: McapChannel) -> bytes:
+        """The first message of JSON without a schema, which shows its fields as a schema does."""
+        if channel.encoding != "json" or not self._file.counts.get(channel.id):
+            return b""
+        with closing(self._file.messages({channel.id})) as messages:
+            return next((data for _, _, data in messages), b"")
 
     @property
     def broken(self) -> str:
@@ -235,6 +269,12 @@ def _connect(file: Path, stack: ExitStack) -> sqlite3.Connection:
     stack.callback(database.close)
     _restrict(database, file)
     return database
+
+
+def _has_log(file: Path) -> bool:
+    """Whether a database writes to a log beside it first; its header says so."""
+    with file.open("rb") as opened:
+        return opened.read(20)[18:19] == b"\2"
 
 
 def _restrict(database: sqlite3.Connection, file: Path) -> None:
