@@ -55,7 +55,10 @@ export function mountPanels(page, place, words, { scene, inspect, labelling }) {
     session: page.sessionId,
     dark: () => page.view.dark,
     onFrame: page.goToFrame,
-    onOpen: modes.cover,
+    onOpen(open) {
+      modes.cover(open);
+      if (open && !page.learning && page.view.step !== null) page.change({ step: null });
+    },
     cancelLabel: words.page.stage.cancel,
   });
   modes.element.append(rerun.button);

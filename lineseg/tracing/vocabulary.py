@@ -12,6 +12,9 @@ from numpy.typing import NDArray
 
 from .log import Row
 
+# Digits of metres after the point.
+MILLIMETRES, MICROMETRES = 3, 6
+
 Effect = Literal["none", "shown", "stands", "gone", "joined", "parted", "placed"]
 
 
@@ -129,32 +132,53 @@ class Sentence:
 
     @property
     def value(self) -> Quantity:
-        return Quantity(self.row.value)
+        return self._quantity(self.row.value)
 
     @property
     def limit(self) -> Quantity:
-        return Quantity(self.row.limit)
+        return self._quantity(self.row.limit)
 
     @property
     def over(self) -> Quantity:
-        return Quantity(self.row.value - self.row.limit)
+        return self._quantity(self.row.value - self.row.limit)
 
     @property
     def short(self) -> Quantity:
-        return Quantity(self.row.limit - self.row.value)
+        return self._quantity(self.row.limit - self.row.value)
+
+    def _quantity(self, number: float) -> Quantity:
+        return Quantity(number, _digits_that_tell(self.row.value, self.row.limit))
 
 
 class Quantity(float):
-    """A number that the format "m" prints as metres, and "deg" prints as degrees, converted from radians."""
+    """A number that the format "m" prints as metres, and "deg" prints as degrees, converted from radians.
+
+    digits: after the point, of metres.
+    """
+
+    digits: int
+
+    def __new__(cls, number: float, digits: int = MILLIMETRES) -> Quantity:
+        quantity = super().__new__(cls, number)
+        quantity.digits = digits
+        return quantity
 
     def __format__(self, form: str) -> str:
         if form == "m":
-            return metres(self)
+            return metres(self, self.digits)
         return degrees(self) if form == "deg" else float.__format__(self, form)
 
 
-def metres(value: float) -> str:
-    return f"{value:.3f} m" if math.isfinite(value) else "infinitely far"
+def _digits_that_tell(value: float, limit: float) -> int:
+    """So many that a value that is refused does not look like its limit."""
+    apart = abs(value - limit)
+    if not 0.0 < apart < 0.0005:
+        return MILLIMETRES
+    return min(math.ceil(-math.log10(apart)), MICROMETRES)
+
+
+def metres(value: float, digits: int = MILLIMETRES) -> str:
+    return f"{value:.{digits}f} m" if math.isfinite(value) else "infinitely far"
 
 
 def degrees(radians: float) -> str:

@@ -40,10 +40,11 @@ export function createTake(text, { session, state, note, work }) {
   }
 
   function askNote() {
+    const known = note() || (state()?.pack?.note ?? "");
     const words = h("textarea", {
       rows: 5,
       class: "note",
-      value: note() || (state()?.pack?.note ?? ""),
+      value: known,
       placeholder: text.note.placeholder,
     });
     const error = h("p", { class: "panel-error", role: "alert", hidden: true });
@@ -52,7 +53,7 @@ export function createTake(text, { session, state, note, work }) {
       text.note.title,
       text.note.close,
       h("p", { class: "hint" }, text.note.hint),
-      h("label", { class: "note-label" }, text.note.label, words),
+      h("label", { class: "note-label" }, text.note.label(known !== ""), words),
       error,
       h("div", { class: "dialog-buttons" }, save),
     );

@@ -149,6 +149,8 @@ export class RerunTab {
 
   /** @param {State} next */
   setState(next) {
+    // A replay is shown in the scene, which the viewer covers.
+    if (!this.#box.hidden && this.#state?.step === null && next.step !== null) this.close();
     this.#state = next;
     const stale = this.#recorded.id !== "" && this.#recorded.key !== keyOf(next, ...PARTS);
     if (!this.#work && this.#recorded.id) {

@@ -21,8 +21,8 @@ export const exportText = {
   noPicture: "This browser could not draw the picture. Save it as SVG instead.",
   note: {
     title: "Failure pack",
-    hint: "A zip file with this frame, its parameters, segments, every decision and a picture. Drop it on this page to see the frame again as it is now.",
-    label: "What is wrong here?",
+    hint: "A zip file with this frame, its labels, parameters, segments, every decision and a picture. Drop it on this page to see the frame again as it is now.",
+    label: (/** @type {boolean} */ known) => (known ? "Note of this frame" : "What is wrong here?"),
     placeholder: "e.g. since ε was raised, a line crosses the door on the left",
     save: "Save",
     close: "Close",

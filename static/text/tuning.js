@@ -15,7 +15,7 @@ export const tuningText = {
     open: "Open a file…",
     close: "Close",
     manage: "Keep or open a profile…",
-    used: (/** @type {string} */ name) => `Profile ${name}. Ctrl+Z brings the former thresholds back.`,
+    used: (/** @type {string} */ name) => `Profile ${name}. Ctrl+Z brings the former thresholds and layers back.`,
     notOne: (/** @type {string} */ file) => `${file} is not a profile of lineseg. Choose a .lineseg-profile.json file.`,
   },
   fit: {
@@ -41,7 +41,9 @@ export const tuningText = {
     sample: (/** @type {number} */ frames, /** @type {number} */ of) =>
       frames < of
         ? `${frames.toLocaleString("en")} of ${of.toLocaleString("en")} frames`
-        : `all ${of.toLocaleString("en")} frames`,
+        : of === 1
+          ? "this frame"
+          : `all ${of.toLocaleString("en")} frames`,
     pending: "computing…",
     picture: (/** @type {string} */ symbol) => `Sensitivity to ${symbol}: click to set it`,
     short: /** @type {Record<string, string>} */ ({

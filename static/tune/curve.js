@@ -1,7 +1,7 @@
 // @ts-check
 // A curve of the results over the range of one threshold.
 import { h, svg } from "../widgets/dom.js";
-import { placeOf, valueAt, withUnit } from "../widgets/scale.js";
+import { placeOf, snap, valueAt, withUnit } from "../widgets/scale.js";
 import { tooltip } from "../widgets/tooltip.js";
 
 /** @typedef {import("../wire.js").Knob} Knob */
@@ -94,5 +94,5 @@ function words(knob, curve, place, text) {
   const parts = LINES.filter((line) => curve[line] && curve[line][k] !== null).map(
     (line) => `${text.short[line]} ${Number(curve[line][k]).toFixed(2)}`,
   );
-  return `${knob.symbol} ${withUnit(knob, curve.values[k])}: ${parts.join(", ")}`;
+  return `${knob.symbol} ${withUnit(knob, snap(knob, curve.values[k]))}: ${parts.join(", ")}`;
 }

@@ -8,7 +8,7 @@ import { hashOf, readHash } from "./hash.js";
 /** @typedef {import("../wire.js").View} View */
 /** @typedef {import("../wire.js").Params} Params */
 /** @typedef {import("../wire.js").Method} Method */
-/** What undo restores. @typedef {Pick<View, "method" | "params" | "recording" | "topic" | "reading">} Chosen */
+/** What undo restores; layers: only where they were set together with thresholds, as a profile does. @typedef {Pick<View, "method" | "params" | "recording" | "topic" | "reading"> & {layers?: View["layers"]}} Chosen */
 /** @typedef {import("./fields.js").Patch} Patch */
 /** @typedef {import("./hash.js").Look} Look */
 /** @typedef {(view: Readonly<View>, patch: Patch | null, linked: boolean) => void} Listener patch: null for what the server told; linked: a link says it, and not all of it may be possible */
@@ -90,7 +90,8 @@ export class Store {
       written === "thresholds" ? this.#thresholds(patch.method) : structuredClone(usual),
     ]);
     const full = { ...Object.fromEntries(afresh), ...patch };
-    if (full.params || patch.reading) this.#remember(gesture);
+    if (full.params || patch.reading)
+      this.#remember(gesture, full.params && full.layers ? this.#view.layers : undefined);
     this.#view = merged(this.#view, full, this.#fields);
     this.#tell(full);
     return undefined;
@@ -129,17 +130,19 @@ export class Store {
 
   /** @param {Chosen[]} from @param {Chosen[]} to */
   #travel(from, to) {
+    /** @type {Chosen} */
     const now = this.#chosen;
     /** @type {Patch | null} */
     let patch = null;
     // What was changed in a recording that is no longer open stays as it is.
     while (from.length && !patch) {
-      const { method, params, recording, topic, reading } = /** @type {Chosen} */ (from.pop());
+      const { method, params, recording, topic, reading, layers } = /** @type {Chosen} */ (from.pop());
       const here = recording === now.recording && !alike(reading, now.reading);
-      const same = method === now.method && equal(params, now.params);
-      if (!same || here) patch = { method, params, ...(here && { topic, reading }) };
+      const same = method === now.method && equal(params, now.params) && (!layers || equal(layers, this.#view.layers));
+      if (!same || here) patch = { method, params, ...(here && { topic, reading }), ...(layers && { layers }) };
     }
     if (!patch) return this.#tell(null);
+    if (patch.layers) now.layers = this.#view.layers;
     to.push(now);
     this.#gesture = null;
     this.#view = merged(this.#view, patch, this.#fields);
@@ -147,9 +150,9 @@ export class Store {
     return undefined;
   }
 
-  /** @param {string | null} gesture */
-  #remember(gesture) {
-    if (gesture === null || gesture !== this.#gesture) this.#past.push(this.#chosen);
+  /** @param {string | null} gesture @param {View["layers"]} [layers] */
+  #remember(gesture, layers) {
+    if (gesture === null || gesture !== this.#gesture) this.#past.push({ ...this.#chosen, layers });
     this.#kept[this.#view.method] = this.#view.params;
     if (this.#past.length > 500) this.#past.shift();
     this.#gesture = gesture;
@@ -199,7 +202,7 @@ function alike(one, other) {
   return Object.keys({ ...one, ...other }).every((name) => (one[name] ?? null) === (other[name] ?? null));
 }
 
-/** @param {Params} one @param {Params} other */
+/** @template {Record<string, unknown>} T @param {T} one @param {T} other */
 function equal(one, other) {
   return Object.entries(one).every(([name, value]) => other[name] === value);
 }

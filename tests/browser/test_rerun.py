@@ -46,6 +46,13 @@ def test_the_tab_shows_the_recording_and_its_cursor_and_the_pages_frame_follow_e
     page.get_by_role("button", name="Record again").wait_for()
     page.get_by_role("button", name="Back to the scene").click()
     follows.wait_for(state="hidden")
+
+    # A replay is shown in the scene, not under the viewer.
+    page.get_by_role("button", name="Rerun", exact=True).click()
+    back = page.get_by_role("button", name="Back to the scene")
+    back.wait_for()
+    page.get_by_role("button", name="Replay this frame").click()
+    back.wait_for(state="hidden")
     # Every complaint of the tab, foreign requests among them, is looked at when it closes.
 
 

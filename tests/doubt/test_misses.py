@@ -37,7 +37,7 @@ def test_a_rough_wall_was_refused_by_epsilon():
     assert miss.value > miss.limit == 0.01
     assert miss.first <= miss.beam <= miss.last
     assert miss.text.startswith(f"a line was probably missed: beams {miss.first}–{miss.last}, {miss.points} points,")
-    assert f" – seed refused by ε: beam {miss.beam} lies {miss.value:.3f} m from the line" in miss.text
+    assert f" – seed refused by ε: beam {miss.beam} lies {miss.value:.4f} m from the line, ε = 0.0100 m" in miss.text
 
 
 def test_a_grazing_wall_was_refused_by_delta():

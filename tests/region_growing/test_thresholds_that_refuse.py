@@ -38,6 +38,12 @@ def test_the_sentence_of_a_refusal_has_both_numbers(name):
     assert first in said and second in said, said
 
 
+def test_a_value_just_beyond_its_threshold_does_not_look_like_it():
+    row = Row(0, number_of("min_length"), 1, 0, -1, 3, 8, 7, NOWHERE, NOWHERE, NO_ENDS, 0.59996, 0.6)
+    said = Sentence(row, Kind("refused", "line", "none", "", ""), CHECKS[number_of("min_length")], 3, 8, 7, 20)
+    assert said.refusal == "0.59996 m < L_min = 0.60000 m (short by 0.00004 m)"
+
+
 def test_the_kernels_have_every_threshold_under_its_name():
     params = Params()
     assert dict(zip(Limits._fields, limits_of(params), strict=True)) == params.numbers()
