@@ -23,7 +23,7 @@ def bench(
     against: Annotated[Unset[str], arg(metavar="COMMAND")] = None,
     json: Switch = False,
 ) -> None:
-    """Time the extraction, beside the minimum work of the method.
+    """Time the extraction, and compare it with the least work that the method needs.
 
     Args:
         file: recording to use (default: the samples).

@@ -34,7 +34,7 @@ def compare(
 ) -> None:
     """Compare methods as in the paper's tables.
 
-    These have TR, FR, completeness, endpoint errors and time. Each method is judged on one half of the frames with
+    The tables give TR, FR, completeness, endpoint errors and time. Each method is judged on one half of the frames with
     three settings: as installed; as proposed without truth, by the same search on the other half for each; and tuned
     with the truth of the other half. Without truth, methods are only timed. Ctrl-C stops and writes the results so far.
 

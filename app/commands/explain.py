@@ -28,7 +28,7 @@ def explain(
 ) -> None:
     """Say why a beam is in a line or in none.
 
-    It also says what would change that; with --beside, why two beams are in one line or in two.
+    Also says what would change that and, with --beside, why two beams are in one line or in two.
 
     Args:
         file: a recording.

@@ -41,7 +41,7 @@ def extract(
 ) -> None:
     """Write the segments of recordings as JSON lines, CSV or GeoJSON.
 
-    With them is written how they were read and extracted.
+    The output also says how the recordings were read and extracted.
 
     Args:
         files: recordings to read; * and ? stand for several.

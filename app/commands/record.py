@@ -24,7 +24,7 @@ def record(
 ) -> None:
     """Write a recording for rerun.
 
-    It has the points, segments, decisions and scores of every frame.
+    It contains the points, segments, decisions and scores of every frame.
 
     Args:
         file: recording to read.

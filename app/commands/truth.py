@@ -26,8 +26,8 @@ def truth(
     """Find the walls that many scans with poses agree on.
 
     The recording is written with the wall of each beam. Where too few scans from different places saw something, the
-    truth is unknown (wall = -2): scores leave these beams out. The poses are corrected a little where that makes the
-    walls thinner.
+    truth is unknown (wall = -2), and scores leave these beams out. The poses are corrected a little where that makes
+    the walls thinner.
 
     Args:
         file: recording to read; its scans need poses.

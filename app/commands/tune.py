@@ -35,7 +35,7 @@ def tune(
 ) -> None:
     """Search for thresholds with Optuna.
 
-    The best are compared with the present ones and with the paper's defaults, on held-back frames. Ctrl-C stops the
+    The best are compared with the current ones and with the paper's defaults, on held-back frames. Ctrl-C stops the
     search and judges the best setting so far. With --study the trials are kept, and the next call continues them.
 
     Args:

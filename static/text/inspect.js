@@ -68,16 +68,16 @@ export const inspectText = {
       if (name === "labels") return "The true lines are those marked in Labels. Only frames with labelled lines count.";
       const line =
         "A true line is a visible stretch of one wall that has at least P_min points and is at least L_min long.";
-      return byViews ? `${line} Beams that too few views support are unknown and count neither way.` : line;
+      return byViews ? `${line} Beams that too few views support are unknown and do not count.` : line;
     },
     fromPoses: {
       make: "Truth from poses",
       makeHelp:
-        "Puts all scans into the world by their poses, and takes the walls that several places agree on as the truth",
-      forget: "Without this truth",
+        "Places all scans in the world by their poses and takes the walls seen from several places as the truth",
+      forget: "Remove this truth",
       possible: "Or take the walls that many scans agree on, if the recording has poses:",
       without:
-        "A truth from poses is not possible: this recording has none. Read it with a trajectory, --poses FILE or Read as…",
+        "A truth from poses is not possible: this recording has no poses. Add a trajectory with --poses FILE or Read as…",
     },
     rows: /** @type {[string, string, string, "count" | "share" | "mm"][]} */ ([
       ["trueLines", "true lines", "Visible stretches of a wall that meet P_min and L_min", "count"],

@@ -217,7 +217,7 @@ export const pageText = {
     all_lines: { label: "Lines of all frames", help: "The lines of every frame, where they are in the world" },
     line_map: {
       label: "Line map",
-      help: "The lines of all frames, merged where they are one within the noise of beams and poses; point at one for its length and how well it is known",
+      help: "The lines of all frames, merged where they agree within the noise of beams and poses; point at one for its length and standard deviation",
     },
     laser: { label: "Laser", help: "Position and direction of the laser" },
     grid: { label: "Grid", help: "Squares of equal size; the scale bar shows how large they are" },

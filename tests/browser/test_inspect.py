@@ -166,7 +166,7 @@ def test_a_truth_is_made_from_poses_marked_and_forgotten(new_tab):
     tab.page.locator(".from-poses").get_by_text("walls hold together").wait_for()
     tab.page.locator(".truth-figures", has_text="by many views").wait_for()
     tab.page.get_by_label("Compared with").get_by_text("walls by many views").wait_for(state="attached")
-    tab.page.get_by_role("button", name="Without this truth").click()
+    tab.page.get_by_role("button", name="Remove this truth").click()
     tab.until("s.byViews === '' && s.agreement === null")
     tab.page.get_by_role("button", name="Truth from poses").wait_for()
 

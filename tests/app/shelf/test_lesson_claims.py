@@ -838,7 +838,7 @@ def _():
     "less than ε = {limit}, so it joins",
     "and nothing else",
     "the same four walls are found",
-    "There are as many walls in the room as before",
+    "The room has as many walls as before",
     "More walls are found",
     "no line ends where the numbers begin",
 )
