@@ -66,6 +66,12 @@ class LessonShelf:
         """The file of a recording that only lessons have. Raises KeyError if there is none."""
         return self._paths[id]
 
+    def title_of(self, recording: str) -> str:
+        """The title of a lesson with this recording; "" if there is none."""
+        with self._lock:
+            every = [lesson for _, lesson in self._known.values() if lesson is not None]
+        return next((lesson.title for lesson in every if lesson.recording == recording), "")
+
     def scans_of(self, lesson: NamedLesson) -> Recording:
         """The recording of a lesson. Raises ValueError or OSError if it is gone."""
         return recording_of(lesson, Home(paths=self._paths).place_of(lesson)[1])

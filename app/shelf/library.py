@@ -32,7 +32,7 @@ DRAWN = "drawn:"
 FIRST_DRAWING = "w-2,2,3,2;w3,2,3,-1.5;w3,-1.5,0.5,-1.5;c1.2,0.8,0.25;l0,0,0;b-135,135,0.5,30,0.01;s0"
 # The recording of a lesson that is not one of the program's.
 OWN = "own"
-OWN_LABEL = "Recording of the lesson"
+OWN_LABEL = "Scans of the lesson"
 DRAWN_LABEL = "Your own world"
 
 Progress = Callable[[int, int], None]
@@ -181,7 +181,8 @@ class Library:
         if path is not None:
             return shown(path.name)
         if id.startswith(f"{OWN}:"):
-            return OWN_LABEL
+            title = self.lessons.title_of(id)
+            return f"{OWN_LABEL} “{title}”" if title else OWN_LABEL
         return next((upload.name for upload in self.uploads.all() if id == f"upload:{upload.id}"), id)
 
     def path(self, id: str) -> Path:

@@ -23,7 +23,8 @@ const WALL = [
 
 /** @param {Text} text */
 export function createFits(text) {
-  let angle = 0;
+  // Through a level wall, both lines are the same.
+  let angle = TURN;
   /** @type {Point[]} */
   let points = turned(angle);
   const picture = svg("svg", { class: "fits", viewBox: `0 0 ${WIDTH} ${HEIGHT}`, role: "group" });

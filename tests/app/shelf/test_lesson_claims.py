@@ -87,7 +87,7 @@ RULES = (
     "the steeper the wall, the farther it turns away",
     "A laser sees walls of every direction",
     "Compare both distances in the sentence below",
-    "No line has a smaller rms distance across itself, by definition",
+    "By definition, no other line has a smaller rms distance across itself",
     "when all points are turned, it turns with them",
     "How far would beam 512 be",
     "it must be larger than the noise",

@@ -148,6 +148,7 @@ def test_a_lesson_is_about_a_recording_beside_it(tmp_path: Path):
     found = shelf.find("mine")
     assert found is not None
     assert shelf.recording(found.recording) == tmp_path / "run.npz"
+    assert (shelf.title_of(found.recording), shelf.title_of("own:none")) == ("Mine", "")
     assert found.task.number is not None
     assert found.task.number.answer == str(len(trace(hallway[5], method_of_lessons()).extraction.segments))
     shelf.close()
