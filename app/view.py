@@ -49,7 +49,7 @@ class Layers:
     """What is drawn; `replay` is the geometry of the decision on the screen, `ghosts` the missed lines in Inspect.
 
     In the world: `trajectory` of the laser, `past` scans, `all_lines` of the recording, and the
-    `line_map` that they are merged into.
+    `line_map` that they are merged into; `other_lasers` of the robot at the time of the frame.
     """
 
     points: bool = True
@@ -70,6 +70,7 @@ class Layers:
     past: bool = True
     all_lines: bool = False
     line_map: bool = False
+    other_lasers: bool = False
 
     def but(self, /, **values: bool) -> Self:
         """A copy with some layers switched. Raises ValueError, listing the known names, for an unknown one."""

@@ -20,6 +20,7 @@ class PoseSource:
     text: where they come from, such as "FLASER lines"; "" if there are none. frames: from the world's to the laser's.
     apart: median time between a scan and the nearest pose message [s]. upside_down: whether the laser is mounted so
     that its beams turn clockwise seen from above. missing: why scans have no pose, "" if all have one.
+    mounted: whether they are those of this laser; if not, those of the robot are taken for them.
     """
 
     text: str = ""
@@ -27,6 +28,7 @@ class PoseSource:
     apart: float = 0.0
     upside_down: bool = False
     missing: str = ""
+    mounted: bool = True
 
 
 class Found(NamedTuple):

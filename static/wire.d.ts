@@ -619,16 +619,26 @@ export interface Framing {
   measures: Measured[];
 }
 
+/** Another laser of the robot. why: why its scan is not shown, "" if it is, null while it is being read. */
+export interface Beside {
+  topic: string;
+  colour: string;
+  why: string | null;
+}
+
 /**
  * The laser in the world. pose: x, y [m] and heading [rad], null if it is not known at this frame.
  *
  * upsideDown: whether its beams turn clockwise seen from above. map: what is said of the line map, "" while it is
- * made and if it is not shown.
+ * made and if it is not shown; mapPercent: how much of it is made. lasers: the others of the robot, none if not
+ * shown.
  */
 export interface World {
   pose: number[] | null;
   upsideDown: boolean;
   map: string;
+  mapPercent: number;
+  lasers: Beside[];
 }
 
 /**

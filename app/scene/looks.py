@@ -9,6 +9,7 @@ Shape = Literal["circle", "square", "diamond"]
 # name: (size on the screen [pixels], which viser draws about twice as wide; shape)
 CLOUDS: dict[str, tuple[float, Shape]] = {
     "past": (1.4, "circle"),
+    "other lasers": (2.2, "circle"),
     "points": (2.2, "circle"),
     "seeds": (3.2, "square"),
     "endpoints": (4.5, "circle"),
@@ -44,10 +45,10 @@ LINES = {
 # Each lies over those before it.
 ORDER = (
     "grid", "past", "all lines", "line map", "trajectory",
-    "pinned", "invalid", "truth", "laser", "ray", "selected ray", "dropped", "band", "missed", "ghosts",
+    "other lasers", "pinned", "invalid", "truth", "laser", "ray", "selected ray", "dropped", "band", "missed", "ghosts",
     "points", "segments", "matched", "false", "normals", "other", "bent", "growing",
     "seeds", "endpoints", "window", "predicted",
     "candidate", "selected",
 )  # fmt: skip
 # These are drawn where they are in the world; all others where the laser sees them.
-IN_THE_WORLD = ("grid", "past", "all lines", "line map", "trajectory")
+IN_THE_WORLD = ("grid", "past", "all lines", "line map", "trajectory", "other lasers")

@@ -38,6 +38,9 @@ class Theme:
     past_line: Colour
     trajectory: Colour
     mapped: Colour
+    second: Colour
+    third: Colour
+    fourth: Colour
 
 
 LIGHT = Theme(
@@ -48,6 +51,7 @@ LIGHT = Theme(
     pinned=(140, 147, 158), changed=(178, 102, 210),
     matched=(0, 119, 187), missed=(20, 22, 26), false=(222, 105, 20), ghost=(110, 70, 215),
     past=(142, 147, 154), past_line=(95, 145, 190), trajectory=(222, 105, 20), mapped=(16, 62, 105),
+    second=(200, 30, 150), third=(0, 130, 140), fourth=(135, 105, 0),
 )  # fmt: skip
 DARK = Theme(
     point=(150, 156, 164), invalid=(100, 106, 115), strong=(245, 246, 248), faint=(120, 126, 134),
@@ -57,6 +61,7 @@ DARK = Theme(
     pinned=(100, 106, 118), changed=(150, 88, 190),
     matched=(51, 160, 238), missed=(245, 246, 248), false=(255, 140, 70), ghost=(170, 140, 255),
     past=(100, 106, 115), past_line=(66, 112, 155), trajectory=(255, 140, 70), mapped=(150, 205, 250),
+    second=(250, 120, 215), third=(60, 205, 215), fourth=(215, 190, 70),
 )  # fmt: skip
 # In place of both themes: the colour of a field is its number, as no segment has it.
 NUMBERED = Theme(*((number, 1, 254) for number in range(len(fields(Theme)))))

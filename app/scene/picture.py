@@ -21,6 +21,7 @@ from ..frame.findings import Findings
 from ..frame.geometry import Bounds, square_of, voids
 from ..frame.judge import Judged
 from ..view import View
+from .beside import OtherLaser, bounds_around, scans_beside
 from .palette import DARK, LIGHT, Colours, Theme
 from .replay import State, decision_geometry, foot_between, state_at
 from .shapes import Lines, Points, dashed, joined, lines_between, points_at
@@ -62,18 +63,25 @@ class Place(NamedTuple):
 
 
 def picture_in_world(
-    view: View, drawn: Picture, world: World, survey: Survey | None, line_map: LineMap | None = None
+    view: View,
+    drawn: Picture,
+    world: World,
+    survey: Survey | None,
+    line_map: LineMap | None = None,
+    lasers: Sequence[OtherLaser] = (),
 ) -> Picture:
-    """A picture of a frame in the world; without a pose, the frame is left out. survey, line_map: of all frames,
-    if known.
+    """A picture of a frame in the world; without a pose, the frame is left out.
+
+    survey, line_map: of all frames, if known; lasers: the others of the robot.
     """
     theme, layers = DARK if view.dark else LIGHT, view.layers
+    bounds = bounds_around(world, lasers)
     frame = world.recording.position(view.frame)
     pose = world.pose(frame)
     points, lines = (drawn.points, drawn.lines) if pose is not None else ({}, {})
     points, lines = dict(points), {name: shape for name, shape in lines.items() if name != "grid"}
     if has_grid(view):
-        lines["grid"] = grid(world.bounds, theme)
+        lines["grid"] = grid(bounds, theme)
     if layers.trajectory:
         lines["trajectory"] = world.trajectory(theme)
     if layers.all_lines and survey is not None:
@@ -82,9 +90,11 @@ def picture_in_world(
         lines["line map"] = world.line_map(line_map, theme)
     if layers.past and view.past != "none":
         points["past"] = world.all_seen(theme) if view.past == "all" else world.last_seen(frame, int(view.past), theme)
+    if layers.other_lasers and lasers:
+        points["other lasers"] = scans_beside(lasers, float(world.recording.stamps[frame]), theme)
     if layers.laser and pose is not None:
-        lines["laser"] = laser(world.bounds, theme)
-    return Picture(points, lines, world.bounds, Place(pose, world.upside_down))
+        lines["laser"] = laser(bounds, theme)
+    return Picture(points, lines, bounds, Place(pose, world.upside_down))
 
 
 def picture(

@@ -15,12 +15,15 @@ from ..frame.geometry import Bounds, bounds_of, united
 from ..frame.judge import Reference, judged
 from ..frame.state import state_of
 from ..live.ring import LiveRecording
+from ..scene.beside import OtherLaser, beside_told
+from ..scene.palette import DARK, LIGHT
 from ..scene.picture import Picture, picture, picture_in_world
 from ..scene.world import World
 from ..shelf.label_files import LabelFiles
 from ..shelf.lesson import Looked
 from ..shelf.library import Library
 from ..told.drawn import Scene
+from ..told.drawn import World as WorldState
 from ..told.messages import Times
 from ..view import View
 
@@ -43,6 +46,34 @@ class Content:
         return Times(place=self.view.place, since=since, why=self.clock.trouble)
 
 
+@dataclass(frozen=True, eq=False)
+class Around:
+    """What is drawn around a frame in the world, made aside.
+
+    mapped: the lines of all frames, merged, or why they are not; None before it; percent: how much of it is made.
+    lasers: the others of the robot.
+    """
+
+    mapped: LineMap | str | None = None
+    percent: int = 0
+    lasers: tuple[OtherLaser, ...] = ()
+
+    @property
+    def line_map(self) -> LineMap | None:
+        return self.mapped if isinstance(self.mapped, LineMap) else None
+
+    def told(self, view: View, world: World, frame: int) -> WorldState:
+        """What the page says of the world at a frame."""
+        pose, theme = world.pose(frame), DARK if view.dark else LIGHT
+        return {
+            "pose": pose and list(pose),
+            "upsideDown": world.upside_down,
+            "map": self.line_map.text if self.line_map else str(self.mapped or ""),
+            "mapPercent": self.percent,
+            "lasers": beside_told(self.lasers, float(world.recording.stamps[frame]), theme),
+        }
+
+
 class Composer:
     """Caches the findings of the latest frames. Use it in one thread only."""
 
@@ -61,9 +92,10 @@ class Composer:
         self._live_bounds: tuple[str, int, Bounds] = ("", 0, (0.0, 0.0, 0.0, 0.0))
 
     def compose(
-        self, view: View, recording: Recording, survey: Survey | None = None, mapped: LineMap | str | None = None
+        self, view: View, recording: Recording, survey: Survey | None = None, around: Around | None = None
     ) -> Content:
-        """survey: the lines of all frames, if they are known; mapped: their map, or why there is none."""
+        """survey: the lines of all frames, if they are known."""
+        around = around or Around()
         view = _inside(view, recording)
         frame = recording.position(view.frame)
         found = self._findings(recording, frame, view.method, view.params)
@@ -79,18 +111,15 @@ class Composer:
         drawing = picture(view, recording, found, bounds, pinned, judgement, ghosts)
         world = self._world(recording) if view.space == "world" and view.mode != "learn" else None
         if world is not None:
-            line_map = mapped if isinstance(mapped, LineMap) else None
-            drawing = picture_in_world(view, drawing, world, survey, line_map)
-            bounds = world.bounds
+            drawing = picture_in_world(view, drawing, world, survey, around.line_map, around.lasers)
+            bounds = drawing.bounds
         label = self._library.label(view.recording)
         clock = self._clock(recording)
         since, nodes = clock.at(frame), drawing.nodes
         looked = self._looked_at(view)
         state = state_of(view, recording, label, found, bounds, reference, since, pinned, judgement, nodes, looked)
         if world is not None:
-            pose = world.pose(frame)
-            said = mapped.text if isinstance(mapped, LineMap) else mapped or ""
-            state["world"] = {"pose": pose and list(pose), "upsideDown": world.upside_down, "map": said}
+            state["world"] = around.told(view, world, frame)
         return Content(view, found, drawing, state, clock)
 
     def _looked_at(self, view: View) -> Looked | None:

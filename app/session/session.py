@@ -7,6 +7,7 @@ import threading
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 from pydantic import BaseModel
@@ -19,6 +20,7 @@ from lineseg.readers import Cancelled
 from ..frame.geometry import beam_near
 from ..live.ring import LiveRecording
 from ..newest import Newest
+from ..scene.beside import OtherLaser
 from ..scene.portless import Door
 from ..scene.viser_scene import ViserScene
 from ..shelf.label_files import LabelFiles
@@ -27,10 +29,11 @@ from ..shelf.preview import for_the_page
 from ..told.drawn import Timings
 from ..told.messages import Failure, Loading
 from ..view import View
-from .composing import Composer
+from .aside import Surveyed, map_work, shows_map
+from .composing import Around, Composer
 from .following import Presence, Presenter, Pupil, mirrored
 from .loading import opened, refused
-from .map_work import MapWork, Surveyed, shows_map
+from .other_lasers import Robot, lasers_work, others_in, shows_lasers
 from .pace import quick, takes_long, turn_of, waits_for
 from .page import NOBODY, Page, Told
 from .shown import Origin, Painted, Request, Shown, Watch
@@ -86,7 +89,10 @@ class Session:
         self._strip = Strip(f"strip {id[:6]}", warm_up.surveyed, self._tell, self._surveyed)
         # The lines of all frames, as far as they were found last.
         self._lines: Surveyed | None = None
-        self._map = MapWork(f"map {id[:6]}", self._mapped)
+        self._map = map_work(f"map {id[:6]}", self._mapped)
+        # The recording on the screen, where its other lasers are asked for.
+        self._robot: Robot | None = None
+        self._lasers = lasers_work(f"lasers {id[:6]}", self._lasers_opened)
         self._followed = 0.0
         self.presenter = Presenter()
         self._leave_presenter: Callable[[], None] | None = None
@@ -190,6 +196,7 @@ class Session:
         self.presenter.tell("gone")
         self._strip.close()
         self._map.close()
+        self._lasers.close()
         self._drawing.close()
         self._alone.acquire(timeout=CLOSING_SECONDS)
         self._scene.stop()
@@ -372,14 +379,24 @@ class Session:
         begun = time.perf_counter()
         lines = self._lines
         survey = lines.lines if lines is not None and lines.recording is recording else None
-        mapped = self._map.of(recording) if shows_map(newest.view) else None
-        content = self._composer.compose(newest.view, recording, survey, mapped)
+        content = self._composer.compose(newest.view, recording, survey, self._around(newest.view, recording))
         drawn = time.perf_counter()
         self._scene.draw(content.picture, content.view.params, content.view.dark)
         # They are kept with what was found.
         _ = content.found.marks
         timings: Timings = {"pictureMs": _ms(drawn - begun), "drawMs": _ms(time.perf_counter() - drawn)}
         return Painted(newest, recording, content, timings)
+
+    def _around(self, view: View, recording: Recording) -> Around:
+        """What was made of the recording aside."""
+        mapped, lasers = self._map.of(recording), self._lasers.of(recording)
+        if not shows_map(view):
+            mapped = None
+        if not shows_lasers(view, recording):
+            lasers = ()
+        elif not isinstance(lasers, tuple):
+            lasers = tuple(OtherLaser(topic, why=lasers) for topic in others_in(recording))
+        return Around(mapped, self._map.percent, lasers)
 
     def _newest(self, request: Request) -> Request | None:
         """What to draw instead, if more was asked for while this waited; None if that waits for something else."""
@@ -400,6 +417,7 @@ class Session:
                 passing = key_of(self._wanted.view) != key_of(shown.view)
                 self._strip.want(shown.view, shown.recording, self._wanted.rev, passing)
                 self._want_map()
+                self._want_lasers()
 
     def _surveyed(self, recording: Recording, survey: Survey) -> None:
         """Draw the lines of all frames where they are shown."""
@@ -419,6 +437,22 @@ class Session:
         """Draw the map where it is shown."""
         with self._lock:
             if shows_map(self._wanted.view):
+                self._ask(self._wanted.view, self._wanted.rev, "scene")
+
+    def _want_lasers(self) -> None:
+        """Have the other lasers of the robot opened, as long as the screen shows them."""
+        shown = self._shown
+        if shown is None or not shows_lasers(self._wanted.view, shown.recording):
+            self._robot = None
+        elif self._robot is None or self._robot.recording is not shown.recording:
+            file = partial(self._library.path, shown.view.recording)
+            self._robot = Robot(shown.recording, file, shown.view.reading)
+        self._lasers.want(self._robot)
+
+    def _lasers_opened(self) -> None:
+        """Draw the other lasers where they are shown."""
+        with self._lock:
+            if self._wanted.view.layers.other_lasers:
                 self._ask(self._wanted.view, self._wanted.rev, "scene")
 
     @property

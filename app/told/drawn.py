@@ -226,16 +226,26 @@ class Framing(TypedDict):
     measures: list[Measured]
 
 
+class Beside(TypedDict):
+    """Another laser of the robot. why: why its scan is not shown, "" if it is, null while it is being read."""
+
+    topic: str
+    colour: str
+    why: str | None
+
+
 class World(TypedDict):
     """The laser in the world. pose: x, y [m] and heading [rad], null if it is not known at this frame.
 
     upsideDown: whether its beams turn clockwise seen from above. map: what is said of the line map, "" while it is made
-    and if it is not shown.
+    and if it is not shown; mapPercent: how much of it is made. lasers: the others of the robot, none if not shown.
     """
 
     pose: list[float] | None
     upsideDown: bool
     map: str
+    mapPercent: int
+    lasers: list[Beside]
 
 
 class OfView(TypedDict):

@@ -291,8 +291,9 @@ def _best(tree: Tree, topics: dict[str, Topic], wanted: Wanted) -> Found:
     if others:
         missing.append(f"also there: {', '.join(others)}")
     apart = way.apart(wanted.stamps[np.isfinite(poses).all(axis=1)])
+    upside_down = level < 0 and not wanted.mirrored
     source = PoseSource(
-        way.source, way.frames, float(np.median(apart)), level < 0 and not wanted.mirrored, "; ".join(missing)
+        way.source, way.frames, float(np.median(apart)), upside_down, "; ".join(missing), mounted=not way.note
     )
     return Found(poses, source, way.at)
 

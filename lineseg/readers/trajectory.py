@@ -48,7 +48,7 @@ def trajectory_of(path: Path, stamps: Array) -> Found:
                 f"{path.name} has no stamps and {count} poses, but the recording has {len(stamps)} scans; "
                 "give each pose its stamp."
             )
-        return Found(rigid.flat()[0], PoseSource(path.name))
+        return Found(rigid.flat()[0], PoseSource(path.name, mounted=False))
     times = _seconds(columns["stamp"])
     motion = Motion.of(times, rigid)
     if motion is None:
@@ -65,7 +65,7 @@ def trajectory_of(path: Path, stamps: Array) -> Found:
     apart = float(np.median(motion.apart(stamps[known]))) if known.any() else 0.0
     return Found(
         poses,
-        PoseSource(path.name if known.any() else "", (), apart, False, missing),
+        PoseSource(path.name if known.any() else "", (), apart, False, missing, mounted=False),
         lambda at: motion.at(at).flat()[0],
     )
 

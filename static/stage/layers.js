@@ -40,9 +40,10 @@ export function createLayers(words, onLayers) {
     /** @param {string} name of a layer */
     toggle: (name) => boxes.get(name)?.click(),
     /** Offers the true walls only if they are known, and the world only in it. @param {import("../wire.js").State} state */
-    setState({ truth, world }) {
+    setState({ truth, world, topics }) {
       rows[names.indexOf("truth")].hidden = !truth;
       for (const name of ["trajectory", "past", "all_lines", "line_map"]) rows[names.indexOf(name)].hidden = !world;
+      rows[names.indexOf("other_lasers")].hidden = !world || topics.length < 2;
     },
     /** @param {Readonly<import("../wire.js").View>} view */
     setView({ layers }) {

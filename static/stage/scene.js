@@ -5,6 +5,7 @@ import { h } from "../widgets/dom.js";
 import { createCamera } from "./camera.js";
 import { createKey } from "./key.js";
 import { createMapLines } from "./map_lines.js";
+import { createLasers } from "./lasers.js";
 import { createLayers } from "./layers.js";
 import { CanvasStage } from "./canvas_stage.js";
 import { createFlatPicture } from "./flat_picture.js";
@@ -64,16 +65,30 @@ export function mountScene(
   if (flat) notices.add(flat.notice);
   notices.add(ruler.card);
   const world = createWorld(page, text.stage.world);
+  const lasers = createLasers(text.stage.world.lasers);
   const explanation = createExplanation(text.explanation, stage, pointing, {
     onClose: () => page.change({ selected: null }),
     onChange: (params) => page.change({ params }),
   });
   const tools = h("div", { class: "stage-tools" }, ...camera.buttons, ruler.button, world.button, layers.button);
   notices.add(key.element);
+  notices.add(lasers.element);
   holder.append(tools, world.list, layers.list, explanation.element);
   holder.setAttribute("aria-label", text.stage.label);
   return {
-    parts: [notices, mapLines, layers, camera, world, key, pointing, ruler, explanation, ...(flat ? [flat] : [])],
+    parts: [
+      notices,
+      mapLines,
+      layers,
+      camera,
+      world,
+      key,
+      lasers,
+      pointing,
+      ruler,
+      explanation,
+      ...(flat ? [flat] : []),
+    ],
     stage,
     notices,
     camera,

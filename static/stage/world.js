@@ -49,13 +49,14 @@ export function createWorld(page, text) {
     list,
     toggle: () => !button.hidden && page.change({ space: page.view.space === "world" ? "laser" : "world" }),
     /** @param {import("../wire.js").State} state */
-    setState({ mayHavePoses, frames, poses, world, mode, view, layers }) {
+    setState({ mayHavePoses, frames, topics, poses, world, mode, view, layers }) {
       button.hidden = !mayHavePoses || frames < 2 || mode === "learn";
       const asked = view.space === "world";
       for (const input of [past, ride]) input.disabled = !world;
       const lost = world && !world.pose ? text.lost : "";
-      const map = world && layers.line_map ? text.map(world.map) : "";
-      setText(said, asked ? [text.poses(poses), lost, map].filter(Boolean).join(" ") : "");
+      const apart = !world && topics.length > 1 ? text.apart(topics.length) : "";
+      const map = world && layers.line_map ? text.map(world.map, world.mapPercent) : "";
+      setText(said, asked ? [text.poses(poses), lost, apart, map].filter(Boolean).join(" ") : "");
       said.hidden = !asked;
       said.classList.toggle("warning", asked && !world?.pose);
     },

@@ -133,7 +133,16 @@ export const pageText = {
       ride: { label: "Move with the robot", help: "The picture moves along, instead of standing still" },
       poses: (/** @type {string} */ said) => `Poses: ${said}.`,
       lost: "This frame has no pose, so it is not shown.",
-      map: (/** @type {string} */ said) => (said ? `Line map: ${said}` : "Line map: merging the lines of all frames…"),
+      map: (/** @type {string} */ said, /** @type {number} */ percent) =>
+        `Line map: ${said || `merging the lines of all frames… ${percent} %`}`,
+      /** Two or more lasers, and no poses that say where they are. */
+      apart: (/** @type {number} */ lasers) =>
+        `The recording has scans of ${lasers} lasers. Without poses it is not known how they are mounted, so they are not drawn together.`,
+      lasers: {
+        label: "Lasers",
+        reading: "is being read…",
+        absent: (/** @type {string} */ why) => `not shown: ${why}`,
+      },
       mapped: (/** @type {number} */ length, /** @type {number} */ sigma, /** @type {number} */ seen) =>
         `map line ${length.toFixed(2)} m ±${(1000 * sigma).toFixed(0)} mm, from ${seen.toLocaleString("en")}`,
     },
@@ -218,6 +227,10 @@ export const pageText = {
     line_map: {
       label: "Line map",
       help: "The lines of all frames, merged where they agree within the noise of beams and poses; point at one for its length and standard deviation",
+    },
+    other_lasers: {
+      label: "Other lasers",
+      help: "What the other lasers of the robot saw at the time of this frame, where the poses of the recording put them",
     },
     laser: { label: "Laser", help: "Position and direction of the laser" },
     grid: { label: "Grid", help: "Squares of equal size; the scale bar shows how large they are" },
