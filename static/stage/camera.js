@@ -58,7 +58,8 @@ export function createCamera(page, stage, text, { drawing, names, onLook, onFram
       stage.gridded = layers.grid;
       stage.place(world, view.ride === "on");
       // A drawn world stays where it is while it changes.
-      const place = drawing() ? "drawn" : `${scans} ${world ? "world" : ""}`;
+      const around = world ? `world ${world.lasers.some(({ why }) => why !== null)}` : "";
+      const place = drawing() ? "drawn" : `${scans} ${around}`;
       if (place !== fitted) {
         fitted = place;
         closeUp.forget();

@@ -48,7 +48,7 @@ export class Sensitivity {
     return h(
       "button",
       { type: "button", class: "curve-key", "data-line": line, onclick: () => this.#toggle(line) },
-      h("span", { class: "swatch" }),
+      h("span", { class: "curve-swatch" }),
       this.#text.short[line],
     );
   }
