@@ -23,15 +23,20 @@ YOUNG_SECONDS = 60.0
 def whole_file(path: Path) -> Iterator[Path]:
     """A file to write in the same folder, which becomes `path` at the end; after an error nothing has changed.
 
-    Raises OSError, which names `path`, if the folder or the disk says no.
+    A link stays a link: its target is replaced. A pipe or device is written itself. Raises OSError, which names `path`,
+    if the folder or the disk says no.
     """
-    remove_left(path.parent, FILES)
-    part = path.with_name(FILES.replace("*", secrets.token_hex(8)))
+    if path.exists() and not path.is_file():
+        yield path
+        return
+    target = path.resolve()
+    remove_left(target.parent, FILES)
+    part = target.with_name(FILES.replace("*", secrets.token_hex(8)))
     try:
-        with _created(part, path) as held:
+        with _created(part, target) as held:
             locked(held)
             yield part
-        part.replace(path)
+        part.replace(target)
     except OSError as error:
         with contextlib.suppress(OSError):  # a file system that is read-only
             part.unlink(missing_ok=True)
@@ -41,6 +46,12 @@ def whole_file(path: Path) -> Iterator[Path]:
     except BaseException:
         part.unlink(missing_ok=True)
         raise
+
+
+def write_whole(path: Path, text: str) -> None:
+    """Write a text as a file that appears when it is complete. Raises OSError, which names `path`."""
+    with whole_file(path) as part:
+        part.write_text(text, encoding="utf-8")
 
 
 def _created(part: Path, path: Path) -> IO[bytes]:

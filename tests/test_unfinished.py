@@ -4,6 +4,7 @@ import os
 import subprocess
 import time
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -14,9 +15,9 @@ from lineseg_app.shelf.recent import Recent
 from live import page_of, serving
 from processes import lineseg
 
-from lineseg import FrameLabels, Recording, Scan, read_labels, save_labels
+from lineseg import FrameLabels, Recording, Scan, open_recording, read_labels, save_labels
 from lineseg.readers import save_npz
-from lineseg.unfinished import FILES, temporary_folder, whole_file
+from lineseg.unfinished import FILES, temporary_folder, whole_file, write_whole
 
 WALLS = Path(__file__).parents[1] / "sample_scans" / "hallway.npz"
 
@@ -70,6 +71,47 @@ def test_an_error_leaves_the_former_file_and_nothing_else(tmp_path):
     with whole_file(path) as part:
         part.write_text("new")
     assert (path.read_text(), path.stat().st_mode & 0o777) == ("new", 0o600)
+
+
+def test_a_link_stays_a_link_and_a_pipe_a_pipe(tmp_path):
+    (tmp_path / "far").mkdir()
+    link = tmp_path / "link.txt"
+    link.symlink_to("far/out.txt")
+    write_whole(link, "new")
+    assert (link.is_symlink(), (tmp_path / "far" / "out.txt").read_text()) == (True, "new")
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    with ThreadPoolExecutor(1) as reader:
+        told = reader.submit(pipe.read_text)
+        write_whole(pipe, "said")
+    assert (told.result(), pipe.is_fifo()) == ("said", True)
+
+
+def test_a_recording_survives_a_larger_one_of_its_name_that_does_not_fit(tiny):
+    path = tiny / "out.npz"
+    save_npz(Recording.from_scans([Scan.regular(np.ones(9), 0.0, 0.01)]), path)
+    noise = np.random.default_rng(1).uniform(1, 2, (60, 500))
+    with pytest.raises(OSError, match="No space left on device") as error:
+        save_npz(Recording.from_scans([Scan.regular(row, 0.0, 0.01) for row in noise]), path)
+    assert (error.value.filename, list(tiny.iterdir())) == (str(path), [path])
+    assert len(open_recording(path)) == 1
+
+
+COMMANDS = [
+    ("extract walls.npz -o out.csv", "out.csv.json"),
+    ("compare walls.npz --methods region-growing --budget 0 -o out.md", "out.md"),
+    ("sweep walls.npz --epsilon 0.01,0.02 -o out.csv --plot out.svg", "out.svg"),
+]
+
+
+@pytest.mark.parametrize(("command", "name"), COMMANDS)
+def test_no_command_writes_into_the_former_file(tmp_path, monkeypatch, capsys, command, name):
+    monkeypatch.chdir(tmp_path)
+    save_npz(Recording.from_scans([Scan.regular(np.ones(30), 0.0, 0.01)] * 4), "walls.npz")
+    Path(name).write_text("former")
+    os.link(name, "held")
+    assert main(command.split()) == 0, capsys.readouterr().err
+    assert (Path("held").read_text(), Path(name).stat().st_size > 100) == ("former", True)
 
 
 def test_a_temporary_folder_is_gone_at_the_end():

@@ -11,6 +11,7 @@ from tyro.conf import OmitArgPrefixes, Positional, arg
 
 from lineseg.readers import Reading
 from lineseg.scan import Recording
+from lineseg.unfinished import write_whole
 
 from .flag_types import Several, Unset
 from .progress import open_with_progress, progress_bar
@@ -68,7 +69,7 @@ def compare(
     if out is None:
         sys.stdout.write(text)
     else:
-        out.write_text(text, encoding="utf-8")
+        write_whole(out, text)
 
 
 def _run(comparisons: Sequence[Comparison]) -> None:

@@ -16,6 +16,7 @@ from lineseg.knobs import Thresholds
 from lineseg.params import Params
 from lineseg.scan import Recording
 from lineseg.survey import survey
+from lineseg.unfinished import write_whole
 from lineseg.writers import SEGMENT_WRITERS, write_segments
 from lineseg.writers.segments import suffix_of
 from lineseg.writers.whole import SURVEY_WRITERS, write_survey
@@ -105,4 +106,4 @@ def _write(recording: Recording, method: str, params: Thresholds, target: Path |
         rows = ((recording.number(frame), scan, extract_segments(scan, params)) for frame, scan in scans)
         write_segments(to, None, rows, noise, about)
     if target is not None and target.suffix.lower() == ".csv":
-        target.with_name(f"{target.name}.json").write_text(json.dumps(about, indent=1) + "\n", encoding="utf-8")
+        write_whole(target.with_name(f"{target.name}.json"), json.dumps(about, indent=1) + "\n")

@@ -9,6 +9,7 @@ from typing import Annotated, Literal
 from tyro.conf import OmitArgPrefixes, Positional, arg
 
 from lineseg.params import Params
+from lineseg.unfinished import write_whole
 from lineseg.writers import params_text, read_params
 
 from .flag_types import Files, Unset
@@ -84,7 +85,7 @@ def tune(
     if out is None:
         sys.stdout.write(text)
     else:
-        out.write_text(text, encoding="utf-8")
+        write_whole(out, text)
 
 
 def _search(tuning, trials: int) -> None:

@@ -8,7 +8,7 @@ from pathlib import Path
 from string import Template
 from urllib.parse import quote
 
-from lineseg.unfinished import whole_file
+from lineseg.unfinished import write_whole
 
 from ..shelf.lesson import NamedLesson
 from ..shelf.lesson_shelf import LessonShelf
@@ -55,8 +55,7 @@ def write_site(
 
 
 def _write(path: Path, page: str) -> None:
-    with whole_file(path) as part:
-        part.write_text(page, encoding="utf-8")
+    write_whole(path, page)
 
 
 def check_folder(folder: Path) -> None:

@@ -15,6 +15,7 @@ from lineseg.params import Params
 from lineseg.readers import open_recording
 from lineseg.scan import Recording, Scan
 from lineseg.simulate.drawing import Drawing
+from lineseg.unfinished import write_whole
 
 from ..places import data_folder
 from .lesson import USUAL, Lesson, Looked, NamedLesson, Task
@@ -70,7 +71,7 @@ class Home:
             raise ValueError("this lesson cannot contain its scan; name a recording")
         path = self.scans() / f"{hashlib.sha256(text.encode()).hexdigest()[:12]}.json"
         if not path.is_file():
-            path.write_text(text, encoding="utf-8")
+            write_whole(path, text)
         return path
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from lineseg.readers import Reading
-from lineseg.unfinished import whole_file
+from lineseg.unfinished import write_whole
 
 from ..places import user_folder
 
@@ -49,8 +49,7 @@ class Recent:
         ]
         try:
             self._file.parent.mkdir(parents=True, exist_ok=True)
-            with whole_file(self._file) as part:
-                part.write_text(json.dumps(entries, indent=1), encoding="utf-8")
+            write_whole(self._file, json.dumps(entries, indent=1))
         except OSError:
             return
 
@@ -58,7 +57,7 @@ class Recent:
 def _read(file: Path) -> dict[Path, Reading]:
     try:
         entries = json.loads(file.read_text(encoding="utf-8"))
-    except (OSError, ValueError):
+    except (OSError, ValueError, RecursionError):
         return {}
     found = map(_entry, entries if isinstance(entries, list) else [])
     return dict([entry for entry in found if entry is not None][:MOST])

@@ -9,6 +9,7 @@ from typing import Any
 from ..extractors import EXTRACTORS
 from ..scan import Recording
 from ..sweep.plot import figure_type
+from ..unfinished import whole_file
 from .comparison import Row
 
 
@@ -18,7 +19,8 @@ def write_figures(rows: Sequence[Row], recording: Recording, frames: Sequence[in
     stem, kind = Path(recording.name).stem, figure_type()
     files = [folder / f"{stem}_times.svg", folder / f"{stem}_lines.svg"]
     for path, figure in zip(files, (_times(kind, rows, frames), _lines(kind, rows, recording, frames)), strict=True):
-        figure.savefig(path, format="svg")
+        with whole_file(path) as unfinished:
+            figure.savefig(unfinished, format="svg")
     return files
 
 

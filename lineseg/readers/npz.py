@@ -5,7 +5,6 @@ from __future__ import annotations
 import zipfile
 import zlib
 from collections.abc import Mapping
-from contextlib import nullcontext
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, BinaryIO
@@ -16,7 +15,7 @@ from numpy.typing import NDArray
 from ..arguments import need_recording
 from ..poses import PoseSource, Track
 from ..scan import Recording, Topic
-from ..unfinished import temporary_folder
+from ..unfinished import temporary_folder, whole_file
 from .arrays import header_of, is_exchange, loaded, recording_of_arrays
 from .bounded import too_large
 from .cut_zip import unpack_cut
@@ -115,7 +114,11 @@ def save_npz(recording: Recording, target: str | Path | BinaryIO) -> None:
     arrays |= {name: array for name in tables if (array := getattr(recording, name)) is not None}
     if "poses" in arrays and recording.pose_source.upside_down:
         arrays["upside_down"] = np.array(True)
-    with Path(target).open("wb") if isinstance(target, str | Path) else nullcontext(target) as file:
+    if not isinstance(target, str | Path):
+        np.savez_compressed(target, allow_pickle=False, **arrays)
+        return
+    # A recording may be written over the one that it was read from.
+    with whole_file(Path(target)) as unfinished, unfinished.open("wb") as file:
         np.savez_compressed(file, allow_pickle=False, **arrays)
 
 

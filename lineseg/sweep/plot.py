@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..installation import install_command
+from ..unfinished import whole_file
 from . import MEASURES, Sweep
 from .axes import knob_of
 
@@ -41,7 +42,8 @@ def write_plot(result: Sweep, path: Path, measure: str | None = None) -> None:
     else:
         _map(figure, plot, result, (axes[0], axes[1]), measure)
     figure.suptitle(_title(result), fontsize=10)
-    figure.savefig(path, format=path.suffix[1:].lower(), dpi=150)
+    with whole_file(path) as unfinished:
+        figure.savefig(unfinished, format=path.suffix[1:].lower(), dpi=150)
 
 
 def _curves(plot: Any, result: Sweep, name: str) -> None:
