@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -10,6 +11,11 @@ from pathlib import Path
 log = logging.getLogger(__name__)
 LONGEST = 600
 DAMAGED = "a damaged or unknown file"
+# Python's own words give advice to programmers.
+DIGITS = re.compile(
+    r"Exceeds the limit \(\d+ digits\) for integer string conversion.*?to increase the limit"
+    r"(?: - Consider hexadecimal.*?conversion limits\.?)?"
+)
 
 
 @contextmanager
@@ -59,7 +65,12 @@ def mistake(error: BaseException) -> str:
     return f"this is a mistake of lineseg; please report it: {type(error).__name__}: {_line(str(error))}"
 
 
+def plain(text: str) -> str:
+    """The text of an error without Python's advice about whole numbers of thousands of digits."""
+    return DIGITS.sub("a whole number has more digits than can be read", text)
+
+
 def _line(text: str) -> str:
     """The text in one line that can be encoded, and not too long."""
-    line = " ".join(text.encode("utf-8", "backslashreplace").decode().split())
+    line = plain(" ".join(text.encode("utf-8", "backslashreplace").decode().split()))
     return line if len(line) <= LONGEST else line[: LONGEST - 1] + "…"

@@ -11,6 +11,8 @@ PIECE = 1 << 20
 LARGEST_RATIO = 200
 SMALL, MOST = 1 << 28, 8 << 30
 MOST_MESSAGE = 1 << 26
+# In bytes; file systems allow 255.
+LONGEST_NAME = 200
 
 
 class TooLargeError(ValueError):
@@ -43,6 +45,13 @@ def expand(
                 raise TooLargeError(too_large(name, limit))
             out.write(piece)
             tell(done)
+
+
+def file_name(entry: str) -> str:
+    """A name for a file from an archive: the last part of its path, and never one that leads out of the folder."""
+    last = entry.replace("\\", "/").rpartition("/")[2].replace("\0", "")
+    end = last.encode("utf-8", "replace")[-LONGEST_NAME:].decode(errors="ignore")
+    return end if end.strip(".") else "unpacked"
 
 
 def zstd_file(raw: IO[bytes]) -> IO[bytes]:

@@ -7,10 +7,10 @@ from __future__ import annotations
 
 import struct
 import zlib
-from pathlib import Path, PurePosixPath
+from pathlib import Path
 from typing import IO, NamedTuple, cast
 
-from .bounded import PIECE, expand, limit_of
+from .bounded import PIECE, expand, file_name, limit_of
 
 # Signature, flags, method, sizes of the data packed and unpacked, and of the name and what follows it.
 HEADER = struct.Struct("<4s2xHH8xIIHH")
@@ -39,18 +39,11 @@ def unpack_cut(path: Path, folder: Path, name: str) -> list[Part]:
             entry = raw.read(lengths[0]).decode("utf-8", "replace")
             packed = _long_size(raw.read(lengths[1])) if packed == LONG else packed
             known = not flags & SIZE_FOLLOWS and packed != LONG
-            plain = PurePosixPath(entry.replace("\\", "/")).name
-            if (
-                not plain
-                or "\0" in plain
-                or entry.endswith("/")
-                or method not in (STORED, DEFLATED)
-                or (method == STORED and not known)
-            ):
+            if not entry or entry.endswith("/") or method not in (STORED, DEFLATED) or (method == STORED and not known):
                 raw.seek(packed if known else 0, 1)
                 continue
             data = _Data(raw, method == DEFLATED, packed if known else None)
-            target = folder / f"{len(parts)}" / plain
+            target = folder / f"{len(parts)}" / file_name(entry)
             target.parent.mkdir()
             why = expand(cast(IO[bytes], data), target, f"{entry} in {name}", left)
             left -= target.stat().st_size

@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from ..failing import plain
 from ..scan import PackAbout, Recording
 from .npz import Npz
 from .source import Reader, Source
@@ -19,6 +20,7 @@ from .source import Reader, Source
 FORMAT, VERSION = "lineseg failure pack", 1
 ABOUT, FRAME = "lineseg.json", "frame.npz"
 MOST_BYTES = 1 << 28
+LAST_FRAME = 2**31
 # Offset of the name in the local header of a zip's first entry.
 NAME_AT = 30
 
@@ -53,9 +55,9 @@ def read_pack(path: str | Path) -> PackAbout:
 def _about(path: Path) -> dict[str, Any]:
     """lineseg.json of a pack. Raises ValueError, with one sentence, if it is not a pack or of a newer version."""
     try:
-        about = json.loads(_entry(path, ABOUT))
+        about = _whole(json.loads(_entry(path, ABOUT)))
     except (ValueError, RecursionError) as error:
-        raise ValueError(f"{path.name}: a damaged failure pack ({error}).") from None
+        raise ValueError(f"{path.name}: a damaged failure pack ({plain(str(error))}).") from None
     if not isinstance(about, dict) or about.get("format") != FORMAT:
         raise ValueError(f"{path.name} is not a failure pack.")
     if about.get("version") != VERSION:
@@ -69,9 +71,17 @@ def _about(path: Path) -> dict[str, Any]:
             raise ValueError(
                 f"{path.name}: {name} in {ABOUT} is {about.get(name)!r}; it must have the type {kind.__name__}."
             )
+    if not 0 <= about["frame"] <= LAST_FRAME:
+        frame = str(about["frame"])
+        raise ValueError(f"{path.name}: frame in {ABOUT} is {frame[:60]}; frames count from 0 to {LAST_FRAME}.")
     if not isinstance(about.get("labels"), dict | None):
         raise ValueError(f"{path.name}: labels in {ABOUT} is {about['labels']!r}; it must have the type dict.")
     return about
+
+
+def _whole(said: Any) -> Any:
+    """The same with ? for each half of a character, which JSON can express and no page can be told."""
+    return json.loads(json.dumps(said, ensure_ascii=False).encode("utf-8", "replace"))
 
 
 def _entry(path: Path, name: str) -> bytes:

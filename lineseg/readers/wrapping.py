@@ -16,7 +16,7 @@ from typing import IO, cast
 
 from ..unfinished import temporary_folder
 from .account import Notes
-from .bounded import expand, limit_of, zstd_file
+from .bounded import expand, file_name, limit_of, zstd_file
 from .cut_zip import unpack_cut
 from .source import known_suffixes
 
@@ -143,11 +143,13 @@ def _unzipped(path: Path, name: str, stack: ExitStack, notes: Notes, progress: P
     parts = _chosen([entry.filename for entry in entries], name)
     folder = _target(path, stack, "bag")
     folder.mkdir()
+    left = limit_of(path.stat().st_size)
     for entry in parts:
-        target = folder / PurePosixPath(entry.replace("\\", "/")).name
+        target = folder / file_name(entry)
         try:
             with archive.open(entry) as packed:
-                why = expand(packed, target, f"{entry} in {name}", limit_of(path.stat().st_size))
+                why = expand(packed, target, f"{entry} in {name}", left)
+            left -= target.stat().st_size
         except (zipfile.BadZipFile, NotImplementedError, RuntimeError, OSError) as error:
             raise ValueError(f"{name}: {entry} cannot be unpacked ({str(error).rstrip('.')}).") from None
         tell_break(why, target, f"{entry} in {name}", "zip", notes)
@@ -172,7 +174,7 @@ def _untarred(path: Path, name: str, stack: ExitStack, notes: Notes) -> Path:
         for part in parts:
             packed = archive.extractfile(entries[part])
             assert packed is not None
-            target = folder / PurePosixPath(part.replace("\\", "/")).name
+            target = folder / file_name(part)
             why = expand(packed, target, f"{part} in {name}", left)
             left -= target.stat().st_size
             tell_break(why, target, f"{part} in {name}", "tar", notes)
