@@ -14,7 +14,7 @@ Count = Annotated[int, Field(ge=0, le=2**31)]
 Values = Annotated[dict[Name, int | Number], Field(max_length=64)]
 ReadingValues = Annotated[dict[Name, str | int | Number | None], Field(max_length=64)]
 
-LONGEST_WORD = 60
+LONGEST_WORD, LONGEST_REASON = 60, 300
 
 
 class Message(BaseModel):
@@ -28,9 +28,9 @@ def sentence(error: ValidationError) -> str:
     first = error.errors(include_url=False, include_context=False)[0]
     place = ".".join(_shown(" ".join(str(part).split())) for part in first["loc"]) or "the message"
     # pydantic quotes what it was sent, line ends and all.
-    why = " ".join(first["msg"].split())
+    why = _shown(" ".join(first["msg"].split()), LONGEST_REASON)
     return f"{place} is {_shown(repr(first['input']))}: {why[:1].lower()}{why[1:]}"
 
 
-def _shown(word: str) -> str:
-    return word if len(word) <= LONGEST_WORD else word[: LONGEST_WORD - 3] + "…"
+def _shown(word: str, longest: int = LONGEST_WORD) -> str:
+    return word if len(word) <= longest else word[: longest - 3] + "…"

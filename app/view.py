@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+import logging
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, fields, replace
 from functools import cache, lru_cache
@@ -12,11 +13,14 @@ from pydantic import Field, ValidationError
 from lineseg import EXTRACTORS, Params, Thresholds
 from lineseg.doubt import SCORES, Score
 from lineseg.doubt.suspicion import WEIGHTS
+from lineseg.failing import mistake
 from lineseg.knobs import replaced
 from lineseg.readers import Reading
 
 from .bounds import Count, Message, Name, ReadingValues, RecordingId, Values, sentence
 from .view_field import EACH, ViewField, patch_of, view_fields
+
+log = logging.getLogger(__name__)
 
 DIFFERENCE = Score(
     "difference",
@@ -292,13 +296,17 @@ class View:
         """A copy with the valid part of a link, and an error about the rest."""
         try:
             return self._checked(said), None
-        except ValueError:
+        except Exception:
             view, complaints = self, list[str]()
         for part in _parts(said, list(view_fields(type(self)))):
             try:
                 view = view._checked(part)
             except ValueError as error:
                 complaints.append(str(error))
+            except Exception as error:
+                # Else the page would connect, fail and connect again for ever.
+                log.exception("a link failed")
+                complaints.append(mistake(error))
         more = len(complaints) - MOST_COMPLAINTS
         told = complaints[:MOST_COMPLAINTS] + ([f"and {more} more"] if more > 0 else [])
         return view, "; ".join(told) or None

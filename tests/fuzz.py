@@ -43,6 +43,7 @@ LONGEST_SENTENCE = 2000
 HOSTILE = [
     b"0", b"-1", b"nan", b"inf", b"1e999", b"9" * 400, b"2147483648", b"18446744073709551615", b"", b"\0", b"\xff\xfe",
     b'"\\ud800"', b"null", b"[]", b"{}", b"!!int \"\"", b"\xed\xa0\x80", b"\xe2\x82\xac", b"self", b"\n", b",", b"  ",
+    b"9" * 5000,
 ]  # fmt: skip
 
 
@@ -196,6 +197,8 @@ def fault(work: Callable[[], object], place: str | None) -> str | None:
             return f"a bare {type(error).__name__}"
         if "\n" in sentence or not sentence or len(sentence) > LONGEST_SENTENCE:
             return f"not one sentence: {sentence[:200]!r}"
+        if "set_int_max_str_digits" in sentence:
+            return f"Python's advice to programmers: {sentence[:200]}"
         if place is not None and place not in sentence:
             return f"does not name the file: {sentence[:200]}"
         if not isinstance(error, BadMessageError):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import shlex
+import sys
 from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
 from functools import cache
@@ -25,6 +26,7 @@ RADIANS: dict[str, float] = {
 # What a column may hold besides the ranges; "-" is a column to pass over.
 COLUMN_WORDS = ("stamp", "angle", "distance", "x", "y", "ranges", "-")
 MOST_TEXT = 400
+LARGEST = sys.float_info.max
 
 
 @dataclass(frozen=True)
@@ -382,7 +384,7 @@ def _checked(name: str, value: Any, kind: Any, entry: ReadingField) -> Any:
         return value
     if kind is str:
         return _checked_text(name, value, entry)
-    number = not isinstance(value, bool) and isinstance(value, int | float) and math.isfinite(value)
+    number = not isinstance(value, bool) and isinstance(value, int | float) and abs(value) <= LARGEST
     if not number or (kind is int and value != int(value)):
         unit = {"rad": " of radians", "m": " of metres"}.get(entry.unit, "")
         raise ValueError(f"{name} is {value!r:.60}; it must be a {'whole' if kind is int else 'finite'} number{unit}.")

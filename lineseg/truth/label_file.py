@@ -15,7 +15,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from ..failing import named
+from ..failing import named, plain
 from ..scan import Recording
 from .labels import FrameLabels, Labels, TrueLine, check_labels
 
@@ -88,16 +88,20 @@ def _read(path: Path, recording: Recording) -> Entries:
         raise ValueError(f"{path.name} is not a text file; labels are JSON. Move it away to start again.") from None
     try:
         tree = json.loads(text)
-    except (json.JSONDecodeError, RecursionError) as error:
+    except (ValueError, RecursionError) as error:
         where = f":{error.lineno}" if isinstance(error, json.JSONDecodeError) else ""
-        raise ValueError(f"{path.name}{where}: this is not JSON ({error}). Repair the file or move it away.") from None
+        raise ValueError(
+            f"{path.name}{where}: this is not JSON ({plain(str(error))}). Repair the file or move it away."
+        ) from None
     try:
         return _labels_in(tree, recording)
     except (KeyError, TypeError, AttributeError) as error:
         missing = f"{error} is missing" if isinstance(error, KeyError) else str(error)
         raise ValueError(f"{path.name} is not a valid label file: {missing}.") from None
+    except OverflowError:
+        raise ValueError(f"{path.name} has a number that is too large for a label file.") from None
     except ValueError as error:
-        raise ValueError(f"{path.name}: {error}.") from None
+        raise ValueError(f"{path.name}: {plain(str(error))}.") from None
 
 
 def save_labels(path: str | Path, recording: Recording, frame: int, labels: FrameLabels) -> FrameLabels:

@@ -131,6 +131,7 @@ ODD = [
     ('{"type": "follow", "id": "ß"}', "is gone"),
     ('{"type": "c\\nel"}', "input tag 'c el'"),
     ('{"type": "view", "rev": 1, "patch": {"frame": 1' + 5000 * "0" + "}}", "number out of range"),
+    ('{"type": "link", "rev": 1, "patch": {"reading": {"skip_columns": ' + 400 * "9" + "}}}", "skip_columns is 999"),
     (60_000 * "[", "recursion limit"),
 ]
 
