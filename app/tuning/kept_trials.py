@@ -32,15 +32,15 @@ class KeptTrials:
     def read(self) -> list[Trial]:
         """The trials of earlier runs; a line that was cut short is left out."""
         try:
-            lines = self.file.read_text(encoding="utf-8").splitlines()
+            lines = self.file.read_text(encoding="utf-8", errors="replace").splitlines()
         except FileNotFoundError:
             return []
         found: list[Trial] = []
-        for line in lines:
+        for line in filter(None, lines):
             try:
                 params, score = json.loads(line)
                 found.append(Trial(len(found), Params().but(**params), math.nan if score is None else float(score)))
-            except (ValueError, TypeError):
+            except (ValueError, TypeError, OverflowError, RecursionError):
                 log.warning("%s: a line is not a trial: %.60r", self.file, line)
         return found
 
@@ -48,4 +48,5 @@ class KeptTrials:
         score = None if math.isnan(trial.score) else trial.score
         self.file.parent.mkdir(parents=True, exist_ok=True)
         with self.file.open("a", encoding="utf-8") as file:
-            file.write(json.dumps([asdict(trial.params), score]) + "\n")
+            # What was cut short before it, by a full disk, stays a line of its own.
+            file.write("\n" + json.dumps([asdict(trial.params), score]))

@@ -12,6 +12,7 @@ from typing import Any
 
 from ..truth import Agreement
 from ..writers.finite import finite_or_none
+from ..writers.segments import cell
 from .comparison import OBJECTIVE, Row, Setting, score_of
 
 SETTINGS: dict[Setting, str] = {"installed": "as installed", "proposed": "as proposed", "tuned": "tuned"}
@@ -55,7 +56,10 @@ def to_csv(rows: Sequence[Row]) -> str:
     text = io.StringIO()
     writer = csv.DictWriter(text, table[0], lineterminator="\n")
     writer.writeheader()
-    writer.writerows({**row, "params": json.dumps(row["params"])} for row in table)
+    writer.writerows(
+        {**row, "recording": cell(row["recording"]), "laser": cell(row["laser"]), "params": json.dumps(row["params"])}
+        for row in table
+    )
     return text.getvalue()
 
 

@@ -37,20 +37,21 @@ class Journal:
         except sqlite3.OperationalError as error:
             raise _unwritten(path, error) from None
         except sqlite3.DatabaseError as error:
-            raise ValueError(
-                f"{path}: this is not the journal of a sweep ({error}); remove it to start again"
-            ) from None
+            raise _damaged(path, error) from None
         if found and found != [MEANING]:
             raise ValueError(f"{path}: this journal is from another version of lineseg; remove it to start again")
         self._write("INSERT OR IGNORE INTO meaning VALUES (?)", [(MEANING,)])
 
     def known(self, task: Task) -> dict[Params, NDArray[np.float64]]:
-        """The sums of a task's settings that exist already."""
-        found = self._rows.execute(
-            "SELECT settings, sums FROM done WHERE chunk = ? AND settings BETWEEN ? AND ?",
-            (_chunk_key(task.chunk, task.scored), *_ends([_key(params) for params in task.settings])),
-        )
-        known = {key: np.frombuffer(sums) for key, sums in found}
+        """The sums of a task's settings that exist already. Raises ValueError if the file is damaged."""
+        wanted = (_chunk_key(task.chunk, task.scored), *_ends([_key(params) for params in task.settings]))
+        try:
+            found = self._rows.execute(
+                "SELECT settings, sums FROM done WHERE chunk = ? AND settings BETWEEN ? AND ?", wanted
+            )
+            known = {key: np.frombuffer(sums) for key, sums in found}
+        except (sqlite3.DatabaseError, ValueError, TypeError) as error:
+            raise _damaged(self._path, error) from None
         return {params: known[key] for params in task.settings if (key := _key(params)) in known}
 
     def add(self, task: Task, sums: NDArray[np.float64]) -> None:
@@ -59,19 +60,29 @@ class Journal:
         self._write("INSERT OR REPLACE INTO done VALUES (?, ?, ?)", rows)
 
     def _write(self, statement: str, rows: list[tuple]) -> None:
-        """Raises OSError, such as for a full disk; what was written before stays."""
+        """Raises OSError, such as for a full disk, and what was written before stays; ValueError if it is damaged."""
         try:
             with self._rows:
                 self._rows.executemany(statement, rows)
         except sqlite3.OperationalError as error:
             raise _unwritten(self._path, error) from None
+        except sqlite3.DatabaseError as error:
+            raise _damaged(self._path, error) from None
 
     def close(self, remove: bool = False) -> None:
         """remove: whether to delete the file, because the sweep is complete. An empty journal is always deleted."""
-        empty = self._rows.execute("SELECT 1 FROM done LIMIT 1").fetchone() is None
+        try:
+            empty = self._rows.execute("SELECT 1 FROM done LIMIT 1").fetchone() is None
+        except sqlite3.DatabaseError:
+            # A file that is damaged is left to whoever is told so.
+            empty = False
         self._rows.close()
         if remove or empty:
             self._path.unlink(missing_ok=True)
+
+
+def _damaged(path: Path, error: Exception) -> ValueError:
+    return ValueError(f"{path}: this is not the journal of a sweep ({error}); remove it to start again")
 
 
 def _unwritten(path: Path, error: Exception) -> OSError:

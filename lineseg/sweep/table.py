@@ -6,7 +6,7 @@ import csv
 import io
 from collections.abc import Callable, Iterator
 from dataclasses import asdict, dataclass
-from itertools import islice
+from itertools import chain, islice
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +18,7 @@ from ..installation import install_command
 from ..params import Params
 from ..unfinished import whole_file
 from ..writers.finite import finite_or_none
+from ..writers.segments import cell, text_of_cell
 from . import MEASURES, Sweep
 
 ROWS_AT_ONCE = 50_000
@@ -93,11 +94,11 @@ def read_table(content: bytes, name: str) -> Table:
 
 def _column(name: str, cells: list[Any]) -> NDArray[np.float64]:
     numbers = np.empty(len(cells))
-    for row, cell in enumerate(cells):
+    for row, said in enumerate(cells):
         try:
-            numbers[row] = np.nan if cell is None or cell == "" else float(cell)
+            numbers[row] = np.nan if said is None or said == "" else float(said)
         except ValueError:
-            raise ValueError(f"{name} of row {row + 1} is {str(cell)[:40]!r}; it must be a number") from None
+            raise ValueError(f"{name} of row {row + 1} is {str(said)[:40]!r}; it must be a number") from None
     if name not in MEASURES and not np.isfinite(numbers).all():
         raise ValueError(f"{name} of row {int(np.argmin(np.isfinite(numbers))) + 1} is missing")
     return numbers
@@ -113,7 +114,10 @@ def _read_csv(content: bytes) -> dict[str, list[str]]:
     for number, row in enumerate(body):
         if len(row) != len(head):
             raise ValueError(f"row {number + 1} has {len(row)} cells, but the header has {len(head)}")
-    return dict(zip(head, map(list, zip(*body, strict=True)), strict=True)) if body else {name: [] for name in head}
+    columns = dict(zip(head, map(list, zip(*body, strict=True)), strict=True)) if body else {name: [] for name in head}
+    return {
+        name: [text_of_cell(each) for each in cells] if name == "file" else cells for name, cells in columns.items()
+    }
 
 
 def _read_parquet(content: bytes) -> dict[str, list[Any]]:
@@ -159,8 +163,7 @@ def _write_csv(result: Sweep, path: Path) -> None:
         first = next(rows)
         writer = csv.DictWriter(file, first, lineterminator="\n")
         writer.writeheader()
-        writer.writerow(first)
-        writer.writerows(rows)
+        writer.writerows({**row, "file": cell(row["file"])} for row in chain([first], rows))
 
 
 def _write_parquet(result: Sweep, path: Path) -> None:

@@ -88,6 +88,11 @@ def cell(text: str) -> str:
     return f"'{text}" if text.startswith(FORMULAS) else text
 
 
+def text_of_cell(written: str) -> str:
+    """The text that `cell` wrote."""
+    return written[1:] if written.startswith("'") and written[1:].startswith(FORMULAS) else written
+
+
 # Suffix → writer: takes rows of (frame, scan, extraction), yields pieces of text.
 SEGMENT_WRITERS: dict[str, Callable[[Rows, Noise | None, About], Iterator[str]]] = {
     "jsonl": json_lines,

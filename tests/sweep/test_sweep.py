@@ -254,3 +254,18 @@ def test_a_full_disk_is_not_taken_for_a_foreign_journal(tmp_path):
     journal.close()
     with pytest.raises(OSError, match="cannot be written: unable to open"):
         Journal(tmp_path / "nowhere" / "sweep.partial")
+
+
+def test_a_damaged_journal_is_told_as_such_and_left_alone(files: list[Path], tmp_path: Path, capsys):
+    path = tmp_path / "out.csv.partial"
+    Journal(path)._write("INSERT INTO done VALUES (?, ?, ?)", [(str(k), "", bytes(3000)) for k in range(20)])
+    content = bytearray(path.read_bytes())
+    for page in range(4096, len(content), 4096):
+        content[page : page + 9] = b"\xff" * 9
+    path.write_bytes(content)
+    arguments = ["sweep", str(files[0]), "--epsilon", "0.02,0.04", "-o", str(tmp_path / "out.csv")]
+    assert main(arguments) == 2
+    error = capsys.readouterr().err
+    assert f"{path}: this is not the journal of a sweep (" in error
+    assert "mistake" not in error
+    assert path.read_bytes() == bytes(content)

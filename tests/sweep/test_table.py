@@ -18,7 +18,7 @@ GRID = Grid(Params(), {"epsilon": (0.02, 0.04), "min_points": (8, 12, 20)})
 @pytest.fixture(scope="module")
 def swept(tmp_path_factory: pytest.TempPathFactory) -> Sweep:
     folder = tmp_path_factory.mktemp("files")
-    files = [folder / f"{name}.npz" for name in ("with, truth", "without")]
+    files = [folder / f"{name}.npz" for name in ("with, truth", "=without")]
     hallway = open_recording(SAMPLES / "hallway.npz").only(np.arange(5))
     save_npz(hallway, files[0])
     save_npz(open_recording(SAMPLES / "hallway.log").only(np.arange(5)), files[1])
@@ -38,6 +38,9 @@ def test_a_written_table_is_read_again(swept: Sweep, name: str, tmp_path: Path):
         "epsilon": [0.02, 0.04],
         "min_points": [8, 12, 20],
     }
+    assert "\n=" not in (tmp_path / name).read_text(errors="replace"), (
+        "a spreadsheet computes what begins like a formula"
+    )
     assert np.isnan(table.numbers["true_rate"][6:]).all() and np.isfinite(table.numbers["true_rate"][:6]).all()
 
 

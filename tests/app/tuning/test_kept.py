@@ -4,9 +4,11 @@ import weakref
 
 import pytest
 from lineseg_app.tuning.kept import Kept
+from lineseg_app.tuning.kept_trials import KeptTrials
 from scenes import corner
 
-from lineseg import Recording
+from lineseg import Params, Recording
+from lineseg.tuning import Trial
 
 
 @pytest.fixture
@@ -60,3 +62,12 @@ def test_results_go_with_their_recording():
     del recording
     gc.collect()
     assert gone() is None
+
+
+def test_trials_after_a_damaged_line_are_read(tmp_path):
+    kept = KeptTrials(tmp_path, {"recording": "a"})
+    kept.add(Trial(0, Params(), 0.5))
+    with kept.file.open("ab") as file:  # what a full disk leaves, and other damage
+        file.write(b'\n[{"epsilon": 0.0\n\xff\n' + b"[" * 5000 + b"\n[{}, 1" + b"0" * 400 + b"]\n[{")
+    kept.add(Trial(1, Params(epsilon=0.05), 0.7))
+    assert [(trial.params.epsilon, trial.score) for trial in kept.read()] == [(Params().epsilon, 0.5), (0.05, 0.7)]
