@@ -76,7 +76,7 @@ def add_export(app: FastAPI, library: Library, sessions: Sessions, files: LabelF
             if lesson is None:
                 raise HTTPException(404, "no lesson is open in this tab; open one in Learn first")
             page = await handouts.run(lesson_page, library.lessons, lesson)
-            return Response(page, media_type="text/html", headers=attachment(lesson.id, "html"))
+            return Response(page, media_type="text/html", headers=attachment(lesson.id.rpartition("/")[2], "html"))
         about = (shown.recording, view.frame, library.label(view.recording), view.method, view.params, view.step)
         try:
             page = await handouts.run(frame_page, *about)
