@@ -6,8 +6,8 @@ import { iconButton } from "../widgets/icon.js";
 /** @typedef {import("../view/store.js").Look} Look */
 /** @typedef {import("../wire.js").Framing} Framing */
 
-// How much larger the fitted box may become for the frame that is drawn.
-const MOST_LARGER = 1.35;
+// How much smaller all may be drawn so that the whole frame is in view.
+const MOST_SMALLER = 1.35;
 
 /**
  * @param {import("../page.js").Page} page
@@ -31,7 +31,7 @@ export function createCamera(page, stage, text, { drawing, names, onLook, onFram
   });
 
   function fit() {
-    if (page.drawn) stage.fit(withFrame(page.drawn));
+    if (page.drawn) stage.fit(withFrame(page.drawn, stage.size));
   }
 
   function toggle() {
@@ -75,8 +75,12 @@ export function createCamera(page, stage, text, { drawing, names, onLook, onFram
   };
 }
 
-/** The box of the recording, made larger for the frame that is drawn where that does not take much. @param {import("../wire.js").State} state @returns {import("../wire.js").Box} */
-function withFrame({ bounds, extent, world }) {
+/**
+ * The box of the recording, made larger for the frame that is drawn where that does not make all much smaller.
+ * @param {import("../wire.js").State} state @param {{width: number, height: number}} size of the stage [px]
+ * @returns {import("../wire.js").Box}
+ */
+function withFrame({ bounds, extent, world }, { width, height }) {
   if (world) return bounds;
   const [x1, y1, x2, y2] = bounds;
   const both = /** @type {const} */ ([
@@ -85,6 +89,7 @@ function withFrame({ bounds, extent, world }) {
     Math.max(x2, extent[2]),
     Math.max(y2, extent[3]),
   ]);
-  const larger = Math.max((both[2] - both[0]) / (x2 - x1), (both[3] - both[1]) / (y2 - y1));
-  return larger > MOST_LARGER ? bounds : [...both];
+  const scale = (/** @type {import("../wire.js").Box} */ [left, low, right, high]) =>
+    Math.min((width || 1) / (right - left), (height || 1) / (high - low));
+  return scale(bounds) > MOST_SMALLER * scale([...both]) ? bounds : [...both];
 }
