@@ -138,7 +138,7 @@ export class Strip {
     this.#painting = 0;
     const { values, survey, due, chosen, lacksPinned } = this.frames;
     const text = this.#text;
-    const message = survey && !due ? (survey.message ?? (lacksPinned ? text.noA : "")) : this.#waiting();
+    const message = survey && !due ? (survey.message ?? (lacksPinned ? text.noA : "")) : text.pending;
     setText(this.#note, message);
     this.#note.hidden = message === "";
     this.#note.title = message;
@@ -146,12 +146,6 @@ export class Strip {
     this.#canvas.hidden = !values.length;
     this.#onChange();
     if (survey && values.length && chosen) this.#paintValues(values, survey, chosen);
-  }
-
-  /** Why there are no values yet. */
-  #waiting() {
-    const { survey, due } = this.frames;
-    return due && survey?.recording.startsWith("live:") ? this.#text.notLive : this.#text.pending;
   }
 
   /** @param {Float32Array} known @param {Survey} survey @param {Score} chosen */

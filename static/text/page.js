@@ -343,7 +343,6 @@ export const pageText = {
     strip: {
       label: "Score of the frames",
       pending: "computing scores…",
-      notLive: "not computed while a laser is live: choose another score",
       noA: "Pin a result as A first (key B).",
       legend: (/** @type {string} */ label, /** @type {string} */ low, /** @type {string} */ high) =>
         `Colours of ${label}: ${low} to ${high}. Fit them to the current values`,
