@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from ..scan import Recording
 from .account import Notes
-from .beam_rows import beams_of
+from .beam_rows import beams_of, words_of
 from .headers import LENGTHS, STAMPS, TURNS, Name, is_angle, is_distance, name_of
 from .reading import columns_of
 from .scan_columns import alike, with_angles
@@ -73,15 +73,42 @@ def header_of(path: Path) -> tuple[tuple[tuple[int, ...], bool, np.dtype], int]:
 def is_exchange(arrays: Mapping[str, NDArray]) -> bool:
     """Whether arrays are meant as the exchange format, so that its reader says what is missing."""
     known = {"ranges", "angle_min", "angle_increment", "bearings"} & arrays.keys()
-    return ("ranges" in arrays and len(known) > 1) or not any(_plain(array) for array in arrays.values())
+    usable = any(_plain(array) or _pairs(array) is not None for array in arrays.values())
+    return ("ranges" in arrays and len(known) > 1) or not usable
 
 
 def _plain(array: NDArray) -> bool:
     return array.dtype.kind in "fiu" and 1 <= array.ndim <= 2 and array.size > 2
 
 
+def _pairs(array: NDArray) -> NDArray | None:
+    """(scans, beams, 2): complex numbers as x and y, or an array that has pairs already; None for others."""
+    if array.dtype.kind == "c" and 1 <= array.ndim <= 2 and array.size > 2:
+        return np.atleast_3d(np.stack([np.atleast_2d(array.real), np.atleast_2d(array.imag)], axis=-1))
+    if array.dtype.kind not in "fiu" or array.ndim != 3 or 2 not in array.shape[1:] or array.size < 6:
+        return None
+    return array if array.shape[2] == 2 else array.swapaxes(1, 2)
+
+
+def _of_pairs(source: Source, pairs: NDArray, are_points: bool, format: str) -> Recording:
+    """The scans of (scans, beams, 2): of x and y, or of what the first of them looks like."""
+    scans, beams, _ = pairs.shape
+    table = pairs.reshape(-1, 2).astype(np.float64)
+    numbered = np.column_stack([np.repeat(np.arange(scans), beams), table])
+    given = None if source.reading.columns is None else columns_of(source.reading.columns)
+    if given is not None and (len(given) != 2 or "ranges" in given):
+        raise ValueError(f"{source.name} has pairs of numbers; columns must name two, such as x,y.")
+    words = given or (("x", "y") if are_points else words_of(source, table[:beams]))
+    names = [Name("scan"), *map(Name, words)]
+    return beams_of(source, source.reading, numbered, names, format=format)
+
+
 def recording_of_arrays(source: Source, arrays: Mapping[str, NDArray], format: str) -> Recording:
     """The scans of arrays of which one can be the ranges. Raises ValueError with the line of Python that helps."""
+    if len(arrays) == 1:
+        (array,) = arrays.values()
+        if (pairs := _pairs(array)) is not None:
+            return _of_pairs(source, pairs, array.dtype.kind == "c", format)
     tables = {name: array for name, array in arrays.items() if _plain(array) and array.ndim == 2}
     rows = {name: array for name, array in arrays.items() if _plain(array) and array.ndim == 1}
     plain = {name: name_of(name) for name in rows}

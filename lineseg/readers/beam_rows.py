@@ -33,6 +33,8 @@ LONGEST_NAME = 24
 CLOCKWISE = re.compile(r"(?<!counter_)(?<!anti_)(?:clockwise|(?<![^_])cw(?![^_]))")
 # What poses have beside x and y; the first column of the quaternion in TUM's rows.
 HEADINGS, QUATERNION = {"heading", "yaw"}, 4
+# Headings that differ, and agree with the ways of the moves (`_unity`).
+SPREAD_HEADINGS, ONE_WAY, MOST_MOVES = 0.98, 0.95, 2000
 # Points of one plane differ less in height [m], but for a few.
 FLAT = 0.05
 # Codes for "no return" are few.
@@ -69,7 +71,8 @@ def beams_of(
 ) -> Recording:  # fmt: skip
     """The scans of a table (beams, columns)."""
     if _are_poses(table, names):
-        raise ValueError(f"{source.name} has poses, not scans; open the scans, and give this file as --poses.")
+        way = "" if names is not None else " If it has beams after all, say what the columns hold with --columns."
+        raise ValueError(f"{source.name} has poses, not scans; open the scans, and give this file as --poses.{way}")
     if names is not None:
         return with_roles(source, reading, table, names, _named(names), guess_direction, format)
     if table.shape[1] > 2 and alike(table):
@@ -84,9 +87,8 @@ def beams_of(
 def _are_poses(table: NDArray[np.float64], names: list[Name] | None) -> bool:
     """Whether rows hold a position with a heading or a quaternion, as trajectories do."""
     if names is None:
-        return table.shape[1] == QUATERNION + 4 and np.allclose(
-            np.linalg.norm(table[:, QUATERNION:], axis=1), 1, 0, 0.01
-        )
+        norms = np.linalg.norm(table[:, QUATERNION:], axis=1)
+        return (table.shape[1] == QUATERNION + 4 and np.allclose(norms, 1, 0, 0.01)) or _moves_ahead(table)
     if _named(names).polar:
         return False
     words = {name.plain.split("_")[-1] for name in names}
@@ -97,6 +99,34 @@ def _are_poses(table: NDArray[np.float64], names: list[Name] | None) -> bool:
         return False
     angles = _radians(table[np.isfinite(table[:, angle]), angle])
     return len(angles) < len(table) or _sense_of(table[:, points], angles) is None
+
+
+def _moves_ahead(table: NDArray[np.float64]) -> bool:
+    """Whether columns hold x and y, and a later one the heading in which they move, as odometry has them."""
+    table = table[:MOST_MOVES]
+    if table.shape[1] < 3 or len(table) < LEAST_ROWS or not np.isfinite(table).all():
+        return False
+    for x in range(min(2, table.shape[1] - 2)):
+        steps = np.diff(table[:, x : x + 2], axis=0)
+        lengths = np.hypot(*steps.T)
+        # Where a robot stands still, noise moves it.
+        moves = (lengths > 0) & (lengths >= np.median(lengths))
+        ways = np.arctan2(steps[moves, 1], steps[moves, 0])
+        for column in range(x + 2, table.shape[1]):
+            headings = _radians(table[:, column])
+            if (
+                len(ways) >= FEW_ROWS
+                and _unity(headings) < SPREAD_HEADINGS
+                and _unity(ways - headings[:-1][moves]) > ONE_WAY
+                and _sense_of(table[:, x : x + 2], headings) is None
+            ):
+                return True
+    return False
+
+
+def _unity(angles: Floats) -> float:
+    """1 if all angles [rad] are equal, about 0 if they are spread over a turn."""
+    return abs(complex(np.mean(np.exp(1j * angles))))
 
 
 def with_roles(
@@ -298,6 +328,12 @@ def _guessed(source: Source, table: NDArray[np.float64]) -> Roles:
     other[roles.first], other[roles.second] = ("x", "y") if roles.polar else ("angle", "distance")
     source.notes.guess("columns", named, "the columns have no names", columns=",".join(other))
     return roles
+
+
+def words_of(source: Source, table: NDArray[np.float64]) -> tuple[str, str]:
+    """What two columns without names hold, which is told as a guess."""
+    polar = _guessed(source, table).polar
+    return ("angle", "distance") if polar else ("x", "y")
 
 
 def columns_of_beam(table: NDArray[np.float64]) -> tuple[float, Roles]:

@@ -19,17 +19,17 @@ from .source import Reader, Source, Sweeps
 
 WORDS = (
     b"FLASER", b"RLASER", b"ROBOTLASER1", b"ROBOTLASER2", b"RAWLASER1", b"RAWLASER2", b"RAWLASER3", b"RAWLASER4",
-    b"LASER_READING", b"PARAM", b"ODOM", b"SYNC", b"TRUEPOS", b"NEFF", b"VERTEX2", b"EDGE2",
+    b"LASER1", b"LASER2", b"LASER_READING", b"PARAM", b"ODOM", b"SYNC", b"TRUEPOS", b"NEFF", b"VERTEX2", b"EDGE2",
 )  # fmt: skip
 ANY_LINE = re.compile(rb"^[ \t]*(?:" + b"|".join(WORDS) + rb")\s", re.MULTILINE)
 # A laser line behind what a logger put before it, such as its number or a time.
-BEHIND = re.compile(rb"[^\n]{1,60}?\s(?=(?:[FR]LASER|R(?:OBOT|AW)LASER[1-4]|LASER_READING)\s+\d)")
+BEHIND = re.compile(rb"[^\n]{1,60}?\s(?=(?:[FR]LASER|R(?:OBOT|AW)LASER[1-4]|LASER_READING|LASER[12])\s+\d)")
 # The words before the stamp, after the ranges (and for the last two, the remissions).
-TAILS = {"FLASER": 6, "RLASER": 6, "LASER_READING": 3, "ROBOTLASER": 11, "RAWLASER": 0}
-LASERS = {name.encode(): name for name in ("FLASER", "RLASER", "LASER_READING")}
+TAILS = {"FLASER": 6, "RLASER": 6, "LASER_READING": 3, "ROBOTLASER": 11, "RAWLASER": 0, "LASER": 0}
+WITHOUT_ANGLES = ("FLASER", "RLASER", "LASER_READING", "LASER1", "LASER2")
+LASERS = {name.encode(): name for name in WITHOUT_ANGLES}
 LASERS |= {f"{name}{n}".encode(): f"{name}{n}" for name in ("ROBOTLASER", "RAWLASER") for n in (1, 2, 3, 4)}
 MOST_LINES = 100
-WITHOUT_ANGLES = ("FLASER", "RLASER", "LASER_READING")
 MAXIMA = {"FLASER": b"robot_front_laser_max", "RLASER": b"robot_rear_laser_max"}
 # Lasers with these numbers of beams look over half a turn, as the format assumes of all.
 HALF_TURN = (180, 181, 360, 361)
@@ -150,11 +150,12 @@ def _with_view(source: Source, lines: list[Line], settings: dict[bytes, bytes], 
 
 
 def _decode_flaser(text: bytes, tail: int) -> Line:
-    """FLASER n r₁ … rₙ x y θ odom_x odom_y odom_θ stamp host logger_stamp; of GMapping, x y θ stamp"""
+    """FLASER n r₁ … rₙ x y θ odom_x odom_y odom_θ stamp host logger_stamp; of GMapping, x y θ stamp; LASER1 has no
+    poses."""
     message, count, values = _words(text, 3)
     ranges, rest = _ranges(message, count, values)
     angle_min, angle_increment = flaser_angles(len(ranges))
-    return Line(ranges, angle_min, angle_increment, None, _stamp(rest, tail), rest[:3])
+    return Line(ranges, angle_min, angle_increment, None, _stamp(rest, tail), rest[:3] if tail else [])
 
 
 def _decode_robotlaser(text: bytes, tail: int) -> Line:

@@ -121,3 +121,10 @@ def test_truncated_gzip_is_read_up_to_there(log, tmp_path):
     assert 100 < len(recording) < 200
     notice, *_ = recording.account.notices
     assert notice.text.startswith("The gzip data are incomplete")
+
+
+def test_laser1_lines_have_ranges_and_a_stamp_but_no_pose(log):
+    recording = open_recording(log(f"LASER1 181 {'2.0 ' * 181}7.5 host 7.5", f"LASER1 181 {'3.0 ' * 181}8.5 host 8.5"))
+    assert (recording.topic, recording.stamps.tolist()) == ("LASER1", [7.5, 8.5])
+    assert np.rad2deg(recording[0].bearings[[0, -1]]) == pytest.approx([-90, 90])
+    assert recording.track.found.source.missing == "LASER1 lines have none"

@@ -104,3 +104,23 @@ def test_a_zip_archive_that_states_more_than_memory_holds_is_refused(tmp_path):
         archive.writestr("ranges.npy", b"\x93NUMPY\x01\x00\x76\x00" + header)
     with pytest.raises(ValueError, match=r"^bomb.npz: "):
         open_recording(path)
+
+
+@pytest.mark.parametrize("form", ["complex", "pairs", "planes", "angles"])
+def test_pairs_of_numbers_are_points_or_angles_and_distances_of_each_scan(tmp_path, form):
+    bearings = np.linspace(-1.5, 1.5, 181)
+    ranges = np.array([[2.0], [3.0]]) / np.cos(0.8 * bearings)
+    points = np.stack([ranges * np.cos(bearings), ranges * np.sin(bearings)], axis=-1)
+    array = {
+        "complex": points[..., 0] + 1j * points[..., 1],
+        "pairs": points,
+        "planes": points.swapaxes(1, 2),
+        "angles": np.stack([np.broadcast_to(bearings, ranges.shape), ranges], axis=-1),
+    }[form]
+    np.save(tmp_path / "array.npy", array)
+    recording = open_recording(tmp_path / "array.npy")
+    assert recording.ranges == pytest.approx(ranges.ravel())
+    assert recording[1].bearings == pytest.approx(bearings)
+    assert any(guess.field == "columns" for guess in recording.account.guesses) == (form != "complex")
+    with pytest.raises(ValueError, match="has pairs of numbers; columns must name two, such as x,y"):
+        open_recording(tmp_path / "array.npy", columns="stamp,x,y")

@@ -143,6 +143,24 @@ def test_a_table_without_scans_is_named_with_its_line(text, content, sentence):
         open_recording(text(content))
 
 
+@pytest.mark.parametrize("form", ["x y heading", "time x y heading", "x y degrees", "time x y heading speed"])
+def test_odometry_without_a_header_is_named_as_poses(text, form):
+    time = np.arange(200) / 10
+    heading = 0.8 * np.sin(time)
+    x, y = np.cumsum(0.05 * np.cos(heading)), np.cumsum(0.05 * np.sin(heading))
+    columns = {"time": time, "x": x, "y": y, "heading": heading, "degrees": np.rad2deg(heading), "speed": 0 * x + 0.5}
+    rows = np.column_stack([columns[name] for name in form.split()])
+    with pytest.raises(ValueError, match=r"has poses, not scans; .* as --poses\. If it has beams after all, say what"):
+        open_recording(text("\n".join(",".join(f"{value:.5f}" for value in row) for row in rows)))
+
+
+def test_points_around_the_laser_with_their_bearing_are_no_poses(text):
+    bearings = np.linspace(-3.1, 3.1, 200)
+    rows = np.column_stack([2 * np.cos(bearings), 2 * np.sin(bearings), bearings])
+    recording = open_recording(text("\n".join(",".join(f"{value:.5f}" for value in row) for row in rows)))
+    assert recording.ranges == pytest.approx(2.0, abs=1e-4)
+
+
 def test_a_row_that_breaks_off_is_skipped_and_named(text):
     recording = open_recording(text(rows(181) + "\n1.0, 2.0"))
     (skipped,) = recording.account.skipped
