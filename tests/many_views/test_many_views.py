@@ -1,5 +1,6 @@
 """The truth by many views: against the exact truth of simulated worlds, and refused where none can be made."""
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -7,6 +8,8 @@ import pytest
 
 from lineseg import Recording, Scan, simulate
 from lineseg.many_views import truth_by_many_views
+from lineseg.many_views.checks import trust
+from lineseg.many_views.returns import Returns
 from lineseg.poses import PoseSource, Track, in_world
 from lineseg.simulate import UTM_30LX, box, circle, door, room
 from lineseg.truth import UNKNOWN, true_lines
@@ -103,6 +106,45 @@ def test_what_one_place_alone_saw_is_unknown():
     assert second is not None
     assert (first[found[0].valid] == UNKNOWN).all()
     assert (second >= 0).any()
+
+
+@pytest.mark.parametrize(
+    ("thickness", "unknown", "shift", "trusted", "sentence"),
+    [
+        (0.010, 0.01, 0.01, True, "hold together. .* by 2 points .*, at most 6"),
+        (0.025, 0.01, 0.01, False, "It is uncertain: walls are 18 mm thick or thicker. .* at most 16"),
+        (0.010, 0.08, 0.01, False, "4% or more of the returns are unknown. "),
+        (0.010, 0.01, 0.03, False, "a pose was corrected by 20 mm or more. "),
+        (0.070, 0.01, 0.01, False, "Do not trust this truth: walls are 70 mm thick"),
+    ],
+)
+def test_it_says_how_far_rates_were_off_in_worlds_alike(thickness, unknown, shift, trusted, sentence):
+    found = trust("drive", thickness, 0.9, unknown, np.full(20, shift), np.zeros(20))
+    assert found[0] is trusted
+    assert re.search(sentence, found[1])
+
+
+def test_of_a_long_recording_places_seen_briefly_keep_their_returns():
+    returns = Returns.of(drive(), np.asarray(drive().poses))
+    views = np.where(np.arange(40) < 36, 0, 1 + np.arange(40))
+    some = returns.thinned(views, len(returns) // 4)
+    kept, given = np.diff(some.offsets), np.diff(returns.offsets)
+    assert len(some) <= len(returns) // 4
+    assert (kept[36:] == given[36:]).all()
+    assert (kept[:36] > 0).all()
+    assert np.array_equal(some.xy, returns.xy[np.searchsorted(returns.beam, some.beam)])
+
+
+def test_parts_together_are_all_returns(monkeypatch):
+    monkeypatch.setattr("lineseg.many_views.returns.PART", 1000)
+    recording = drive()
+    poses = np.asarray(recording.poses)
+    returns = Returns.of(recording, poses)
+    parts = list(returns.parts())
+    assert len(parts) > 10
+    placed = [part.in_world(poses[scans]) for part, _, scans in parts]
+    assert np.array_equal(np.concatenate(placed), returns.in_world(poses))
+    assert np.array_equal(np.concatenate([part.scan + scans.start for part, _, scans in parts]), returns.scan)
 
 
 def test_work_can_be_stopped():
