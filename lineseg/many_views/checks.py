@@ -58,7 +58,10 @@ def check(recording: Recording) -> Poses:
 def trust(
     name: str, thickness: float, explained: float, unknown: float, shift: Floats, turn: Floats
 ) -> tuple[bool, str]:
-    """Whether a truth can be used to judge methods, and why. Raises ValueError if there are hardly any walls."""
+    """Whether rates measured with a truth are likely near the exact ones, and why.
+
+    Raises ValueError if there are hardly any walls.
+    """
     if explained < LEAST_EXPLAINED:
         raise ValueError(
             f"{name}: only {explained:.0%} of the returns lie on straight walls that several views agree on. "

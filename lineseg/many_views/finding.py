@@ -54,8 +54,8 @@ class ManyViews:
 
     recording: with `wall` of each beam (−1 none, UNKNOWN for too little support), `walls` and the corrected poses.
     thickness: rms distance of the points from their walls [m], and before the poses were corrected; explained, unknown:
-    shares of the returns. shift, turn: (frames with a pose,) corrections of the poses [m, rad]. trusted: whether the
-    truth can be used to judge methods; reason: why, or why not.
+    shares of the returns. shift, turn: (frames with a pose,) corrections of the poses [m, rad]. trusted: whether
+    rates measured with it are likely a few points off at most; reason: how far off they were in simulated worlds.
     """
 
     recording: Recording

@@ -163,7 +163,7 @@ def test_a_truth_is_made_from_poses_marked_and_forgotten(new_tab):
     state = tab.until("s.byViews !== '' && s.agreement !== null && s.layers.truth")
     assert (state["frame"], state["judgedBy"]) == (7, "wall")
     assert state["agreement"]["trueLines"] > 2
-    tab.page.locator(".from-poses").get_by_text("walls hold together").wait_for()
+    tab.page.locator(".from-poses").get_by_text("TR and FR measured with such a truth were off by").wait_for()
     tab.page.locator(".truth-figures", has_text="by many views").wait_for()
     tab.page.get_by_label("Compared with").get_by_text("walls by many views").wait_for(state="attached")
     tab.page.get_by_role("button", name="Remove this truth").click()
