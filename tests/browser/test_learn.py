@@ -426,7 +426,7 @@ def do_the_task(tab, lesson: NamedLesson) -> None:
     goal, number = lesson.task.goal, lesson.task.number
     if goal is None:
         right = [option.text for option in lesson.task.choice if option.right]
-        (choose(right[0]) if number is None else typed(re.match(r"[-−\d.]+", number.answer)[0]))(tab)
+        (choose(right[0]) if number is None else typed(re.findall(r"[-−\d.]+", number.answer)[0]))(tab)
         return
     for name, (least, _) in [*lesson.accepted.items()][:1]:
         value(name, f"{least:.6g}")(tab)
