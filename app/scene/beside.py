@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from lineseg import Recording
 
@@ -60,7 +61,8 @@ def _root(frames: tuple[str, ...]) -> str:
 
 def scans_beside(lasers: Sequence[OtherLaser], stamp: float, theme: Theme) -> Points:
     """The scans of the other lasers at a time, each laser in its colour."""
-    xy, colours = [np.empty((0, 2))], [np.empty((0, 3), np.uint8)]
+    xy: list[NDArray[np.floating]] = [np.empty((0, 2))]
+    colours = [np.empty((0, 3), np.uint8)]
     for number, laser in enumerate(lasers):
         frame = laser.frame_at(stamp)
         if laser.world is not None and frame is not None:
