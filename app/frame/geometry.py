@@ -37,14 +37,6 @@ def bounds_of(recording: Recording) -> Bounds:
     return float(low[0]), float(low[1]), float(high[0]), float(high[1])
 
 
-def fitted(xy: NDArray) -> tuple[float, float, float]:
-    """(a, b, c) of the line ax + by + c = 0 through points (n, 2) [m], by total least squares (Eq. 2)."""
-    middle = xy.mean(axis=0)
-    # The normal is the direction in which the points scatter least.
-    a, b = np.linalg.svd(xy - middle)[2][1].tolist()
-    return a, b, float(-(a * middle[0] + b * middle[1]))
-
-
 def extent_of(scan: Scan, bounds: Bounds) -> Bounds:
     """The box around the points of one scan; the box of the recording if it has none."""
     if scan not in _EXTENTS:

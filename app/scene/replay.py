@@ -11,8 +11,8 @@ from lineseg import Decision, Params, Scan
 from lineseg.colours import SEGMENTS
 from lineseg.region_growing.prediction import predicted_ranges
 
+from ..fitting import fitted
 from ..frame.findings import Findings
-from ..frame.geometry import fitted
 from .palette import Colours, Theme
 from .shapes import Lines, Points, dashed, joined, lines_between, points_at
 

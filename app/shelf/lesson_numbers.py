@@ -21,7 +21,7 @@ from lineseg.params import Params
 from lineseg.scan import Scan
 from lineseg.tracing.decisions import Decision, Trace
 
-from ..frame.geometry import fitted
+from ..fitting import fitted
 
 if TYPE_CHECKING:
     from .lesson import Find, Named
