@@ -84,7 +84,7 @@ def _plain(array: NDArray) -> bool:
 def _pairs(array: NDArray) -> NDArray | None:
     """(scans, beams, 2): complex numbers as x and y, or an array that has pairs already; None for others."""
     if array.dtype.kind == "c" and 1 <= array.ndim <= 2 and array.size > 2:
-        return np.atleast_3d(np.stack([np.atleast_2d(array.real), np.atleast_2d(array.imag)], axis=-1))
+        return np.atleast_3d(np.stack([np.atleast_2d(np.real(array)), np.atleast_2d(np.imag(array))], axis=-1))
     if array.dtype.kind not in "fiu" or array.ndim != 3 or 2 not in array.shape[1:] or array.size < 6:
         return None
     return array if array.shape[2] == 2 else array.swapaxes(1, 2)

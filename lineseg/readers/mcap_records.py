@@ -80,7 +80,7 @@ class McapFile:
     def close(self) -> None:
         self._file.close()
 
-    def messages(self, channels: Collection[int]) -> Iterator[tuple[int, int, bytes]]:
+    def messages(self, channels: Collection[int]) -> Generator[tuple[int, int, bytes], None, None]:
         """(channel, time of recording in nanoseconds, data) of these channels, chunk after chunk."""
         return self._scan(set(channels))
 
@@ -112,7 +112,7 @@ class McapFile:
             return False
         return counted and self.counts.keys() <= self.channels.keys()
 
-    def _scan(self, wanted: set[int] | None) -> Iterator[tuple[int, int, bytes]]:
+    def _scan(self, wanted: set[int] | None) -> Generator[tuple[int, int, bytes], None, None]:
         """The messages in file order; wanted: None to learn about channels and to count, without messages."""
         self._at = self._file.seek(len(MAGIC))
         self.lost, before, checksum, lost = [], self._at, crc32(MAGIC), None
