@@ -23,7 +23,7 @@ def bench(
     against: Annotated[Unset[str], arg(metavar="COMMAND")] = None,
     json: Switch = False,
 ) -> None:
-    """Time the extraction, and compare it with the least work that the method needs.
+    """Time the extraction, and the least work that it needs.
 
     Args:
         file: recording to use (default: the samples).

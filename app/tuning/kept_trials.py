@@ -49,4 +49,4 @@ class KeptTrials:
         self.file.parent.mkdir(parents=True, exist_ok=True)
         with self.file.open("a", encoding="utf-8") as file:
             # What was cut short before it, by a full disk, stays a line of its own.
-            file.write("\n" + json.dumps([asdict(trial.params), score]))
+            file.write("\n" + json.dumps([asdict(trial.params), score]) + "\n")
