@@ -229,19 +229,21 @@ class ViserScene:
 
     def _follow_camera(self, client: viser.ClientHandle) -> None:
         """Keep the size of points on the screen at any zoom."""
+        client.camera.on_update(self._size_points)
+        # The page may have moved it before this was heard.
+        self._size_points(client.camera)
 
-        @client.camera.on_update
-        def _(camera: viser.CameraHandle) -> None:
-            distance = float(np.linalg.norm(camera.position - camera.look_at))
-            metres = 2 * distance * math.tan(camera.fov / 2) / max(camera.image_height, 1)
-            # In steps of 12 %, to avoid a message for every frame of a zoom.
-            rounded = math.exp(round(math.log(max(metres, 1e-5)) / 0.12) * 0.12)
-            if rounded == self._metres_per_pixel:
-                return
-            self._metres_per_pixel = rounded
-            with self._server.atomic():
-                for name, handle in self._clouds.items():
-                    handle.point_size = CLOUDS[name][0] * rounded
+    def _size_points(self, camera: viser.CameraHandle) -> None:
+        distance = float(np.linalg.norm(camera.position - camera.look_at))
+        metres = 2 * distance * math.tan(camera.fov / 2) / max(camera.image_height, 1)
+        # In steps of 12 %, to avoid a message for every frame of a zoom.
+        rounded = math.exp(round(math.log(max(metres, 1e-5)) / 0.12) * 0.12)
+        if rounded == self._metres_per_pixel:
+            return
+        self._metres_per_pixel = rounded
+        with self._server.atomic():
+            for name, handle in self._clouds.items():
+                handle.point_size = CLOUDS[name][0] * rounded
 
 
 def _path(name: str) -> str:
