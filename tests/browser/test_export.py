@@ -15,14 +15,16 @@ from lineseg import Params, extract, open_recording, read_pack, write_pack
 HALLWAY = Path(__file__).parents[2] / "sample_scans" / "hallway.npz"
 
 
-def choose(tab, entry: str):
+def choose(tab, entry: str, group: str = ""):
+    """An entry of the menu; group: its heading, where several have an entry of this name."""
     tab.page.get_by_role("button", name="Export").click()
-    tab.page.get_by_role("menuitem", name=entry, exact=True).click()
+    among = tab.page.get_by_role("group", name=group) if group else tab.page
+    among.get_by_role("menuitem", name=entry, exact=True).click()
 
 
-def saved(tab, entry: str, folder: Path) -> Path:
+def saved(tab, entry: str, folder: Path, group: str = "") -> Path:
     with tab.page.expect_download() as download:
-        choose(tab, entry)
+        choose(tab, entry, group)
     place = folder / download.value.suggested_filename
     download.value.save_as(place)
     return place
@@ -42,7 +44,7 @@ def test_the_frame_is_taken_along_as_a_picture_and_all_segments_as_files(new_tab
     png = saved(tab, "Picture (PNG)", tmp_path).read_bytes()
     width, height = np.frombuffer(png[16:24], ">u4")
     assert (png[:8], width, height) == (b"\x89PNG\r\n\x1a\n", 1920, 1440)
-    features = json.loads(saved(tab, "GeoJSON", tmp_path).read_text())["features"]
+    features = json.loads(saved(tab, "GeoJSON", tmp_path, "Segments of all frames").read_text())["features"]
     mine = [feature for feature in features if feature["properties"]["frame"] == 17]
     assert [feature["properties"]["first"] for feature in mine] == [line.first for line in found]
     rows = saved(tab, "CSV", tmp_path).read_text().splitlines()
@@ -101,7 +103,7 @@ def test_a_failure_pack_opens_again_by_drag_and_drop_with_its_parameters_and_its
     card.get_by_role("button", name="Use its parameters").click()
     other.until("s.params.epsilon === 0.02")
     choose(other, "Failure pack…")
-    assert other.page.get_by_label("What is wrong here?").input_value() == "the door is bridged\n– why?"
+    assert other.page.get_by_label("Note of this frame").input_value() == "the door is bridged\n– why?"
 
 
 def drop(tab, file: Path) -> None:
