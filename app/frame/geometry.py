@@ -1,4 +1,4 @@
-"""Bounding boxes of scans and recordings [m], the line through points, and the beam nearest to a point."""
+"""Bounding boxes of scans and recordings [m], and the beam nearest to a point."""
 
 from __future__ import annotations
 
