@@ -48,14 +48,10 @@ def write_site(
     following = [*(quote(names[lesson.id]) for lesson in lessons[1:]), ""]
     # Each is written when it is made, so that a disk that says no is told after the first, not after the last.
     for done, (lesson, after) in enumerate(zip(lessons, following, strict=True), 1):
-        _write(folder / names[lesson.id], lesson_page(shelf, lesson, after, INDEX))
+        write_whole(folder / names[lesson.id], lesson_page(shelf, lesson, after, INDEX))
         advance(done, len(lessons))
     # The list comes last, so that each lesson in it is there.
-    _write(folder / INDEX, index_page(lessons, names))
-
-
-def _write(path: Path, page: str) -> None:
-    write_whole(path, page)
+    write_whole(folder / INDEX, index_page(lessons, names))
 
 
 def check_folder(folder: Path) -> None:
