@@ -20,8 +20,8 @@ from lineseg.readers import Cancelled
 from lineseg.writers.line_maps import MAP_WRITERS, drawings
 
 from ..made import about_of
-from ..session.session import Shown
 from ..session.sessions import Sessions
+from ..session.shown import Shown
 from ..shelf.library import Library
 from ..told.answers import MapLines
 from .slow import SlowWork
