@@ -2,21 +2,16 @@
 
 from __future__ import annotations
 
-import asyncio
 import base64
-import json
 import math
-import threading
-from collections.abc import AsyncIterator
 from typing import Any
 
 from fastapi import FastAPI
 from fastapi.responses import StreamingResponse
 from starlette.exceptions import HTTPException
 
-from lineseg.failing import sentence_of
 from lineseg.line_map import line_map
-from lineseg.readers import Cancelled
+from lineseg.readers import Progress
 from lineseg.writers.line_maps import MAP_WRITERS, drawings
 
 from ..made import about_of
@@ -24,10 +19,10 @@ from ..session.sessions import Sessions
 from ..session.shown import Shown
 from ..shelf.library import Library
 from ..told.answers import MapLines
+from .progress import told_work
 from .slow import SlowWork
 
 AT_ONCE = 2
-TELL_SECONDS = 0.1
 MISSING = 501
 
 
@@ -54,41 +49,17 @@ def add_line_map(app: FastAPI, library: Library, sessions: Sessions) -> None:
                 drawings()
             except ValueError as error:
                 raise HTTPException(MISSING, str(error)) from None
-        rows = _made(slow, shown, library.label(shown.view.recording), to)
-        return StreamingResponse(rows, media_type="application/x-ndjson")
+        return _made(slow, shown, library.label(shown.view.recording), to)
 
 
-async def _made(slow: SlowWork, shown: Shown, label: str, to: str) -> AsyncIterator[str]:
-    """Lines of JSON: the progress, then the file or why there is none. Closing the response stops the work."""
-    stop, told = threading.Event(), {"done": 0, "total": 0}
+def _made(slow: SlowWork, shown: Shown, label: str, to: str) -> StreamingResponse:
+    """Make the map, and answer with the progress and the file."""
+    view, recording = shown.view, shown.recording
 
-    def advance(done: int, total: int) -> None:
-        if stop.is_set():
-            raise Cancelled("the line map was stopped")
-        told.update(done=done, total=total)
-
-    def work() -> dict[str, Any]:
-        view = shown.view
-        found = line_map(shown.recording, view.params, progress=advance)
-        content = MAP_WRITERS[to](found, f"{label}, line map", about_of(shown.recording, view.method, view.params))
+    def work(advance: Progress) -> dict[str, Any]:
+        found = line_map(recording, view.params, progress=advance)
+        content = MAP_WRITERS[to](found, f"{label}, line map", about_of(recording, view.method, view.params))
         suffix = f"metres.{to}" if to == "geojson" else to
-        name = f"{label}_map.{suffix}"
-        return {"name": name, "content": base64.b64encode(content).decode(), "text": found.text}
+        return {"name": f"{label}_map.{suffix}", "content": base64.b64encode(content).decode(), "text": found.text}
 
-    try:
-        done = slow.start(work)
-    except HTTPException as error:
-        yield _line({"message": error.detail})
-        return
-    try:
-        while not done.done():
-            yield _line(told)
-            await asyncio.wait([done], timeout=TELL_SECONDS)
-        error = done.exception()
-        yield _line(done.result() if error is None else {"message": sentence_of(error, "")})
-    finally:
-        stop.set()
-
-
-def _line(message: dict[str, Any]) -> str:
-    return json.dumps(message) + "\n"
+    return told_work(slow, work, lambda file: file)

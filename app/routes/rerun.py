@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-import asyncio
-import json
 import math
 import secrets
 import threading
-from collections.abc import AsyncIterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -16,14 +13,12 @@ from fastapi.responses import FileResponse, StreamingResponse
 from starlette.concurrency import run_in_threadpool
 from starlette.exceptions import HTTPException
 
-from lineseg.failing import sentence_of
-from lineseg.readers import Cancelled
-
 from ..places import data_folder
 from ..session.sessions import Sessions
 from ..shelf.library import Library
 from ..shelf.scratch import Scratch
 from .attachment import attachment
+from .progress import told_work
 from .slow import SlowWork
 
 if TYPE_CHECKING:
@@ -31,7 +26,6 @@ if TYPE_CHECKING:
 
 MOST_KEPT = 8
 AT_ONCE = 2
-TELL_SECONDS = 0.1
 MISSING = 501
 
 
@@ -61,36 +55,20 @@ class RerunFiles:
                 (self._scratch.folder / "unpacked").touch()
         return self._scratch.folder / name
 
-    async def record(self, run: Run) -> AsyncIterator[str]:
-        """Record, and yield lines of JSON: the progress, then the id of the recording or the reason for a failure.
-
-        Closing the response stops the work.
-        """
+    def record(self, run: Run) -> StreamingResponse:
+        """Record, and answer with the progress and the id of the recording."""
         from ..rerun.record import save
 
-        id, stop, told = secrets.token_urlsafe(12), threading.Event(), {"done": 0, "total": len(run.frames)}
+        id = secrets.token_urlsafe(12)
+        file = self._scratch.folder / f"{id}.rrd"
 
-        def advance(done: int, total: int) -> None:
-            if stop.is_set():
-                raise Cancelled("the recording for rerun was stopped")
-            told["done"] = done
-
-        try:
-            work = self._recording.start(save, run, self._scratch.folder / f"{id}.rrd", advance)
-        except HTTPException as error:
-            yield _line({"message": error.detail})
-            return
-        try:
-            while not work.done():
-                yield _line(told)
-                await asyncio.wait([work], timeout=TELL_SECONDS)
-            if (error := work.exception()) is not None:
-                yield _line({"message": f"recording failed: {sentence_of(error, '')}"})
-                return
+        def recorded(_: None) -> dict[str, Any]:
             self._keep(id)
-            yield _line({"recording": id, "bytes": (self._scratch.folder / f"{id}.rrd").stat().st_size})
-        finally:
-            stop.set()
+            return {"recording": id, "bytes": file.stat().st_size}
+
+        return told_work(
+            self._recording, lambda advance: save(run, file, advance), recorded, len(run.frames), "recording failed"
+        )
 
     def _keep(self, id: str) -> None:
         self._kept.append(id)
@@ -112,7 +90,7 @@ def add_rerun(app: FastAPI, library: Library, sessions: Sessions) -> RerunFiles:
         view, recording = shown.view, shown.recording
         frames = range(shown.position, shown.position + 1) if steps else range(len(recording))
         run = Run(recording, library.label(view.recording), view.method, view.params, frames, steps)
-        return StreamingResponse(files.record(run), media_type="application/x-ndjson")
+        return files.record(run)
 
     @app.get("/api/rerun/{id}.rrd")
     async def recorded(id: str, name: str | None = None) -> FileResponse:
@@ -142,7 +120,3 @@ def add_rerun(app: FastAPI, library: Library, sessions: Sessions) -> RerunFiles:
         return FileResponse(file, media_type=types[name], headers={"Cache-Control": "no-cache"})
 
     return files
-
-
-def _line(message: dict[str, Any]) -> str:
-    return json.dumps(message) + "\n"
