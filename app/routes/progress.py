@@ -54,6 +54,8 @@ async def _lines(
         yield _line(said(done.result()) if error is None else {"message": sentence_of(error, failed)})
     finally:
         stop.set()
+        # Else an error that nobody asks for is logged.
+        done.cancel()
 
 
 def _line(message: dict[str, Any]) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import gc
+import json
 import os
 import shutil
 import socket
@@ -14,8 +15,10 @@ import time
 import weakref
 from collections.abc import AsyncIterator
 from pathlib import Path
+from typing import Any
 
 import pytest
+from lineseg_app.routes.progress import told_work
 from lineseg_app.routes.slow import SlowWork
 from lineseg_app.scene.portless import PortlessServer
 from lineseg_app.server import Settings
@@ -28,6 +31,7 @@ from live import SECONDS, Address, Page, page_of, serving
 from starlette.exceptions import HTTPException
 
 from lineseg import open_recording
+from lineseg.readers import Progress
 from lineseg.unfinished import FOLDERS, LOCK
 
 
@@ -97,6 +101,26 @@ def test_slow_work_is_limited_in_number_and_time_and_counts_until_it_has_ended()
         assert await work.run(lambda: "done") == "done"
 
     asyncio.run(run())
+
+
+def test_told_work_ends_without_a_word_when_its_response_is_closed(caplog: pytest.LogCaptureFixture):
+    slow = SlowWork("line maps", at_once=1, seconds=1.0)
+
+    def endless(advance: Progress) -> dict:
+        while True:
+            advance(1, 2)
+            time.sleep(0.001)
+
+    async def run() -> None:
+        lines: Any = told_work(slow, endless, dict).body_iterator
+        assert set(json.loads(await anext(lines))) == {"done", "total"}
+        await lines.aclose()
+        while slow.running:
+            await asyncio.sleep(0.01)
+        gc.collect()
+
+    asyncio.run(run())
+    assert caplog.records == []
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="this system has no named pipes")
