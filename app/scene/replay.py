@@ -112,8 +112,7 @@ def decision_geometry(found: Findings, step: int, theme: Theme) -> tuple[dict[st
 
 
 def bent_line(found: Findings, decision: Decision) -> Line | None:
-    """The line that a refused point would have bent to itself by joining before it was compared; None if it is as
-    far from that line."""
+    """The line fitted with a point that growth refused, if ε would have accepted the point then; None otherwise."""
     scan = found.scan
     refused = decision.kind == "growth stopped" and decision.check == "epsilon"
     # Some methods also refuse beams without a return.
