@@ -1,11 +1,21 @@
-"""What programs put around the numbers of a line: the time it was received, a label, quotes, dashes, or LaTeX."""
+"""The lines of a text file without what programs put around their numbers: the time it was received, a label, quotes,
+dashes, LaTeX, or a remark."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from itertools import chain, islice
 from typing import NamedTuple
 
+from .dialect import COMMENTS, Row
+from .source import Source
+
+# How most rows begin; nothing is to be done to them.
+PLAIN = frozenset(b"%c" % each for each in b"+-.0123456789")
+SEPARATOR = re.compile(rb"sep=.", re.IGNORECASE)  # the first line of Excel's tables
+# A remark after a semicolon, and one behind the numbers of a line.
+REMARK, INLINE = re.compile(rb";+\s*[A-Za-z][^;]*"), re.compile(rb"\s+#\s.*$")
 # The time at which a terminal received a line, such as `12:00:00.120 -> ` of Arduino's.
 RECEIVED = re.compile(
     rb"\s*(\[)?((?:\d{4}-\d\d-\d\d[ T])?\d\d:\d\d:\d\d(?:[.,]\d+)?(?:Z|[-+]\d\d:?\d\d)?)(?(1)\]\s+|\s*->\s*)(?=\S)"
@@ -18,7 +28,7 @@ DASH = re.compile(rb"\s*-\s+(?=[-+]?\.?(?:\d|nan|inf)\S*\s*$)", re.IGNORECASE)
 ROW_END = re.compile(rb"\\\\(?:\[[^\]]*\])?\s*(?:\\\w+\s*)*$|\\(?:tabularnewline|cr)\b.*$")
 DEGREES = re.compile(rb"\^\{?\\circ\}?|\\textdegree|\\degree")
 MARKS = re.compile(rb"\$|\\(?:,|\w+\{|)|[{}]")
-MANY, ENOUGH = 10, 16
+MANY, ENOUGH, SAMPLE = 10, 16, 40
 
 
 class Dress(NamedTuple):
@@ -54,7 +64,37 @@ DRESSES = (
 )
 
 
-def undressing(lines: list[bytes]) -> Callable[[bytes], bytes] | None:
+def rows_of(source: Source) -> Iterator[Row]:
+    """The lines of a file without what a program put around their numbers; blank lines have no text."""
+    rows = _lines(source)
+    head = list(islice(rows, SAMPLE))
+    off = _undressing([row.text for row in head if row.text])
+    if off is None:
+        yield from head
+        yield from rows
+        return
+    for row in chain(head, rows):
+        if (text := off(row.text)) or not row.text:
+            yield Row(row.number, text)
+
+
+def _lines(source: Source) -> Iterator[Row]:
+    for number, line in source.lines():
+        if line[:1] in PLAIN and b"#" not in line:
+            yield Row(number, line)
+            continue
+        text = line.removeprefix(b"\xef\xbb\xbf") if number == 1 else line
+        stripped = text.strip()
+        if number == 1 and SEPARATOR.fullmatch(stripped):
+            continue
+        if stripped.startswith(b";") and REMARK.fullmatch(stripped):
+            stripped = b"#" + stripped
+        elif b"#" in stripped:
+            text = INLINE.sub(b"", text)
+        yield Row(number, stripped if not stripped or stripped.startswith(COMMENTS) else text)
+
+
+def _undressing(lines: list[bytes]) -> Callable[[bytes], bytes] | None:
     """What takes off the dress that most of the lines wear; None if they wear none."""
     # Titles may stand above.
     lines = lines[-ENOUGH:]

@@ -8,6 +8,7 @@ import numpy as np
 
 from ..scan import Floats
 from .dialect import COMMENTS, Dialect, Row
+from .dressing import rows_of
 from .scan_columns import alike
 from .scan_rows import usual_angles
 from .source import Source
@@ -46,8 +47,8 @@ def scans_over_lines(
 
 def _lines(source: Source, dialect: Dialect) -> Iterable[tuple[int, bytes, Floats | None]]:
     """(number, text, numbers) of each line; None for words."""
-    for number, line in source.lines():
-        text = line.removeprefix(b"\xef\xbb\xbf").strip()
+    for number, line in rows_of(source):
+        text = line.strip()
         yield number, text, None if not text or text.startswith(COMMENTS) else dialect.numbers(text)
 
 

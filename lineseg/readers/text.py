@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from dataclasses import replace
 from itertools import chain, islice, pairwise
 from typing import Any
@@ -26,7 +26,7 @@ from .dialect import (
     text_of,
     unlabelled,
 )  # fmt: skip
-from .dressing import undressing
+from .dressing import rows_of
 from .headers import (
     LENGTHS,
     STAMPS,
@@ -50,12 +50,7 @@ from .source import Reader, Source
 from .spanning import scans_over_lines
 from .table import echo_columns, read_table
 
-# How most rows begin; nothing is to be done to them.
-PLAIN = frozenset(b"%c" % each for each in b"+-.0123456789")
 ECHO = re.compile(rb"%time[,;\t]field\.")  # the first line of `rostopic echo -p`
-SEPARATOR = re.compile(rb"sep=.", re.IGNORECASE)  # the first line of Excel's tables
-# A remark after a semicolon, and one behind the numbers of a line.
-REMARK, INLINE = re.compile(rb";+\s*[A-Za-z][^;]*"), re.compile(rb"\s+#\s.*$")
 SETTING = re.compile(rb"(\w+)\s*[=:]\s*([^\s,;]+)")
 TEXT_FORMS = "use one scan per row, or columns of angle and distance, or a table with a column named ranges."
 # An angle as the name of a column, such as -134.5°.
@@ -87,7 +82,7 @@ class Text(Reader):
 
     @staticmethod
     def read(source: Source) -> Recording:
-        rows = _undressed(_rows(source))
+        rows = (row for row in rows_of(source) if row.text)
         said: dict[str, str] = {}
         comment, first = b"", next(rows, None)
         while first is not None and first.text.startswith(COMMENTS) and not ECHO.match(first.text):
@@ -99,34 +94,6 @@ class Text(Reader):
         rest = (row for row in rows if not row.text.startswith(COMMENTS))
         head = _below_titles(source, [first, *islice(rest, SAMPLE)])
         return _read(source, reading, head, chain(head, rest), comment)
-
-
-def _rows(source: Source) -> Iterator[Row]:
-    for number, line in source.lines():
-        if line[:1] in PLAIN and b"#" not in line:
-            yield Row(number, line)
-            continue
-        text = line.removeprefix(b"\xef\xbb\xbf") if number == 1 else line
-        stripped = text.strip()
-        if stripped and not (number == 1 and SEPARATOR.fullmatch(stripped)):
-            if stripped.startswith(b";") and REMARK.fullmatch(stripped):
-                stripped = b"#" + stripped
-            elif b"#" in stripped:
-                text = INLINE.sub(b"", text)
-            yield Row(number, stripped if stripped.startswith(COMMENTS) else text)
-
-
-def _undressed(rows: Iterator[Row]) -> Iterator[Row]:
-    """The rows without what a program put around their numbers."""
-    head = list(islice(rows, SAMPLE))
-    off = undressing([row.text for row in head])
-    if off is None:
-        yield from head
-        yield from rows
-        return
-    for row in chain(head, rows):
-        if text := off(row.text):
-            yield Row(row.number, text)
 
 
 def _below_titles(source: Source, head: list[Row]) -> list[Row]:

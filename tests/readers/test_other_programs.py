@@ -115,6 +115,7 @@ FILES = {
     "table.tex": (LATEX.encode(), 1, 360),
     "ten_a_line.txt": (WRAPPED.encode() * 3, 3, BEAMS),
     "headings.txt": ("".join(f"scan {at}\n{WRAPPED}" for at in range(3)).encode(), 3, BEAMS),
+    "dashes.txt": (("".join(f"- {each}\n" for each in WORDS) + "\n").encode() * 3, 3, BEAMS),
     "array.h": (
         f"static const float ranges[{BEAMS}] = {{\n{', '.join(each + 'f' for each in WORDS)}}};\n".encode(),
         1,
