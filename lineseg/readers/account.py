@@ -53,6 +53,11 @@ class Skipped:
     place: str
     why: str
 
+    @property
+    def text(self) -> str:
+        """One sentence."""
+        return f"{self.place}: {self.why}{'' if self.why.endswith('?') else '.'}"
+
 
 class Findings(NamedTuple):
     """What takes a look at all ranges and stamps: the line, the notices and `stamp_trouble` of an `Account`."""
@@ -114,9 +119,8 @@ class Account:
         """One sentence about what was skipped, "" if nothing was."""
         if not self.skips:
             return ""
-        first, were = self.skipped[0], " was" if self.skips == 1 else "s were"
-        end = "" if first.why.endswith("?") else "."
-        return f"{self.skips} {self.skipping}{were} skipped, the first at {first.place}: {first.why}{end}"
+        were = " was" if self.skips == 1 else "s were"
+        return f"{self.skips} {self.skipping}{were} skipped, the first at {self.skipped[0].text}"
 
 
 class Notes:
@@ -159,5 +163,4 @@ class Notes:
     def nothing_left(self) -> None:
         """Raises ValueError for the first scan that was skipped; for readers that are left with none."""
         if self.skipped:
-            end = "" if self.skipped[0].why.endswith("?") else "."
-            raise ValueError(f"{self.skipped[0].place}: {self.skipped[0].why}{end}")
+            raise ValueError(self.skipped[0].text)
