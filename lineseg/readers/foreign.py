@@ -100,18 +100,20 @@ def unknown(name: str, head: bytes, expected: str, formats: str) -> ValueError:
 
 def _are_points(numbers: NDArray) -> bool:
     """Whether numbers are x, y, z [m] and the strength of points, or these and the ring."""
+    if numbers.dtype.kind != "f":
+        return False
     for columns in (4, 5):
         points = numbers[: len(numbers) // columns * columns].reshape(-1, columns).astype(np.float64)
-        ahead = np.hypot(points[:, 0], points[:, 1])
-        if numbers.dtype.kind == "f" and np.isfinite(points).all() and (np.abs(points[:, 2]) < 50).all():
-            strong = points[:, 3]
-            if (
-                (strong >= 0).all()
-                and (strong <= 255).all()
-                and (points[:, :2] < 0).any()
-                and (np.abs(ahead) < 400).all()
-            ):
-                return bool(np.median(ahead) > 0.5)
+        x, y, z, strength, *_ = points.T
+        ahead = np.hypot(x, y)
+        if (
+            np.isfinite(points).all()
+            and (np.abs(z) < 50).all()
+            and ((strength >= 0) & (strength <= 255)).all()
+            and (points[:, :2] < 0).any()
+            and (ahead < 400).all()
+        ):
+            return bool(np.median(ahead) > 0.5)
     return False
 
 
