@@ -339,16 +339,22 @@ def words_of(source: Source, table: NDArray[np.float64]) -> tuple[str, str]:
 def columns_of_beam(table: NDArray[np.float64]) -> tuple[float, Roles]:
     """The likeliest columns of a beam, and how unequal the steps of their angles are (`regularity`)."""
     columns = np.flatnonzero(np.isfinite(table).mean(axis=0) > 0.5).tolist()
-    found: list[tuple[float, Roles]] = []
+    possible: list[Roles] = []
     for angle in columns:
         if np.nanmax(np.abs(table[:, angle])) <= MOST_DEGREES:
             partner = _distance_beside(table, columns, angle)
             if partner is not None:
-                found.append((regularity(_radians(table[:, angle])), Roles(True, angle, partner)))
+                possible.append(Roles(True, angle, partner))
     if len(columns) >= 2:
-        bearings, _ = _from_points(table[:, columns[0]], table[:, columns[1]])
-        found.append((regularity(bearings), Roles(False, columns[0], columns[1])))
+        possible.append(Roles(False, columns[0], columns[1]))
+    found = [(regularity(bearings_of(table, roles)), roles) for roles in possible]
     return min(found, key=lambda each: each[0], default=(math.inf, Roles(True, 0, 1)))
+
+
+def bearings_of(table: NDArray[np.float64], roles: Roles) -> Floats:
+    """The bearings [rad] of beams, with the likeliest unit of their angles."""
+    first, second = table[:, roles.first], table[:, roles.second]
+    return _radians(first) if roles.polar else _from_points(first, second)[0]
 
 
 def _distance_beside(table: NDArray[np.float64], columns: list[int], angle: int) -> int | None:

@@ -8,9 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..scan import Floats, Recording
-from .beam_rows import Roles, columns_of_beam, with_roles
-from .guessing import angle_unit_of
-from .reading import RADIANS, Reading
+from .beam_rows import Roles, bearings_of, columns_of_beam, with_roles
+from .reading import Reading
 from .source import Source
 
 LEAST_BEAMS, MOST_NUMBERS = 20, 4
@@ -55,10 +54,7 @@ def _sweeps(table: NDArray[np.float64], roles: Roles) -> bool:
     """Whether the bearings of the beams go on in one sense over a field of view, and their distances vary."""
     if len(np.unique(table[:, roles.second])) <= FEW_VALUES:
         return False
-    if roles.polar:
-        bearings = table[:, roles.first] * RADIANS[angle_unit_of(table[:, roles.first])]
-    else:
-        bearings = np.arctan2(table[:, roles.second], table[:, roles.first])
+    bearings = bearings_of(table, roles)
     steps = (np.diff(bearings[np.isfinite(bearings)]) + np.pi) % (2 * np.pi) - np.pi
     back = np.minimum((steps > 0).mean(), (steps < 0).mean())
     return bool(back < FEW_BACK and np.median(np.abs(steps)) * len(table) > NARROW)
