@@ -28,7 +28,7 @@ CODES = (655.35, 655.34, 655.33, 65.535, 65.534, 65.533, 32.767, 16.383, 8.191, 
 OFTEN, FEW = 0.002, 3
 # Two turns, and a little; a turn, and a little.
 MOST_DEGREES, MOST_RADIANS = 725.0, 2 * np.pi + 0.2
-# What people write for it, such as 9999 or 99.99.
+# What people write where there was no return, such as 9999 or 99.99.
 NINES = re.compile(r"999|9{4,}|(?=.{5})9{1,4}\.9{1,5}")
 # A greatest value so many times as large as the next is no reading.
 ALONE, ENOUGH = 3.0, 100
