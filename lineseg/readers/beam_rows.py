@@ -133,6 +133,7 @@ def with_roles(
     source: Source, reading: Reading, table: NDArray[np.float64], names: list[Name] | None, roles: Roles,
     guess_direction: bool, format: str,
 ) -> Recording:  # fmt: skip
+    """The scans of a table (beams, columns) whose columns have these roles. names: of the columns, None without."""
     notes = source.notes
     if not roles.polar:
         # A point at the laser is a beam without a return; it has no bearing.
@@ -171,32 +172,31 @@ def _in_plane(source: Source, table: NDArray[np.float64], roles: Roles, z: int) 
     In cameras and games, y is up or down, z ahead and x to the right. Raises ValueError for the points of many planes.
     """
     there = np.isfinite(table[:, [roles.first, roles.second, z]]).all(axis=1)
-    heights = [thickness(table[there, column]) for column in (roles.second, z)]
+    heights = [np.ptp(_between(table[there, column])) for column in (roles.second, z)]
     usual = np.median(np.hypot(table[there, roles.first], table[there, z])) if there.any() else 0.0
     # Millimetres are told from metres by what they are in the plane.
     flat = FLAT if usual < FAR else 1000 * FLAT
     if heights[1] <= flat:
         return table
     check_flat(source.name, table[there, roles.second if heights[0] <= flat else z], flat)
-    words = "z ahead and x to the right, because all points have about the same y"
     source.notes.guess(
-        "direction", f"The scan has {words}", "the file does not say where ahead is", direction="clockwise"
-    )
+        "direction", "The scan has z ahead and x to the right, because all points have about the same y",
+        "the file does not say where ahead is", direction="clockwise",
+    )  # fmt: skip
     moved = table.copy()
     moved[:, roles.first], moved[:, roles.second] = table[:, z], -table[:, roles.first]
     return moved
 
 
-def thickness(heights: NDArray) -> float:
-    """Between which heights most points lie."""
-    low, high = np.quantile(heights, (0.05, 0.95)) if len(heights) else (0.0, 0.0)
-    return float(high - low)
+def _between(heights: NDArray) -> NDArray[np.float64]:
+    """(2,): between which heights most points lie."""
+    return np.quantile(heights, (0.05, 0.95)) if len(heights) else np.zeros(2)
 
 
 def check_flat(file: str, heights: NDArray, flat: float = FLAT, unit: str = "") -> None:
     """Raises ValueError for the points of many planes. unit: of the heights, for the sentence."""
-    if thickness(heights) > flat:
-        low, high = np.quantile(heights, (0.05, 0.95))
+    low, high = _between(heights)
+    if high - low > flat:
         raise ValueError(
             f"{file} has points from {low:.3g} to {high:.3g}{unit} in height, but a scan lies in one plane; cut a "
             "slice out of it first, as the node pointcloud_to_laserscan does."
