@@ -10,11 +10,11 @@ from tyro.conf import OmitArgPrefixes, Positional, arg
 
 from lineseg.knobs import Knob
 from lineseg.params import Params
-from lineseg.writers import read_params
 
 from .flag_types import Files, Unset
 from .progress import progress_bar, tell_by_views
 from .reading import ReadingFlags, files_of, reading_of
+from .thresholds import read_file
 
 
 def _axis_flag(knob: Knob, default: float) -> Any:
@@ -71,7 +71,7 @@ def sweep(
     if plot is not None:
         check_plot_path(plot)
     given = {name: axis_values(text, name) for name, text in asdict(threshold).items() if text is not None}
-    base = Params() if params is None else read_params(params.read_text(encoding="utf-8-sig"))
+    base = Params() if params is None else read_file(params, Params)
     grid = Grid(base, given)
     journal = Journal(out.with_name(out.name + ".partial"))
     complete = False

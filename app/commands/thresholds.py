@@ -88,7 +88,8 @@ def extractor_of(method: str) -> Extractor:
     return EXTRACTORS[method]
 
 
-def read_file(file: Path, kind: type[Thresholds]) -> Thresholds:
+def read_file(file: Path, kind: type[T]) -> T:
+    """The thresholds in a file. Raises ValueError, which names it, if it has none, is no text, or is too long."""
     try:
         return read_params(params_file(file), kind)
     except ValueError as error:

@@ -10,11 +10,12 @@ from tyro.conf import OmitArgPrefixes, Positional, arg
 
 from lineseg.params import Params
 from lineseg.unfinished import write_whole
-from lineseg.writers import params_text, read_params
+from lineseg.writers import params_text
 
 from .flag_types import Files, Unset
 from .progress import progress_bar, tell_by_views
 from .reading import ReadingFlags, files_of, reading_of
+from .thresholds import read_file
 
 
 def tune(
@@ -65,7 +66,7 @@ def tune(
         raise ValueError(f"--trials is {trials}; give 0 or more")
     if out is not None and not out.absolute().parent.is_dir():
         raise FileNotFoundError(f"{out}: the folder {out.parent} does not exist.")
-    base = Params() if params is None else read_params(params.read_text(encoding="utf-8-sig"))
+    base = Params() if params is None else read_file(params, Params)
     with pool(scheduler) as workers:
         blind = None if objective is None else objective == "label-free"
         recordings = files_of(files)

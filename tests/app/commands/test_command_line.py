@@ -173,6 +173,14 @@ def test_options_of_text_files_are_flags(run, tmp_path):
             "lineseg: {hall}: this is not text; give a launch file, YAML or JSON.",
         ),
         (
+            ["sweep", "{hall}", "--params", "{hall}", "-o", "out.csv"],
+            "lineseg: {hall}: this is not text; give a launch file, YAML or JSON.",
+        ),
+        (
+            ["tune", "{hall}", "--params", "{hall}"],
+            "lineseg: {hall}: this is not text; give a launch file, YAML or JSON.",
+        ),
+        (
             ["params", "--seed-points", "2"],
             "lineseg: seed_points is 2; a seed needs 3 or more points, because any 2 points fit a line exactly",
         ),
