@@ -50,10 +50,11 @@ class Content:
 class Around:
     """What is drawn around a frame in the world, made aside.
 
-    mapped: the lines of all frames, merged, or why they are not; None before it; percent: how much of it is made.
-    lasers: the others of the robot.
+    lines: of all frames, if they are known. mapped: these, merged, or why they are not; None before it; percent: how
+    much of it is made. lasers: the others of the robot.
     """
 
+    lines: Survey | None = None
     mapped: LineMap | str | None = None
     percent: int = 0
     lasers: tuple[OtherLaser, ...] = ()
@@ -91,11 +92,7 @@ class Composer:
         self._world = lru_cache(maxsize=2)(World.of)
         self._live_bounds: tuple[str, int, Bounds] = ("", 0, (0.0, 0.0, 0.0, 0.0))
 
-    def compose(
-        self, view: View, recording: Recording, survey: Survey | None = None, around: Around | None = None
-    ) -> Content:
-        """survey: the lines of all frames, if they are known."""
-        around = around or Around()
+    def compose(self, view: View, recording: Recording, around: Around) -> Content:
         view = _inside(view, recording)
         frame = recording.position(view.frame)
         found = self._findings(recording, frame, view.method, view.params)
@@ -111,7 +108,7 @@ class Composer:
         drawing = picture(view, recording, found, bounds, pinned, judgement, ghosts)
         world = self._world(recording) if view.space == "world" and view.mode != "learn" else None
         if world is not None:
-            drawing = picture_in_world(view, drawing, world, survey, around.line_map, around.lasers)
+            drawing = picture_in_world(view, drawing, world, around.lines, around.line_map, around.lasers)
             bounds = drawing.bounds
         label = self._library.label(view.recording)
         clock = self._clock(recording)

@@ -7,7 +7,6 @@ import threading
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from functools import partial
 from typing import Any
 
 from pydantic import BaseModel
@@ -20,7 +19,6 @@ from lineseg.readers import Cancelled
 from ..frame.geometry import beam_near
 from ..live.ring import LiveRecording
 from ..newest import Newest
-from ..scene.beside import OtherLaser
 from ..scene.portless import Door
 from ..scene.viser_scene import ViserScene
 from ..shelf.label_files import LabelFiles
@@ -29,15 +27,14 @@ from ..shelf.preview import for_the_page
 from ..told.drawn import Timings
 from ..told.messages import Failure, Loading
 from ..view import View
-from .aside import Surveyed, map_work, shows_map
-from .composing import Around, Composer
+from .composing import Composer
 from .following import Presence, Presenter, Pupil, mirrored
 from .loading import opened, refused
-from .other_lasers import Robot, lasers_work, others_in, shows_lasers
 from .pace import quick, takes_long, turn_of, waits_for
 from .page import NOBODY, Page, Told
 from .shown import Origin, Painted, Request, Shown, Watch
 from .strip import Strip, key_of
+from .surroundings import Surroundings
 from .turns import Rounds
 from .warm_up import WarmUp
 
@@ -87,12 +84,7 @@ class Session:
         self._scene = ViserScene(self._change_from_scene, self._pick, rounds and rounds.loop)
         self._drawing = Newest(f"session {id[:6]}", self._work)
         self._strip = Strip(f"strip {id[:6]}", warm_up.surveyed, self._tell, self._surveyed)
-        # The lines of all frames, as far as they were found last.
-        self._lines: Surveyed | None = None
-        self._map = map_work(f"map {id[:6]}", self._mapped)
-        # The recording on the screen, where its other lasers are asked for.
-        self._robot: Robot | None = None
-        self._lasers = lasers_work(f"lasers {id[:6]}", self._lasers_opened)
+        self._surroundings = Surroundings(id[:6], library, self._made_more)
         self._followed = 0.0
         self.presenter = Presenter()
         self._leave_presenter: Callable[[], None] | None = None
@@ -195,8 +187,7 @@ class Session:
         self.follow(None)
         self.presenter.tell("gone")
         self._strip.close()
-        self._map.close()
-        self._lasers.close()
+        self._surroundings.close()
         self._drawing.close()
         self._alone.acquire(timeout=CLOSING_SECONDS)
         self._scene.stop()
@@ -377,26 +368,13 @@ class Session:
         if isinstance(recording, LiveRecording) and newest.view.live:
             newest = _at_the_end(newest, recording)
         begun = time.perf_counter()
-        lines = self._lines
-        survey = lines.lines if lines is not None and lines.recording is recording else None
-        content = self._composer.compose(newest.view, recording, survey, self._around(newest.view, recording))
+        content = self._composer.compose(newest.view, recording, self._surroundings.around(newest.view, recording))
         drawn = time.perf_counter()
         self._scene.draw(content.picture, content.view.params, content.view.dark)
         # They are kept with what was found.
         _ = content.found.marks
         timings: Timings = {"pictureMs": _ms(drawn - begun), "drawMs": _ms(time.perf_counter() - drawn)}
         return Painted(newest, recording, content, timings)
-
-    def _around(self, view: View, recording: Recording) -> Around:
-        """What was made of the recording aside."""
-        mapped, lasers = self._map.of(recording), self._lasers.of(recording)
-        if not shows_map(view):
-            mapped = None
-        if not shows_lasers(view, recording):
-            lasers = ()
-        elif not isinstance(lasers, tuple):
-            lasers = tuple(OtherLaser(topic, why=lasers) for topic in others_in(recording))
-        return Around(mapped, self._map.percent, lasers)
 
     def _newest(self, request: Request) -> Request | None:
         """What to draw instead, if more was asked for while this waited; None if that waits for something else."""
@@ -416,51 +394,28 @@ class Session:
             if shown is not None and self._page is not None:
                 passing = key_of(self._wanted.view) != key_of(shown.view)
                 self._strip.want(shown.view, shown.recording, self._wanted.rev, passing)
-                self._want_map()
-                self._want_lasers()
+                self._surroundings.want(self._wanted.view, shown)
 
     def _surveyed(self, recording: Recording, survey: Survey) -> None:
         """Draw the lines of all frames where they are shown."""
         with self._lock:
-            self._lines = Surveyed(recording, survey)
-            self._want_map()
+            self._surroundings.surveyed(recording, survey)
+            if self._shown is not None and self._page is not None:
+                self._surroundings.want(self._wanted.view, self._shown)
             if self._wanted.view.space == "world" and self._wanted.view.layers.all_lines:
                 self._ask(self._wanted.view, self._wanted.rev, "scene")
 
-    def _want_map(self) -> None:
-        """Have the map made of what the screen shows, as long as it shows the map."""
-        lines, shown = self._lines, self._shown
-        same = lines is not None and shown is not None and lines.recording is shown.recording
-        self._map.want(lines if same and self._page is not None and shows_map(self._wanted.view) else None)
-
-    def _mapped(self) -> None:
-        """Draw the map where it is shown."""
+    def _made_more(self) -> None:
+        """Draw what was made aside where it is shown."""
         with self._lock:
-            if shows_map(self._wanted.view):
-                self._ask(self._wanted.view, self._wanted.rev, "scene")
-
-    def _want_lasers(self) -> None:
-        """Have the other lasers of the robot opened, as long as the screen shows them."""
-        shown = self._shown
-        if shown is None or not shows_lasers(self._wanted.view, shown.recording):
-            self._robot = None
-        elif self._robot is None or self._robot.recording is not shown.recording:
-            file = partial(self._library.path, shown.view.recording)
-            self._robot = Robot(shown.recording, file, shown.view.reading)
-        self._lasers.want(self._robot)
-
-    def _lasers_opened(self) -> None:
-        """Draw the other lasers where they are shown."""
-        with self._lock:
-            if self._wanted.view.layers.other_lasers:
+            if self._wanted.view.space == "world":
                 self._ask(self._wanted.view, self._wanted.rev, "scene")
 
     @property
     def line_map(self) -> LineMap | None:
         """The map on the screen."""
         with self._lock:
-            found = self._map.of(self._shown.recording) if self._shown is not None else None
-        return found if isinstance(found, LineMap) else None
+            return self._surroundings.line_map(self._shown.recording) if self._shown is not None else None
 
     def _load(self, request: Request) -> Recording:
         view, shown = request.view, self.shown
