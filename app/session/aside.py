@@ -59,10 +59,9 @@ class Aside(Generic[S, R]):
         None before it. What was made of another recording is forgotten.
         """
         made = self._made
-        if made is not None and made[0].recording is recording:
-            return made[1]
-        self._made = None
-        return None
+        if made is not None and made[0].recording is not recording:
+            made = self._made = None
+        return None if made is None else made[1]
 
     @property
     def percent(self) -> int:
