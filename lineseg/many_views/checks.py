@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -41,18 +43,39 @@ def check(recording: Recording) -> Poses:
             f"{name}: the robot stands still, or nearly: its {len(known)} poses lie within {size:.2f} m. "
             f"What is a wall is seen by looking from {LEAST_VIEWS} or more places; take a recording of a drive."
         )
-    steps = np.hypot(*np.diff(places[:, :2], axis=0).T) / np.diff(known)
-    usual = float(np.median(steps[steps > 0.01])) if (steps > 0.01).any() else 0.0
-    farthest = max(FARTHEST_STEP, TIMES_USUAL * usual)
-    jumps = np.flatnonzero(steps > farthest)
-    if len(jumps):
-        first, last = (recording.number(int(known[jumps[0] + k])) for k in (0, 1))
+    jump = first_jump(recording, poses)
+    if jump:
         raise ValueError(
-            f"{name}: the poses jump: by {steps[jumps[0]]:.2f} m between frames {first} and {last}, where the robot "
-            f"usually drives {usual:.2f} m{f' ({len(jumps)} such jumps)' if len(jumps) > 1 else ''}. Take the frames "
-            "before or after, or poses that were corrected."
+            f"{name}: the poses jump: by {jump.length:.2f} m between frames {jump.before} and {jump.after}, where the "
+            f"robot usually drives {jump.usual:.2f} m{f' ({jump.times} such jumps)' if jump.times > 1 else ''}. Take "
+            "the frames before or after, or poses that were corrected."
         )
     return poses
+
+
+class Jump(NamedTuple):
+    """The first jump of the poses: how far [m], and between which frames of the file.
+
+    usual: the usual step between two scans [m]; times: how many jumps there are.
+    """
+
+    length: float
+    before: int
+    after: int
+    usual: float
+    times: int
+
+
+def first_jump(recording: Recording, poses: Poses) -> Jump | None:
+    """Where poses (frames, 3) first jump farther than a robot drives; None if they never do."""
+    known = np.flatnonzero(np.isfinite(poses).all(axis=1))
+    steps = np.hypot(*np.diff(np.asarray(poses, np.float64)[known, :2], axis=0).T) / np.diff(known)
+    usual = float(np.median(steps[steps > 0.01])) if (steps > 0.01).any() else 0.0
+    jumps = np.flatnonzero(steps > max(FARTHEST_STEP, TIMES_USUAL * usual))
+    if not len(jumps):
+        return None
+    before, after = (recording.number(int(known[jumps[0] + k])) for k in (0, 1))
+    return Jump(float(steps[jumps[0]]), before, after, usual, len(jumps))
 
 
 def trust(
