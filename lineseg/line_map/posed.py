@@ -9,13 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..covariance import covariances_of_points
+from ..many_views.returns import views_of
 from ..noise import RangeNoise
 from ..poses import Poses, in_world
 from ..scan import Recording, are_valid
 from ..survey import Survey
 
-# Scans taken within a square of this side share the error of their poses, and count as one [m].
-VIEW = 0.3
 # What a range scatters by where the scans do not tell [m].
 UNKNOWN_NOISE = 0.01
 
@@ -150,9 +149,8 @@ def _points(
 
 
 def _shares(poses: Poses, known: NDArray[np.bool_]) -> Floats:
-    """(frames,) one over the number of scans from the same place."""
+    """(frames,) one over the number of scans from the same place, which share the error of their poses."""
     shares = np.ones(len(poses))
-    places = np.round(poses[known, :2] / VIEW).astype(np.int64)
-    _, view, counts = np.unique(places, axis=0, return_inverse=True, return_counts=True)
-    shares[known] = 1.0 / counts[view.reshape(-1)]
+    views = views_of(poses[known])
+    shares[known] = 1.0 / np.bincount(views)[views]
     return shares

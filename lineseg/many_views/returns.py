@@ -97,7 +97,7 @@ class Returns:
             first = scans.stop
 
 
-def views_of(poses: NDArray[np.float64]) -> NDArray[np.int64]:
+def views_of(poses: NDArray[np.floating]) -> NDArray[np.int64]:
     """(m,) the view that each pose belongs to, numbered from 0: scans from nearly the same place are one view."""
     _, views = np.unique(np.round(poses[:, :2] / VIEW).astype(np.int64), axis=0, return_inverse=True)
     return views.reshape(-1)
