@@ -35,7 +35,7 @@ class PosedLines:
     middle: (n, 2) [m]; normal: (n, 2) unit vector, pointing away from the laser; half: (n,) half of their lengths [m].
     covariance: (n, 2, 2) of the height of the line at its middle, along the normal [m], and of its slope [rad], without
     the noise of the pose. reach: (n,) of the middle from the foot of the perpendicular from the laser, along the line
-    [m]. frame: (n,) the scan. weight: (n,) one over the number of scans from the same place.
+    [m]. weight: (n,) one over the number of scans from the same place.
     """
 
     middle: Floats
@@ -43,16 +43,10 @@ class PosedLines:
     half: Floats
     covariance: Floats
     reach: Floats
-    frame: NDArray[np.int64]
     weight: Floats
 
     def __len__(self) -> int:
         return len(self.half)
-
-    @property
-    def along(self) -> Floats:
-        """(n, 2) unit vectors; the laser is on their left."""
-        return np.column_stack((-self.normal[:, 1], self.normal[:, 0]))
 
     def noisy(self, pose: PoseNoise) -> Floats:
         """(n, 2, 2) the covariance with the noise of the pose: a turn moves a line the more, the farther it is."""
@@ -82,10 +76,8 @@ def posed_lines(recording: Recording, poses: Poses, found: Survey, noise: RangeN
         # Seen from above, the direction along each line is the other one.
         covariance[:, (0, 1), (1, 0)] *= -1
         reach = -reach
-    lines = PosedLines(
-        spots[:, 0], spots[:, 1] - spots[:, 0], rows["length"] / 2, covariance, reach, frame,
-        _shares(poses, known)[frame],
-    )  # fmt: skip
+    weight = _shares(poses, known)[frame]
+    lines = PosedLines(spots[:, 0], spots[:, 1] - spots[:, 0], rows["length"] / 2, covariance, reach, weight)
     return only(lines, finite)
 
 

@@ -120,7 +120,7 @@ def posed(rng, n) -> PosedLines:
     root = rng.normal(0, 0.03, (n, 2, 2))
     covariance = root @ root.transpose(0, 2, 1) + np.diag((1e-4, 1e-5))
     weight = rng.choice((0.25, 0.5, 1.0), n)
-    return PosedLines(middle, normal, rng.uniform(0.2, 1.5, n), covariance, np.zeros(n), np.arange(n), weight)
+    return PosedLines(middle, normal, rng.uniform(0.2, 1.5, n), covariance, np.zeros(n), weight)
 
 
 def naive_join(lines: PosedLines, covariance) -> np.ndarray:
@@ -154,7 +154,8 @@ def naive_join(lines: PosedLines, covariance) -> np.ndarray:
 
 def seen_over(lines: PosedLines, i: int, first: int):
     away = lines.middle[i] - lines.middle[first]
-    along, normal = lines.along[first], lines.normal[first]
+    normal = lines.normal[first]
+    along = np.array((-normal[1], normal[0]))
     cos = float(normal @ lines.normal[i])
     slope = float(-along @ lines.normal[i]) / cos
     at = float(along @ away)
