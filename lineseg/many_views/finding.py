@@ -18,7 +18,7 @@ from .growing import BEND, Walls, grown_walls
 from .labelling import nearest_walls
 from .merging import merged_walls, pieces_of, without_shadows
 from .openings import divided_at_openings
-from .profiles import STRETCH, Profiles, calmed, is_even, is_straight, profiles_of, scatter_by_range, stretches_of
+from .profiles import Profiles, calmed, is_even, is_straight, profiles_of, scatter_by_range, stretches_of
 from .refining import refined
 from .returns import Returns, views_of
 from .steps import FINE, divided_at_steps
@@ -154,7 +154,7 @@ def parted(
 
 def _profiles(
     placed: NDArray[np.float32], scan: NDArray[np.int32], poses: Floats, views: NDArray[np.int64], walls: Walls,
-    length: float, reach: float = BENT,
+    length: float, reach: float,
 ) -> Profiles:  # fmt: skip
     found, height = nearest_walls(placed, scan, poses, walls, reach)
     near = np.flatnonzero(found >= 0)
@@ -183,12 +183,12 @@ class Known:
         cls, placed: NDArray[np.float32], scan: NDArray[np.int32], poses: Floats, views: NDArray[np.int64], walls: Walls
     ) -> Known:
         """From the points (n, 2) of many scans in the world and the scan (n,) of each."""
-        profiles = _profiles(placed, scan, poses, views, walls, STRETCH)
         straight = is_straight(_profiles(placed, scan, poses, views, walls, FINE, BEND), walls)
-        height = np.clip(calmed(profiles.height, profiles), -BEND, BEND)
-        scatter = calmed(profiles.scatter, profiles)
         found, over = nearest_walls(placed, scan, poses, walls, BENT)
         near = np.flatnonzero(found >= 0)
+        profiles = profiles_of(placed[near], found[near], over[near], views[scan[near]], walls)
+        height = np.clip(calmed(profiles.height, profiles), -BEND, BEND)
+        scatter = calmed(profiles.scatter, profiles)
         stretch = stretches_of(placed[near], found[near], walls, profiles.starts)
         away = np.hypot(*(placed[near] - poses[scan[near], :2]).T)
         by_range = scatter_by_range(np.abs(over[near] - height[stretch]), away)
