@@ -53,7 +53,7 @@ def steps_in(height: Floats, wall: NDArray[np.int64]) -> NDArray[np.bool_]:
         for place in places[np.argsort(-jump[places], kind="stable")].tolist():
             if not found[max(place - APART, 0) : place + APART + 1].any():
                 found[place] = True
-        edges = [first, *np.flatnonzero(found[:stop])[np.flatnonzero(found[:stop]) >= first].tolist(), stop]
+        edges = [first, *(first + np.flatnonzero(found[first:stop])).tolist(), stop]
         for before, place, after in zip(edges, edges[1:-1], edges[2:], strict=False):
             sides = height[max(before, place - ALONG) : place], height[place : min(after, place + ALONG)]
             found[place] = jump[place] > TIMES_USUAL * max(_unevenness(side) for side in sides)
