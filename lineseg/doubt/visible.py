@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from ..kernel import entry_kernel, kernel
+from ..region_growing.points import is_valid
 
 # Lines of P_min points or L_min metres come and go as the robot moves: this many times as much counts.
 AMPLE = 1.5
@@ -43,7 +44,7 @@ def beams_at(ends, rays, ranges, range_min, range_max):
         expected, along = (x1 * dy - y1 * dx) / across, (x1 * sin - y1 * cos) / across
         if expected > 0.0 and 0.0 <= along <= 1.0:
             beams += 1
-            if found > 0.0 and found >= range_min and found < range_max:
+            if is_valid(found, range_min, range_max):
                 nearer += found < expected - OFF_LINE
                 beyond += found > expected + OFF_LINE
     return beams, nearer, beyond
