@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json as json_format
 import sys
-from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
 
@@ -45,7 +44,7 @@ def truth(
     recording = open_with_progress(file, reading_of(reading))
     with progress_bar("truth", "step") as advance:
         found = truth_by_many_views(recording, advance)
-    save_npz(replace(found.recording, wall_source=found.text), out)
+    save_npz(found.recording, out)
     if json:
         report = {name: getattr(found, name) for name in ("thickness", "thickness_before", "explained", "unknown")}
         report |= {"shift_median": float(np.median(found.shift)), "shift_most": float(found.shift.max())}

@@ -52,7 +52,8 @@ Progress = Callable[[int, int], None]
 class ManyViews:
     """What many scans of a recording agree on.
 
-    recording: with `wall` of each beam (−1 none, UNKNOWN for too little support), `walls` and the corrected poses.
+    recording: with `wall` of each beam (−1 none, UNKNOWN for too little support), `walls`, `text` as its `wall_source`,
+    and the corrected poses.
     thickness: rms distance of the points from their walls [m], and before the poses were corrected; explained, unknown:
     shares of the returns. shift, turn: (frames with a pose,) corrections of the poses [m, rad]. trusted: whether
     rates measured with it are likely a few points off at most; reason: how far off they were in simulated worlds.
@@ -65,8 +66,8 @@ class ManyViews:
     unknown: float
     shift: Floats
     turn: Floats
-    trusted: bool = True
-    reason: str = ""
+    trusted: bool
+    reason: str
 
     @property
     def text(self) -> str:
@@ -299,9 +300,8 @@ def _result(
     source = replace(recording.pose_source, text=f"{recording.pose_source.text}, corrected by many views")
     shift, turn = np.hypot(*(poses - given)[:, :2].T), np.abs(poses - given)[:, 2]
     explained = float(np.mean(wall >= 0)) if len(wall) else 0.0
-    found = ManyViews(
-        replace(recording, wall=of_beams, walls=walls[used], track=Track.of(all_poses, source)),
-        _rms(height[wall >= 0]), before, explained, float(np.mean(wall == UNKNOWN)), shift, turn,
-    )  # fmt: skip
-    trusted, reason = trust(recording.name, found.thickness, explained, found.unknown, shift, turn)
-    return replace(found, trusted=trusted, reason=reason)
+    thickness, unknown = _rms(height[wall >= 0]), float(np.mean(wall == UNKNOWN))
+    trusted, reason = trust(recording.name, thickness, explained, unknown, shift, turn)
+    made = replace(recording, wall=of_beams, walls=walls[used], track=Track.of(all_poses, source))
+    found = ManyViews(made, thickness, before, explained, unknown, shift, turn, trusted, reason)
+    return replace(found, recording=replace(made, wall_source=found.text))

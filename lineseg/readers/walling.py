@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 
 from ..scan import Recording
 from .account import Notes
@@ -24,4 +23,4 @@ def with_walls(recording: Recording, notes: Notes, progress: Callable[[int, int]
         return recording
     found = truth_by_many_views(recording, progress)
     notes.notice(BY_VIEWS if found.trusted else DOUBTFUL, f"Truth by many views: {found.text}")
-    return replace(found.recording, wall_source=found.text)
+    return found.recording
