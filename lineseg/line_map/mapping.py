@@ -203,17 +203,16 @@ def _result(
     reach = (along * middle).sum(axis=1)
     sigma = np.sqrt(covariance[:, 0, 0])
     frames = int(np.isfinite(poses).all(axis=1).sum())
-    empty = LineMap(
-        ends[order], at_middle(covariance, reach)[order], sigma[order], pieces.seen[order], frames, 0.0, 0.0, pose
-    )
     band = float(np.clip(DEVIATIONS * pose.shift, NEAREST, FARTHEST))
-    coverage = coverage_of(recording, poses, empty, band)
-    made_map = replace(empty, band=band, coverage=coverage)
-    return replace(made_map, doubt=doubt(recording, poses, coverage))
+    found = LineMap(
+        ends[order], at_middle(covariance, reach)[order], sigma[order], pieces.seen[order], frames, band, 0.0, pose
+    )
+    coverage = coverage_of(recording, poses, found)
+    return replace(found, coverage=coverage, doubt=doubt(recording, poses, coverage))
 
 
-def coverage_of(recording: Recording, poses: Poses, found: LineMap, band: float) -> float:
-    """The share of the returns that lie within `band` [m] of a map line that faces the laser; NaN without returns."""
+def coverage_of(recording: Recording, poses: Poses, found: LineMap) -> float:
+    """The share of the returns that lie within the band of a map line that faces the laser; NaN without returns."""
     returns = Returns.of(recording, poses)
     if not len(returns):
         return float("nan")
@@ -224,5 +223,5 @@ def coverage_of(recording: Recording, poses: Poses, found: LineMap, band: float)
     start = (found.ends[:, 2:] * along).sum(axis=1)
     offset = (found.ends[:, :2] * facing).sum(axis=1)
     walls = Walls(facing, offset, start, start + lengths, np.zeros(len(found)))
-    wall, _ = nearest_walls(returns.in_world(known), returns.scan, known, walls, band)
+    wall, _ = nearest_walls(returns.in_world(known), returns.scan, known, walls, found.band)
     return float(np.mean(wall >= 0))
