@@ -59,9 +59,7 @@ def fused(lines: PosedLines, owner: NDArray[np.int64], covariance: Floats) -> Fu
     longest[owner[order]] = order
     origin, normal = lines.middle[longest], lines.normal[longest]
     along, height, slope = over(lines, owner, origin, normal)
-    design = np.zeros((len(lines), 2, 2))
-    design[:, 0, 0] = design[:, 1, 1] = 1.0
-    design[:, 0, 1] = along
+    design = design_at(along)
     information = np.linalg.inv(covariance) * lines.weight[:, None, None]
     part = design.transpose(0, 2, 1) @ information
     measured = np.stack((height, slope), axis=1)[:, :, None]
@@ -72,6 +70,14 @@ def fused(lines: PosedLines, owner: NDArray[np.int64], covariance: Floats) -> Fu
     spread = np.sqrt(squares / (2 * np.bincount(owner, lines.weight, count)))
     found = np.linalg.inv(total) * np.maximum(spread, 1.0)[:, None, None] ** 2
     return Fused(origin, normal, line[:, :, 0], found, spread)
+
+
+def design_at(along: Floats) -> Floats:
+    """(n, 2, 2) matrices from height and slope over a reference line to those of the same line at `along` (n,) [m]."""
+    design = np.zeros((len(along), 2, 2))
+    design[:, 0, 0] = design[:, 1, 1] = 1.0
+    design[:, 0, 1] = along
+    return design
 
 
 def summed(owner: NDArray[np.int64], values: Floats, count: int) -> Floats:

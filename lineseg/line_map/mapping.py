@@ -18,7 +18,7 @@ from ..poses import Poses
 from ..scan import Recording
 from ..survey import Survey, survey
 from .doubt import doubt
-from .fusing import Fused, fused, over, pieces_of
+from .fusing import Fused, design_at, fused, over, pieces_of
 from .joining import joined_lines
 from .posed import Floats, PosedLines, PoseNoise, at_middle, posed_lines
 
@@ -164,9 +164,7 @@ def placed(made: Fused, line: NDArray[np.int64], at: Floats) -> tuple[Floats, Fl
     cos = 1 / np.hypot(1.0, slope)
     normal = (made.normal[line] - slope[:, None] * along) * cos[:, None]
     middle = made.origin[line] + at[:, None] * along + (height + slope * at)[:, None] * made.normal[line]
-    design = np.zeros((len(line), 2, 2))
-    design[:, 0, 0] = design[:, 1, 1] = 1.0
-    design[:, 0, 1] = at
+    design = design_at(at)
     return normal, middle, design @ made.covariance[line] @ design.transpose(0, 2, 1)
 
 
