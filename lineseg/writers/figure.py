@@ -61,11 +61,8 @@ def figure_svg(
     close = near is not None and len(near) > 0
     place = Place(scan.xy[scan.valid], foot) if near is None or not close else Place(near, foot, laser=False)
     drawn = _segments(extraction, place) if marks is None else _marks(marks, place)
-    parts = [
-        f'<svg xmlns="http://www.w3.org/2000/svg" width="{WIDTH:g}" height="{HEIGHT:g}" '
-        f'viewBox="0 0 {WIDTH:g} {HEIGHT:g}" font-family="sans-serif" font-size="14" fill="{INK}">',
-        f"<title>{escape(title or 'laser scan', quote=False)}</title>",
-        f'<rect width="{WIDTH:g}" height="{HEIGHT:g}" fill="{GROUND}"/>',
+    return document(
+        title or "laser scan",
         *([f'<clipPath id="room"><rect width="{WIDTH:g}" height="{HEIGHT - foot:g}"/></clipPath>'] if close else []),
         *(['<g clip-path="url(#room)">'] if close else []),
         *_points(scan, place),
@@ -73,9 +70,20 @@ def figure_svg(
         *_laser(place),
         *(["</g>"] if close else []),
         *foot_of(rows, title, notes, place),
+    )
+
+
+def document(title: str, *parts: str) -> str:
+    """An SVG document of WIDTH × HEIGHT with these parts on a plain ground."""
+    whole = [
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{WIDTH:g}" height="{HEIGHT:g}" '
+        f'viewBox="0 0 {WIDTH:g} {HEIGHT:g}" font-family="sans-serif" font-size="14" fill="{INK}">',
+        f"<title>{escape(title, quote=False)}</title>",
+        f'<rect width="{WIDTH:g}" height="{HEIGHT:g}" fill="{GROUND}"/>',
+        *parts,
         "</svg>",
     ]
-    return "\n".join(parts) + "\n"
+    return "\n".join(whole) + "\n"
 
 
 def figure_title(recording: Recording, frame: int, method: str) -> str:

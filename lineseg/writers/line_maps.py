@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import io
 from collections.abc import Callable, Mapping
-from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,7 +12,7 @@ import numpy as np
 
 from ..installation import install_command
 from ..unfinished import whole_file
-from .figure import FOOT, HEIGHT, INK, WIDTH, Place, foot_of, in_rows
+from .figure import FOOT, INK, Place, document, foot_of, in_rows
 
 if TYPE_CHECKING:
     from ..line_map import LineMap
@@ -63,18 +62,14 @@ def svg(found: LineMap, title: str, about: About) -> bytes:
         drawn.append(
             f'<line x1="{left:.2f}" y1="{top:.2f}" x2="{right:.2f}" y2="{bottom:.2f}"><title>{words}</title></line>'
         )
-    parts = [
-        f'<svg xmlns="http://www.w3.org/2000/svg" width="{WIDTH:g}" height="{HEIGHT:g}" '
-        f'viewBox="0 0 {WIDTH:g} {HEIGHT:g}" font-family="sans-serif" font-size="14" fill="{INK}">',
-        f"<title>{escape(title, quote=False)}</title>",
-        f'<rect width="{WIDTH:g}" height="{HEIGHT:g}" fill="#ffffff"/>',
+    whole = document(
+        title,
         f'<g stroke="{INK}" stroke-width="2" stroke-linecap="round">',
         *drawn,
         "</g>",
         *foot_of(in_rows([("", f"{len(found)} lines")]), title, [], place),
-        "</svg>",
-    ]
-    return ("\n".join(parts) + "\n").encode()
+    )
+    return whole.encode()
 
 
 def dxf(found: LineMap, title: str, about: About) -> bytes:
