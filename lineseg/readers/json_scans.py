@@ -15,7 +15,7 @@ from .guessing import guess_angle_unit
 from .headers import LENGTHS, TIMES, TURNS, Name, is_angle, is_distance, name_of
 from .laser_scan import LaserScan, decode_json
 from .numbers import all_numbers
-from .scan_rows import other_angles, usual_angles
+from .scan_rows import tell_usual_angles, usual_angles
 from .source import Source
 
 # What the fields of a scan are called elsewhere.
@@ -177,11 +177,7 @@ def _angles(source: Source, found: Mapping[str, tuple[Name, Any]], beams: int) -
     usual = usual_angles(beams)
     if step is None and usual is not None:
         low, step = (math.radians(each) for each in usual)
-        if not any(guess.field == "angle_min" for guess in notes.guesses):
-            text = f"{usual[0]:g}…{usual[0] + usual[1] * (beams - 1):g}°".replace("-", "−")
-            why = f"the scan has {beams} ranges and no angles"
-            notes.guess("angle_min", text, why, **other_angles(low, step))
-            notes.guess("direction", "counter-clockwise", why, direction="clockwise")
+        tell_usual_angles(notes, reading, "the scan has", beams, low, step)
     if step is None:
         raise ValueError(f"it has {beams} ranges without angles; give angle_min and angle_increment")
     return {"angle_min": -step * (beams - 1) / 2 if low is None else low, "angle_increment": step}

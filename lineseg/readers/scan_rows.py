@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..scan import Floats, Recording, Topic
+from .account import Notes
 from .dialect import Dialect, Row, text_of
 from .guessing import angle_unit_of
 from .plausible import unwrapped, wrap_of
@@ -334,26 +335,25 @@ def _angles(source: Source, reading: Reading, beams: int, geometry: Geometry | N
             f"{source.name}: rows of {beams} numbers without angles; give angle_increment, and angle_min unless 0° "
             "is in the middle, and skip_columns if not all numbers are ranges."
         )
-    if not stated or reading.direction is None:
-        _tell_angles(source, low, step, beams, geometry, stated)
+    if geometry is None and not stated:
+        tell_usual_angles(source.notes, reading, "the rows have", beams, low, step)
+    elif reading.direction is None:
+        why = "the file does not say in which sense its angles count"
+        source.notes.guess("direction", "counter-clockwise", why, direction="clockwise")
     return low, step
 
 
-def _tell_angles(source: Source, low: float, step: float, beams: int, geometry: Geometry | None, stated: bool) -> None:
-    first, last = math.degrees(low), math.degrees(low + step * (beams - 1))
-    if geometry is not None or stated:
-        why = "the file does not say in which sense its angles count"
-        source.notes.guess("direction", "counter-clockwise", why, direction="clockwise")
+def tell_usual_angles(notes: Notes, reading: Reading, where: str, beams: int, low: float, step: float) -> None:
+    """Tells, once, that angles [rad] are those of a common laser. where: begins the reason, such as "the rows have"."""
+    if any(guess.field == "angle_min" for guess in notes.guesses):
         return
-    why = f"the rows have {beams} ranges and no angles"
-    text = f"{first:.4g}…{last:.4g}°".replace("-", "−")
-    source.notes.guess("angle_min", text, why, **other_angles(low, step))
-    source.notes.guess("direction", "counter-clockwise", why, direction="clockwise")
-
-
-def other_angles(low: float, step: float) -> dict[str, float]:
-    """What the angles might be instead: beams that are counted from 0°, or from −180° if they are already."""
-    return {"angle_min": 0.0 if low else -3.141593, "angle_increment": round(step, 8)}
+    first, last = math.degrees(low), math.degrees(low + step * (beams - 1))
+    why = f"{where} {beams} ranges and no angles"
+    # Beams might be counted from 0° instead, or from −180° if they are already.
+    other = {"angle_min": 0.0 if low else -3.141593, "angle_increment": round(step, 8)}
+    notes.guess("angle_min", f"{first:.4g}…{last:.4g}°".replace("-", "−"), why, **other)
+    if reading.direction is None:
+        notes.guess("direction", "counter-clockwise", why, direction="clockwise")
 
 
 def usual_angles(beams: int) -> tuple[float, float] | None:

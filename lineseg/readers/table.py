@@ -14,7 +14,7 @@ from .dialect import LEFT_OUT, Dialect, Row
 from .headers import LENGTHS, STAMPS, TIMES, Name, array_columns, column_of
 from .numbers import all_numbers
 from .reading import Reading
-from .scan_rows import other_angles, usual_angles
+from .scan_rows import tell_usual_angles, usual_angles
 from .source import Source, Sweeps
 from .stamping import in_seconds
 
@@ -185,11 +185,7 @@ def _angles(source: Source, reading: Reading, field: dict[str, float | None], be
     if (low is None or not step) and usual is not None and "angle_min" not in field:
         guessed_low, guessed_step = map(math.radians, usual)
         low, step = guessed_low if low is None else low, step or guessed_step
-        if not any(guess.field == "angle_min" for guess in source.notes.guesses):
-            why = f"the table has {beams} ranges and no angles"
-            text = f"{math.degrees(low):.4g}…{math.degrees(low + step * (beams - 1)):.4g}°"
-            source.notes.guess("angle_min", text.replace("-", "−"), why, **other_angles(low, step))
-            source.notes.guess("direction", "counter-clockwise", why, direction="clockwise")
+        tell_usual_angles(source.notes, reading, "the table has", beams, low, step)
     if low is None:
         raise ValueError("angle_min is missing; give it in a column or an option")
     if not step and beams > 1:
