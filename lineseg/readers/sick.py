@@ -38,7 +38,9 @@ class SickTelegrams(Reader):
             try:
                 ranges, low, step = _channel(words, b"DIST%d" % (1 + (source.reading.echo or 0)))
                 stamp = _whole(words[TIME_AT]) * 1e-6
-            except (ValueError, IndexError, struct.error) as error:
+            except IndexError:
+                source.notes.skip(f"{source.name}: telegram {number}", "it breaks off")
+            except ValueError as error:
                 source.notes.skip(f"{source.name}: telegram {number}", str(error))
             else:
                 sweeps.add(ranges, low, step, stamp=stamp)
@@ -60,8 +62,8 @@ def _channel(words: list[bytes], name: bytes) -> tuple[np.ndarray, float, float]
     count, values = _whole(words[at + COUNT]), words[at + VALUES :]
     if len(values) < count:
         raise ValueError(f"it announces {count} distances, but {len(values)} follow")
-    scale, offset = (struct.unpack(">f", bytes.fromhex(words[at + place].decode()))[0] for place in (SCALE, OFFSET))
-    ranges = np.array([int(word, 16) for word in values[:count]], np.float64)
+    scale, offset = _fraction(words[at + SCALE]), _fraction(words[at + OFFSET])
+    ranges = np.array([_hexadecimal(word) for word in values[:count]], np.float64)
     first, step = _whole(words[at + START]), _whole(words[at + STEP])
     # Straight ahead is 90° in most of these lasers, and 0° in others.
     middle, ahead = first + step * (count - 1) / 2, 900_000
@@ -73,5 +75,24 @@ def _whole(word: bytes) -> int:
     """A whole number with a sign: hexadecimal in 32 bits, or decimal after a sign."""
     if word[:1] in (b"+", b"-"):
         return int(word)
-    number = int(word, 16)
+    number = _hexadecimal(word)
     return number - (1 << 32) if number >= 1 << 31 and len(word) == 8 else number
+
+
+def _hexadecimal(word: bytes) -> int:
+    try:
+        return int(word, 16)
+    except ValueError:
+        raise ValueError(f"{_shown(word)} is not a hexadecimal number") from None
+
+
+def _fraction(word: bytes) -> float:
+    """A number with a fraction, of 32 bits."""
+    try:
+        return struct.unpack(">f", bytes.fromhex(word.decode()))[0]
+    except (ValueError, struct.error):
+        raise ValueError(f"{_shown(word)} is not a number of 8 hexadecimal digits") from None
+
+
+def _shown(word: bytes) -> str:
+    return repr(word[:40].decode("ascii", "replace"))
