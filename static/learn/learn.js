@@ -70,7 +70,7 @@ class Learn {
   /** @param {Places} places @param {Words} words @param {Handlers} handlers */
   constructor({ stage, view, dock, panel }, words, handlers) {
     const text = words.learn;
-    const { onChange, onDraw, settled, session } = handlers;
+    const { onChange, settled, session } = handlers;
     this.#text = text;
     this.#view = view;
     this.#dock = dock;
@@ -115,12 +115,10 @@ class Learn {
     const project = (/** @type {number} */ x, /** @type {number} */ y) => view.project(x, y);
     const box = () => (this.#event ? null : boxOnStage(project, stage));
     const onMake = () => openMaking(text.making, { session, box, onMade: (lessons) => this.takeLessons(lessons) });
-    const { onMissing, stored } = handlers;
     const onLeft = () => this.#showOverview();
     // A lesson that a link names may come after the View.
-    const onRead = () => this.#arrange(this.#event);
-    const kept = { session, stored, onRead };
-    this.#lessons = new Lessons(words, this.#glossary, { onChange, onDraw, onGo, onMake, onMissing, onLeft, ...kept });
+    const onRead = () => this.#arrange();
+    this.#lessons = new Lessons(words, this.#glossary, { ...handlers, onGo, onMake, onLeft, onRead });
     this.#panel = panel;
     panel.setAttribute("aria-label", text.panel);
     const replay = h(
@@ -244,7 +242,7 @@ class Learn {
     this.#dock.classList.toggle("asking", this.#predict.asked !== null);
     this.#formulas.set(explained, this.#trace, this.#params);
     this.#charts.set(explained, this.#trace, this.#params);
-    this.#arrange(explained);
+    this.#arrange();
     this.#splitting.light(event?.kind ?? "");
     this.#listing?.set(
       explained,
@@ -260,13 +258,14 @@ class Learn {
     this.#show();
   }
 
-  /** A lesson, the replay of a decision, or the diagram with all lessons. @param {Event | null} event */
-  #arrange(event) {
-    const { reading, block } = this.#lessons;
-    const shown = reading ? "lesson" : this.#handlers.stored || !this.#overview ? "replay" : "overview";
-    this.#panel.dataset.shows = shown;
-    const lit = event || this.#own ? blockOf(event) : null;
-    const about = block === "methods" ? "segments" : block;
+  /** A lesson, the replay of a decision, or the diagram with all lessons. */
+  #arrange() {
+    const { lesson } = this.#lessons;
+    const overview = this.#overview && !this.#handlers.stored;
+    this.#panel.dataset.shows = lesson ? "lesson" : overview ? "overview" : "replay";
+    const event = this.#own ? this.#event : null;
+    const lit = this.#own ? blockOf(event) : null;
+    const about = lesson?.block === "methods" ? "segments" : lesson?.block;
     this.#diagram.light(event ? lit : (about ?? lit));
     this.#lessons.light(lit);
   }

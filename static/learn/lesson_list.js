@@ -116,14 +116,13 @@ export class LessonList {
   }
 
   show() {
-    const cards = [...BLOCKS.map(({ name }) => name), /** @type {const} */ ("methods")].map((name) => this.#card(name));
-    this.#cards = new Map(cards.map((card) => [/** @type {Block} */ (card.dataset.block), card]));
-    const repeated = cards.filter(({ dataset }) => REPEATED.some((name) => name === dataset.block));
-    const said = h("span", { class: "block-loop-said" }, this.#diagramText.loop);
-    const loop = h("div", { class: "block-loop" }, ...repeated, said);
-    this.#blocks.replaceChildren(
-      ...cards.flatMap((card) => (card === repeated[0] ? [loop] : repeated.includes(card) ? [] : [card])),
-    );
+    const names = [...BLOCKS.map(({ name }) => name), /** @type {const} */ ("methods")];
+    this.#cards = new Map(names.map((name) => [name, this.#card(name)]));
+    this.#blocks.replaceChildren(...this.#cards.values());
+    const repeated = [...this.#cards].flatMap(([name, card]) => (REPEATED.includes(name) ? [card] : []));
+    const loop = h("div", { class: "block-loop" });
+    repeated[0].before(loop);
+    loop.append(...repeated, h("span", { class: "block-loop-said" }, this.#diagramText.loop));
     const others = this.#lessons.filter(({ block }) => !block);
     this.#rest.replaceChildren(
       ...(others.length

@@ -67,7 +67,6 @@ export class Lessons {
       if (wanted && this.#lesson && this.#at === this.#lesson.steps.length) this.#countLabels(wanted, labelled);
     };
     this.showing = new Showing(words.shown, { session, stored, knobs: () => this.#knobs, onLabel });
-    this.overview = this.#list.element;
     this.element = h(
       "section",
       { class: "lesson", "aria-label": text.label },
@@ -172,13 +171,9 @@ export class Lessons {
     this.#handlers.onLeft();
   }
 
-  /** The block of the method that the lesson is about; null without a lesson. */
-  get block() {
-    return this.#lesson?.block ?? null;
-  }
-
-  get reading() {
-    return this.#lesson !== null;
+  /** The one that is being read. */
+  get lesson() {
+    return this.#lesson;
   }
 
   /** Where one is in the method. @param {import("./blocks.js").Block | null} block */
