@@ -63,7 +63,6 @@ class Page {
   /** @param {Handout} handout @param {import("./unpack.js").Arrays} arrays */
   constructor(handout, arrays) {
     this.#handout = handout;
-    document.body.dataset.lesson = handout.lesson;
     this.#stands = new Stands(handout);
     const { x, y } = handout;
     this.#points = x.map((each, beam) => (each === null ? null : /** @type {Point} */ ([each, y[beam]])));
