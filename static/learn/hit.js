@@ -1,5 +1,6 @@
 // @ts-check
 // Finds the term of the formulas that belongs to a place in the scene.
+import { fromPart } from "../stage/measure.js";
 import { shapeOf } from "./shapes.js";
 
 /** @typedef {import("./trace.js").Event} Event */
@@ -35,9 +36,6 @@ function distance(at, { dots = [], lines = [] }, project) {
 }
 
 /** @param {Point} at @param {Point | null} from @param {Point | null} to */
-function toSegment([x, y], from, to) {
-  if (!from || !to) return Infinity;
-  const [dx, dy] = [to[0] - from[0], to[1] - from[1]];
-  const along = Math.min(Math.max(((x - from[0]) * dx + (y - from[1]) * dy) / (dx * dx + dy * dy || 1), 0), 1);
-  return Math.hypot(x - from[0] - along * dx, y - from[1] - along * dy);
+function toSegment(at, from, to) {
+  return from && to ? fromPart(at, [from, to]) : Infinity;
 }

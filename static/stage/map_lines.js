@@ -1,6 +1,7 @@
 // @ts-check
 // The lines of the map on the screen, and the one at the pointer.
 import { fetchText } from "../fetch.js";
+import { fromPart } from "./measure.js";
 import { placed } from "./placed.js";
 
 /** @typedef {import("../wire.js").MapLines} Lines */
@@ -38,12 +39,13 @@ export function createMapLines(session) {
 }
 
 /** @param {Lines} lines @param {Point} at @param {number} reach */
-export function nearest({ ends, sigma, seen }, [x, y], reach) {
+function nearest({ ends, sigma, seen }, at, reach) {
   let [best, least] = [-1, reach];
   for (const [k, [x1, y1, x2, y2]] of ends.entries()) {
-    const [dx, dy] = [x2 - x1, y2 - y1];
-    const share = Math.min(Math.max(((x - x1) * dx + (y - y1) * dy) / (dx * dx + dy * dy), 0), 1);
-    const away = Math.hypot(x - x1 - share * dx, y - y1 - share * dy);
+    const away = fromPart(at, [
+      [x1, y1],
+      [x2, y2],
+    ]);
     if (away < least) [best, least] = [k, away];
   }
   if (best < 0) return null;

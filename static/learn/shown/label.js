@@ -1,6 +1,7 @@
 // @ts-check
 // Ten frames to label: which of the lines found are walls, and how many walls were missed. TR and FR follow (Eqs. 9, 10).
 import { fetchText } from "../../fetch.js";
+import { fromPart } from "../../stage/measure.js";
 import { freshCanvas } from "../../widgets/canvas.js";
 import { colour, onTheme } from "../../widgets/colours.js";
 import { h, setText } from "../../widgets/dom.js";
@@ -174,17 +175,9 @@ function placeOf({ x, y }, { clientWidth: width, clientHeight: height }) {
 
 /** The line that was clicked. @param {Frame} frame @param {Point} spot @param {(at: Point) => Point} on */
 function lineAt({ lines }, spot, on) {
-  const far = lines.map(({ start, end }) => distance(spot, on(start), on(end)));
+  const far = lines.map(({ start, end }) => fromPart(spot, [on(start), on(end)]));
   const nearest = far.indexOf(Math.min(...far));
   return far[nearest] <= REACH_PX ? lines[nearest] : null;
-}
-
-/** From a spot to a stretch. @param {Point} spot @param {Point} start @param {Point} end */
-function distance([x, y], [x1, y1], [x2, y2]) {
-  const [dx, dy] = [x2 - x1, y2 - y1];
-  const along = ((x - x1) * dx + (y - y1) * dy) / Math.max(dx * dx + dy * dy, 1e-9);
-  const share = Math.min(Math.max(along, 0), 1);
-  return Math.hypot(x - x1 - share * dx, y - y1 - share * dy);
 }
 
 /** @param {HTMLCanvasElement} canvas @param {Frame} frame @param {Set<Line>} wrong */
