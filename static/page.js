@@ -2,6 +2,7 @@
 // What the parts of this tab share: its View, its session, the last drawn state, and the calls that inform every part.
 import { tell } from "./parts.js";
 import { overlaid, usualScore } from "./view/fields.js";
+import { isIn } from "./view/key.js";
 import { Link } from "./view/link.js";
 import { keepSessionOnLeave, takeSession } from "./view/session.js";
 import { Store } from "./view/store.js";
@@ -129,6 +130,6 @@ export class Page {
   /** Whether the View shows a method to this extent. @param {string} method @param {Params} params */
   looksAt(method, params) {
     const view = this.view;
-    return method === view.method && Object.entries(params).every(([name, value]) => view.params[name] === value);
+    return method === view.method && isIn(params, view.params);
   }
 }

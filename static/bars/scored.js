@@ -1,5 +1,6 @@
 // @ts-check
 // The scores of the frames: the newest survey, and what follows from it.
+import { isIn } from "../view/key.js";
 import { clamp } from "../widgets/scale.js";
 
 /** @typedef {import("../wire.js").State} State */
@@ -67,7 +68,7 @@ export class ScoredFrames {
   get stale() {
     const [survey, state] = [this.survey, this.#state];
     if (!survey || !state) return false;
-    return survey.stride !== 1 || !samePlace(survey, state) || !sameParams(survey.params, state.params);
+    return survey.stride !== 1 || !samePlace(survey, state) || !isIn(survey.params, state.params);
   }
 
   /** The number in its file or source of the frame at a place in the survey, from 0. @param {number} place */
@@ -164,11 +165,6 @@ function columnOf({ frames, stride, values }, at) {
 /** @param {Survey} survey @param {State} state */
 function samePlace(survey, state) {
   return survey.place === state.place;
-}
-
-/** @param {import("../wire.js").Params} one @param {import("../wire.js").Params} other */
-function sameParams(one, other) {
-  return Object.entries(one).every(([name, value]) => other[name] === value);
 }
 
 /** @param {number} value @param {string} unit */

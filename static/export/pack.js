@@ -1,5 +1,6 @@
 // @ts-check
 // Where the frame of a failure pack came from, and its note.
+import { isIn } from "../view/key.js";
 import { h, setText } from "../widgets/dom.js";
 import { toast } from "../widgets/toast.js";
 import { tooltip } from "../widgets/tooltip.js";
@@ -46,8 +47,7 @@ export function createPackCard(page, text) {
       from.title = from.textContent ?? "";
       setText(note, pack.note || text.noNote);
       note.classList.toggle("muted", !pack.note);
-      button.hidden =
-        method === state.method && Object.entries(params).every(([name, value]) => state.params[name] === value);
+      button.hidden = method === state.method && isIn(params, state.params);
     },
   };
 }

@@ -1,5 +1,6 @@
 // @ts-check
 // The thresholds for which results are stored: some with every decision, and ranges of one threshold around them.
+import { isIn } from "../view/key.js";
 
 /** @typedef {import("../wire.js").Handout} Handout */
 /** @typedef {import("../wire.js").Stand} Stand */
@@ -38,7 +39,7 @@ export class Stands {
    */
   nearest(method, wanted, present) {
     const own = this.#stands.filter((stand) => stand.method === method);
-    const exact = own.find((stand) => same(stand.params, wanted));
+    const exact = own.find((stand) => isIn(stand.params, wanted));
     if (exact) return whole(exact);
     const stand = own.includes(present.stand) ? present.stand : (own[0] ?? present.stand);
     const name = Object.keys(stand.ranges).find((each) => wanted[each] !== present.params[each]);
@@ -61,9 +62,4 @@ function nearestTo(values, wanted, present) {
   const at = far.indexOf(Math.min(...far));
   if (values[at] !== present || wanted === present) return at;
   return Math.min(Math.max(at + Math.sign(wanted - present), 0), values.length - 1);
-}
-
-/** @param {Params} one @param {Params} other */
-function same(one, other) {
-  return Object.entries(one).every(([name, value]) => other[name] === value);
 }

@@ -1,6 +1,7 @@
 // @ts-check
 // Lessons: texts that control the page, and one task that the page checks. They are data from /api/lessons.
 import { Threshold } from "../tune/threshold.js";
+import { isIn } from "../view/key.js";
 import { h } from "../widgets/dom.js";
 import { gestureCount } from "../widgets/slider.js";
 import { fetchText } from "../fetch.js";
@@ -242,7 +243,7 @@ export class Lessons {
   #patchFor({ id, recording, frame }, step, view) {
     const { method, params } = this.#wanted();
     const elsewhere =
-      view.recording !== recording || view.frame !== frame || view.method !== method || !same(params, view.params);
+      view.recording !== recording || view.frame !== frame || view.method !== method || !isIn(params, view.params);
     return {
       lesson: id,
       page: this.#at,
@@ -293,7 +294,7 @@ export class Lessons {
     if (!lesson || !isOf(lesson, state)) return;
     this.showing.set(state);
     const { method, params } = this.#wanted();
-    if (this.#pending && state.method === method && same(params, state.params)) {
+    if (this.#pending && state.method === method && isIn(params, state.params)) {
       const target = this.#pending.find;
       this.#pending = null;
       const index = target ? find(trace, target) : -1;
@@ -313,7 +314,7 @@ export class Lessons {
     const { lesson: text, goals } = this.#words.learn;
     const lacks = missing({ goal, accepted }, state, trace, start, this.#knobs, goals);
     this.#solved = lacks.length === 0;
-    const untouched = state.step === null && state.selected === null && same(start, state.params);
+    const untouched = state.step === null && state.selected === null && isIn(start, state.params);
     if (!this.#solved && untouched) return this.#reader.judge(false, "");
     this.#reader.judge(this.#solved, this.#solved ? `${text.right} ${done}` : lacks.slice(0, 2).join(" "));
     if (this.#solved) this.#list.note(lesson, this.#setBy(goal, state, start), true);
@@ -385,9 +386,4 @@ function isOf({ recording, frame }, state) {
 /** What a lesson changes. @param {Readonly<View>} view @returns {Patch} */
 function settingsOf({ recording, frame, method, params, step, selected }) {
   return { recording, frame, method, params, step, selected };
-}
-
-/** @param {Params} one @param {Params} other */
-function same(one, other) {
-  return Object.entries(one).every(([name, value]) => other[name] === value);
 }

@@ -1,6 +1,7 @@
 // @ts-check
 // Profiles: thresholds, Reading, layers and layout under a name, in this browser and as small files.
 import { chooseFile } from "../open/files.js";
+import { isIn } from "../view/key.js";
 import { download } from "../widgets/clipboard.js";
 import { openDialog } from "../widgets/dialog.js";
 import { h, setText } from "../widgets/dom.js";
@@ -37,7 +38,7 @@ export function createProfiles(page, layout, text) {
     /** The names of those that set these thresholds. @param {import("../wire.js").Params} params */
     named: (params) =>
       Object.values(kept())
-        .filter(({ view }) => view.method === page.view.method && isIn(view.params, params))
+        .filter(({ view }) => view.method === page.view.method && isIn(view.params ?? {}, params))
         .map(({ name }) => name),
     /** For the menu of presets. @returns {import("../widgets/menu.js").Group} */
     group: () => ({
@@ -140,9 +141,4 @@ function profileIn(words) {
   } catch {
     return null;
   }
-}
-
-/** @param {import("../wire.js").Params | undefined} some @param {import("../wire.js").Params} params */
-function isIn(some, params) {
-  return Object.entries(some ?? {}).every(([name, value]) => params[name] === value);
 }

@@ -4,6 +4,7 @@
 import { VIEW } from "../declared.js";
 import { freshView, isPartial, merged, overlaid, resets } from "./fields.js";
 import { hashOf, readHash } from "./hash.js";
+import { isIn } from "./key.js";
 
 /** @typedef {import("../wire.js").View} View */
 /** @typedef {import("../wire.js").Params} Params */
@@ -103,7 +104,7 @@ export class Store {
    */
   adopt(patch) {
     const same = patch.method === undefined || patch.method === this.#view.method;
-    if (patch.params && !(same && equal(patch.params, this.#view.params))) this.#remember(null);
+    if (patch.params && !(same && isIn(patch.params, this.#view.params))) this.#remember(null);
     this.#view = merged(this.#view, patch, this.#fields);
     this.#tell(null);
   }
@@ -138,7 +139,7 @@ export class Store {
     while (from.length && !patch) {
       const { method, params, recording, topic, reading, layers } = /** @type {Chosen} */ (from.pop());
       const here = recording === now.recording && !alike(reading, now.reading);
-      const same = method === now.method && equal(params, now.params) && (!layers || equal(layers, this.#view.layers));
+      const same = method === now.method && isIn(params, now.params) && (!layers || isIn(layers, this.#view.layers));
       if (!same || here) patch = { method, params, ...(here && { topic, reading }), ...(layers && { layers }) };
     }
     if (!patch) return this.#tell(null);
@@ -200,9 +201,4 @@ export class Store {
 /** @param {View["reading"]} one @param {View["reading"]} other */
 function alike(one, other) {
   return Object.keys({ ...one, ...other }).every((name) => (one[name] ?? null) === (other[name] ?? null));
-}
-
-/** @template {Record<string, unknown>} T @param {T} one @param {T} other */
-function equal(one, other) {
-  return Object.entries(one).every(([name, value]) => other[name] === value);
 }
