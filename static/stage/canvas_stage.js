@@ -2,7 +2,6 @@
 // The scene on a 2D canvas: the plan of a Picture, to pan, zoom and pinch. It answers what Stage answers about the plan.
 import { h } from "../widgets/dom.js";
 import { drawPicture } from "./canvas.js";
-import { around, WHOLE } from "./plan.js";
 import { PlanStage } from "./plan_stage.js";
 
 /** @typedef {import("../wire.js").Box} Box */
@@ -156,7 +155,7 @@ export class CanvasStage extends PlanStage {
     const size = this.size;
     this.#pending = size.width && size.height ? null : () => this.showBox(box, stretch, room);
     if (this.#pending) return;
-    this.#whole = this.#look = around(box, size, room, room === WHOLE ? this.cover : null);
+    this.#whole = this.#look = this.around(box, room);
     this.#moved();
   }
 

@@ -1,6 +1,6 @@
 // @ts-check
 // What both kinds of stage have in common: where things of the plan are on the stage, and who is told that it moved.
-import { CLOSE, project, towards, unproject, WHOLE } from "./plan.js";
+import { around, CLOSE, project, towards, unproject, WHOLE } from "./plan.js";
 import { placed, placedBox, seenFrom } from "./placed.js";
 import { createGrid } from "./grid.js";
 import { createScale } from "./scale.js";
@@ -78,7 +78,7 @@ export class PlanStage {
   }
 
   /** How far they reach, if one is there. @returns {import("./plan.js").Cover | null} */
-  get cover() {
+  get #cover() {
     const { left, top } = this.element.getBoundingClientRect();
     const cards = this.#covers.map((card) => card.getBoundingClientRect()).filter(({ height }) => height > 0);
     if (!cards.length) return null;
@@ -86,6 +86,11 @@ export class PlanStage {
       right: Math.max(...cards.map((card) => card.right)) - left + BESIDE_PX,
       bottom: Math.max(...cards.map((card) => card.bottom)) - top + BESIDE_PX,
     };
+  }
+
+  /** Where to look to see all of a box. @param {Box} box @param {typeof WHOLE} room */
+  around(box, room) {
+    return around(box, this.size, room, room === WHOLE ? this.#cover : null);
   }
 
   /** Fits again what was fitted, unless a person has moved the camera since. */
@@ -120,7 +125,7 @@ export class PlanStage {
   /** Moves the plan so that the box of the laser can be seen well, and zooms in if it is too small. @param {Box} box */
   goTo = (box) => {
     const there = placedBox(this.#world, box);
-    const look = there && towards(this.sight, this.size, there, this.cover);
+    const look = there && towards(this.sight, this.size, there, this.#cover);
     if (look) this.lookAt(look);
   };
 

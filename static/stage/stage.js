@@ -4,7 +4,6 @@ import { h } from "../widgets/dom.js";
 import { closePopovers } from "../widgets/menu.js";
 import { onLongPress } from "./long_press.js";
 import { paceFrames } from "./pace.js";
-import { around, WHOLE } from "./plan.js";
 import { PlanStage } from "./plan_stage.js";
 import {
   bend,
@@ -201,7 +200,7 @@ export class Stage extends PlanStage {
   /** @type {PlanStage["showBox"]} */
   showBox(box, stretch, room) {
     super.showBox(box, stretch, room);
-    const { x, y, span } = around(box, this.size, room, room === WHOLE ? this.cover : null);
+    const { x, y, span } = this.around(box, room);
     this.#plan = this.#whole = { x, y, height: Math.max(span / 2 / TAN, NEAREST) };
     this.#pendingFit = cameraIn(this.frame) ? null : () => this.showBox(box, stretch, room);
     this.#apply();
