@@ -77,7 +77,7 @@ export const inspectText = {
       forget: "Remove this truth",
       possible: "Or take the walls that many scans agree on, if the recording has poses:",
       without:
-        "A truth from poses is not possible: this recording has no poses. Add a trajectory with --poses FILE or Read as…",
+        "A truth from poses needs several frames with poses. If the file has no poses, add a trajectory with --poses FILE or Read as…",
     },
     rows: /** @type {[string, string, string, "count" | "share" | "mm"][]} */ ([
       ["trueLines", "true lines", "Visible stretches of a wall that meet P_min and L_min", "count"],

@@ -144,7 +144,7 @@ export const pageText = {
         absent: (/** @type {string} */ why) => `not shown: ${why}`,
       },
       mapped: (/** @type {number} */ length, /** @type {number} */ sigma, /** @type {number} */ seen) =>
-        `map line ${length.toFixed(2)} m ±${(1000 * sigma).toFixed(0)} mm, from ${seen.toLocaleString("en")}`,
+        `map line ${length.toFixed(2)} m ±${(1000 * sigma).toFixed(0)} mm, from ${seen === 1 ? "1 line" : `${seen.toLocaleString("en")} lines`}`,
     },
     empty: "Drop a recording here",
     emptyHint: "CARMEN log, ROS bag, MCAP, NPZ or text. Or choose a sample from the menu above.",

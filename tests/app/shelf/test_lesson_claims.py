@@ -515,7 +515,7 @@ def _():
     "07_epsilon",
     "only {lines} lines are left",
     "Two walls far down the hallway are lost",
-    "a point that is nearer to its line than ε can be farther from P′ than that",
+    "a point that is nearer to its line than ε can be farther from P′ than δ",
     "as small as ε",
     "A larger δ keeps such walls",
 )
@@ -734,7 +734,7 @@ def _():
 
 @claim(
     "12_split_and_merge",
-    "come from the wall beyond the niche as well",
+    "gets votes from the wall beyond the niche as well",
     "Here this gives the same {lines} lines as region growing",
     "each point votes for 180 directions",
 )
