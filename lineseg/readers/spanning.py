@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterator
+from typing import NamedTuple
 
 import numpy as np
 
@@ -18,6 +19,14 @@ WIDEST, LEAST_BEAMS = 40, 30
 LEAST_LINES = 3
 
 
+class Line(NamedTuple):
+    """numbers: None if it is blank or has words."""
+
+    number: int
+    text: bytes
+    numbers: Floats | None
+
+
 def scans_over_lines(
     source: Source, dialect: Dialect, head: list[Row], width: int
 ) -> tuple[list[int], list[Floats]] | None:
@@ -30,12 +39,11 @@ def scans_over_lines(
         if len(whole) < LEAST_LINES or not alike(np.array(whole, np.float64)):
             return None
     lines = list(_lines(source, dialect))
-    # A whole file of one column is read as one scan elsewhere.
-    parts = (
-        _parts(lines, by)
-        for by in ((_is_blank, _is_words, _is_short(width), _never) if width > 2 else (_is_blank, _is_words))
-    )
-    for scans in parts:
+    ends: list[Callable[[Line], bool]] = [_is_blank, _is_words]
+    if width > 2:
+        # A whole file of one column is read as one scan elsewhere.
+        ends += [lambda line: line.numbers is not None and len(line.numbers) < width, lambda line: False]
+    for scans in (_parts(lines, end) for end in ends):
         sizes = {sum(map(len, values)) for _, values in scans}
         if len(sizes) != 1 or min(len(values) for _, values in scans) < LEAST_LINES or max(sizes) < LEAST_BEAMS:
             continue
@@ -45,38 +53,29 @@ def scans_over_lines(
     return None
 
 
-def _lines(source: Source, dialect: Dialect) -> Iterable[tuple[int, bytes, Floats | None]]:
-    """(number, text, numbers) of each line; None for words."""
+def _lines(source: Source, dialect: Dialect) -> Iterator[Line]:
     for number, line in rows_of(source):
         text = line.strip()
-        yield number, text, None if not text or text.startswith(COMMENTS) else dialect.numbers(text)
+        yield Line(number, text, None if not text or text.startswith(COMMENTS) else dialect.numbers(text))
 
 
-def _is_blank(line: tuple[int, bytes, Floats | None]) -> bool:
-    return not line[1]
+def _is_blank(line: Line) -> bool:
+    return not line.text
 
 
-def _is_words(line: tuple[int, bytes, Floats | None]) -> bool:
-    return bool(line[1]) and line[2] is None
+def _is_words(line: Line) -> bool:
+    return bool(line.text) and line.numbers is None
 
 
-def _is_short(width: int):
-    return lambda line: line[2] is not None and len(line[2]) < width
-
-
-def _never(line: tuple[int, bytes, Floats | None]) -> bool:
-    return False
-
-
-def _parts(lines: list[tuple[int, bytes, Floats | None]], ends) -> list[tuple[int, list[Floats]]]:
+def _parts(lines: list[Line], ends: Callable[[Line], bool]) -> list[tuple[int, list[Floats]]]:
     """(line, numbers of its lines) of each run of lines with numbers; a run ends after a line for which `ends`."""
     found: list[tuple[int, list[Floats]]] = []
     fresh = True
     for line in lines:
-        if line[2] is not None:
+        if line.numbers is not None:
             if fresh:
-                found.append((line[0], []))
-            found[-1][1].append(line[2])
+                found.append((line.number, []))
+            found[-1][1].append(line.numbers)
             fresh = False
         fresh = fresh or ends(line)
     return found
