@@ -1,7 +1,7 @@
 // @ts-check
 // All that looks wrong in the frame on the screen. One finding at a time can be drawn in the scene.
 import { h } from "../widgets/dom.js";
-import { fillWords } from "../widgets/words.js";
+import { fillWords, replaceNamed } from "../widgets/words.js";
 
 /** @typedef {import("../wire.js").Finding} Finding */
 
@@ -48,7 +48,7 @@ export function createSaid(text, pointing) {
       shown = found ?? [];
       note.hidden = !tags && shown.length > 0;
       note.textContent = [tags, found ? (shown.length ? "" : text.nothing) : text.pending].filter(Boolean).join(" · ");
-      list.replaceChildren(...shown.map(itemOf));
+      replaceNamed(list, shown.map(itemOf), pointing);
       choose(-1);
     },
   };

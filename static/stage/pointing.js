@@ -141,7 +141,7 @@ class Pointing {
     const moved = state.place !== this.#state?.place || frame !== this.#state.frame;
     this.#state = state;
     if (moved) this.#sweep.drop();
-    if (key !== this.#key) this.#kept = this.#awaited = this.#lit = null;
+    if (key !== this.#key) this.#kept = this.#awaited = null;
     this.#key = key;
     this.#need();
     this.#draw();

@@ -3,7 +3,7 @@ import { h, setText } from "../widgets/dom.js";
 import { iconButton } from "../widgets/icon.js";
 import { withUnit } from "../widgets/scale.js";
 import { tooltip } from "../widgets/tooltip.js";
-import { fillWords, plain, pointAt } from "../widgets/words.js";
+import { fillWords, plain, pointAt, replaceNamed } from "../widgets/words.js";
 import { createVersus } from "../widgets/versus.js";
 import { comparison } from "../stepping/comparison.js";
 import { symbol } from "./symbol.js";
@@ -44,10 +44,10 @@ export function createExplanation(text, stage, pointing, { onClose, onChange }) 
   let knobs = [];
   stage.onMove(place);
 
-  /** Puts the card where it does not hide its point. It stays there until another point is explained. */
+  /** Puts the card where it does not hide its point. It stays there until another point is explained, and never moves from under the pointer. */
   function place() {
     const spot = shown?.at && !placed ? stage.project(...shown.at) : null;
-    if (!spot) return;
+    if (!spot || element.matches(":hover")) return;
     placed = true;
     element.classList.toggle("out-of-the-way", isUnder(element, ...spot));
   }
@@ -55,7 +55,7 @@ export function createExplanation(text, stage, pointing, { onClose, onChange }) 
   /** @param {Offer[]} offers @param {string} words before them */
   function offer(offers, words) {
     const buttons = offers.map((each) => changeButton(each, knobs, pointing, onChange));
-    changes.replaceChildren(h("span", { class: "muted" }, words), ...buttons);
+    replaceNamed(changes, [h("span", { class: "muted" }, words), ...buttons], pointing);
   }
 
   return {

@@ -18,7 +18,14 @@ export function fillWords(element, words, pointing) {
   const key = JSON.stringify(words);
   if (element.dataset.words === key) return;
   element.dataset.words = key;
-  element.replaceChildren(...words.map((part) => (typeof part === "string" ? part : link(part, pointing))));
+  const parts = words.map((part) => (typeof part === "string" ? part : link(part, pointing)));
+  replaceNamed(element, parts, pointing);
+}
+
+/** Replaces what an element holds, some of which may be pointed at: what is removed never tells that the pointer has left it. @param {HTMLElement} element @param {(Node | string)[]} parts @param {Pick<Pointing, "at">} pointing */
+export function replaceNamed(element, parts, { at }) {
+  if (element.matches(":hover, :focus-within")) at(null);
+  element.replaceChildren(...parts);
 }
 
 /** @param {Link} named @param {Pointing} pointing */
