@@ -22,7 +22,7 @@ from cyclonedds.sub import DataReader
 from cyclonedds.topic import Topic
 from cyclonedds.util import duration
 
-from lineseg.readers.decoders import plain_type
+from lineseg.readers.bags.decoders import plain_type
 from lineseg.readers.laser_scan import decode_cdr
 
 from .bridge import Told, hand_all

@@ -11,7 +11,7 @@ from typing import Any
 from websockets.sync.connection import Connection
 from websockets.typing import Subprotocol
 
-from lineseg.readers.decoders import ENCODINGS, Decoder, decoder_of, is_laser
+from lineseg.readers.bags.decoders import ENCODINGS, Decoder, decoder_of, is_laser
 
 from .arrivals import arrivals
 from .bridge import Told, hand_all

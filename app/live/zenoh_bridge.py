@@ -22,7 +22,7 @@ from functools import partial
 
 import zenoh
 
-from lineseg.readers.decoders import plain_type
+from lineseg.readers.bags.decoders import plain_type
 from lineseg.readers.laser_scan import decode_cdr
 
 from .bridge import OPEN_SECONDS, Told, hand_all

@@ -18,10 +18,12 @@ from ..scan import Recording
 from .account import Account, Guess, Notice, Skipped
 from .applying import applied
 from .arrays import Npy
+from .bags.ros1 import Ros1Bag
+from .bags.ros2 import Mcap, Ros2Bag
 from .carmen import CarmenLog
 from .clouds import PointCloud
-from .dialect import LONG_LIST, labels_of
-from .folder import bag_of_metadata, recording_in
+from .containers.folder import bag_of_metadata, recording_in
+from .containers.wrapping import unwrapped
 from .foreign import foreign, unknown
 from .matlab import Matlab
 from .messages import EchoYaml, JsonMessages
@@ -30,13 +32,11 @@ from .pack import FailurePack
 from .player import PlayerLog
 from .printed import PrintedMessages
 from .reading import Reading
-from .ros1 import Ros1Bag
-from .ros2 import Mcap, Ros2Bag
 from .sick import SickTelegrams
 from .source import Cancelled, Progress, Reader, Source
-from .text import Text
+from .tables.dialect import LONG_LIST, labels_of
+from .tables.text import Text
 from .urgbenri import UrgBenriLog
-from .wrapping import unwrapped
 from .xml_scans import XmlScans
 
 __all__ = [

@@ -17,10 +17,10 @@ from .account import Account, Findings, Guess, Notes
 from .guessing import guess_limit, guess_unit, no_return_codes, sampled
 from .lasers import one_laser
 from .plausible import noticed, oddness, trouble_in, trouble_of, unwrapped
-from .posing import with_poses
+from .poses.posing import with_poses
+from .poses.sweeping import without_motion
 from .reading import METRES, RADIANS, Reading, Span, frames_of, span_of, values_of
 from .saying import line_of
-from .sweeping import without_motion
 from .walling import with_walls
 
 SAME = 5e-4

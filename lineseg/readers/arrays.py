@@ -10,12 +10,12 @@ from numpy.typing import NDArray
 
 from ..scan import Recording
 from .account import Notes
-from .beam_rows import beams_of, words_of
-from .headers import LENGTHS, STAMPS, TURNS, Name, is_angle, is_distance, name_of
 from .reading import columns_of
-from .scan_columns import alike, with_angles
-from .scan_rows import scans_of
 from .source import Reader, Source
+from .tables.beam_rows import beams_of, words_of
+from .tables.headers import LENGTHS, STAMPS, TURNS, Name, is_angle, is_distance, name_of
+from .tables.scan_columns import alike, with_angles
+from .tables.scan_rows import scans_of
 
 ANGLE_NAMES = ("ang", "bearing", "theta", "azimuth", "phi")
 STAMP_NAMES = ("stamp", "time")

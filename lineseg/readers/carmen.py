@@ -12,10 +12,10 @@ import numpy as np
 
 from ..poses import Found, PoseSource, Track
 from ..scan import Floats, Recording, Topic
-from .numbers import leading_numbers
 from .range_limits import longest_return
-from .scan_rows import usual_angles
 from .source import Reader, Source, Sweeps
+from .tables.numbers import leading_numbers
+from .tables.scan_rows import usual_angles
 
 WORDS = (
     b"FLASER", b"RLASER", b"ROBOTLASER1", b"ROBOTLASER2", b"RAWLASER1", b"RAWLASER2", b"RAWLASER3", b"RAWLASER4",

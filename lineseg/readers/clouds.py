@@ -12,10 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..scan import Recording
-from .beam_rows import beams_of, check_flat
-from .headers import Name
 from .source import Reader, Source
-from .turns import turns
+from .tables.beam_rows import beams_of, check_flat
+from .tables.headers import Name
+from .tables.turns import turns
 
 MOST_HEADER = 1 << 14
 PCD_KINDS = {"F": "f", "I": "i", "U": "u"}

@@ -10,13 +10,13 @@ from typing import Any
 
 import numpy as np
 
-from .dialect import seconds_of
 from .guessing import guess_angle_unit
-from .headers import LENGTHS, TIMES, TURNS, Name, is_angle, is_distance, name_of
 from .laser_scan import LaserScan, decode_json
-from .numbers import all_numbers
-from .scan_rows import tell_usual_angles, usual_angles
 from .source import Source
+from .tables.dialect import seconds_of
+from .tables.headers import LENGTHS, TIMES, TURNS, Name, is_angle, is_distance, name_of
+from .tables.numbers import all_numbers
+from .tables.scan_rows import tell_usual_angles, usual_angles
 
 # What the fields of a scan are called elsewhere.
 NAMES = {

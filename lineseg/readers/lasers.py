@@ -9,10 +9,10 @@ import numpy as np
 
 from ..scan import Recording
 from .account import Notes
-from .dialect import Dialect, Row, text_of
-from .headers import LASERS, Name, column_of
 from .reading import Reading
 from .source import Source
+from .tables.dialect import Dialect, Row, text_of
+from .tables.headers import LASERS, Name, column_of
 
 MOST_LASERS = 8
 # Scans of one laser vary in length; those of two lasers differ by more than this.

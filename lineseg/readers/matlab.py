@@ -15,12 +15,12 @@ from numpy.typing import NDArray
 
 from ..scan import Recording
 from .arrays import is_exchange, recording_of_arrays
-from .bounded import TooLargeError, limit_of, too_large
-from .headers import name_of
+from .containers.bounded import TooLargeError, limit_of, too_large
 from .json_scans import FIELD
 from .npz import recording_of_exchange
-from .numbers import all_numbers
 from .source import Reader, Source
+from .tables.headers import name_of
+from .tables.numbers import all_numbers
 
 OCTAVE = b"# Created by Octave"
 MATRIX = re.compile(rb"^[ \t]*[A-Za-z][\w.]*[ \t]*=[ \t]*\(?\[", re.MULTILINE)

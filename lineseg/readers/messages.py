@@ -11,14 +11,14 @@ from typing import Any, TypeGuard
 import numpy as np
 
 from ..scan import Recording, Topic
-from .beam_rows import beams_of, read_beams
-from .dialect import LEFT_OUT, Dialect, Row
-from .headers import is_angle, is_distance, name_of
 from .json_scans import NAMES, as_list, json_values, parsed, scan_of
 from .laser_scan import LaserScan, decode_json
 from .lasers import rows_of_one_laser
 from .source import Reader, Source, Sweeps
 from .stamping import in_seconds
+from .tables.beam_rows import beams_of, read_beams
+from .tables.dialect import LEFT_OUT, Dialect, Row
+from .tables.headers import is_angle, is_distance, name_of
 
 MOST_DEPTH = 6
 LIST_KEYS = ("ranges", "distances", "range", "distance")

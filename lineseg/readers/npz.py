@@ -17,8 +17,8 @@ from ..poses import PoseSource, Track
 from ..scan import Recording, Topic
 from ..unfinished import temporary_folder, whole_file
 from .arrays import header_of, is_exchange, loaded, recording_of_arrays
-from .bounded import too_large
-from .cut_zip import unpack_cut
+from .containers.bounded import too_large
+from .containers.cut_zip import unpack_cut
 from .source import Reader, Source
 
 MOST_BYTES = 8 << 30

@@ -6,11 +6,11 @@ import re
 from typing import Any
 
 from ..scan import Recording
-from .dialect import LEFT_OUT
 from .laser_scan import LaserScan, decode_json
 from .messages import recording_of
-from .numbers import all_numbers
 from .source import Reader, Source
+from .tables.dialect import LEFT_OUT
+from .tables.numbers import all_numbers
 
 BEGINS = re.compile(rb"\bLaserScan\(\s*header=")
 NUMBER = re.compile(rb"\b(angle_min|angle_max|angle_increment|range_min|range_max)=([-+.\w]+)")

@@ -8,8 +8,8 @@ from collections.abc import Mapping
 import numpy as np
 
 from ..scan import Floats, Recording, Topic
-from .numbers import all_numbers
 from .source import Reader, Source, Sweeps
+from .tables.numbers import all_numbers
 
 # Between beams, between the echoes of one, and between the distance and the intensity of an echo.
 BEAM, ECHO, LEVEL = b";", b"&", b"|"

@@ -7,8 +7,8 @@ from xml.etree import ElementTree
 
 from ..scan import Recording
 from .messages import recording_of_values
-from .numbers import all_numbers
 from .source import Reader, Source
+from .tables.numbers import all_numbers
 
 
 class XmlScans(Reader):

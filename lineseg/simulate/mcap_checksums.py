@@ -6,7 +6,7 @@ import struct
 from pathlib import Path
 from zlib import crc32
 
-from ..readers.mcap_records import CHUNK, DATA_END, FOOTER, HEAD, MAGIC
+from ..readers.bags.mcap_records import CHUNK, DATA_END, FOOTER, HEAD, MAGIC
 
 
 def add_checksums(path: Path) -> None:

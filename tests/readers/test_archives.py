@@ -37,7 +37,7 @@ def test_a_file_in_an_archive_stays_in_its_folder_whatever_its_name(tmp_path, mo
 
 
 def test_the_parts_of_a_bag_in_a_zip_count_together(tmp_path, monkeypatch):
-    monkeypatch.setattr("lineseg.readers.bounded.SMALL", 1 << 20)
+    monkeypatch.setattr("lineseg.readers.containers.bounded.SMALL", 1 << 20)
     path = tmp_path / "bag.zip"
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
         for number in range(5):

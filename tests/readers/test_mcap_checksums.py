@@ -8,7 +8,7 @@ import pytest
 from rosbags.rosbag2 import StoragePlugin
 
 from lineseg import open_recording
-from lineseg.readers.mcap_records import CHUNK, DATA_END, FOOTER, HEAD, MAGIC
+from lineseg.readers.bags.mcap_records import CHUNK, DATA_END, FOOTER, HEAD, MAGIC
 from lineseg.simulate.mcap_checksums import add_checksums
 
 from .test_ros_bags import bag2

@@ -2,7 +2,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from lineseg.readers.numbers import all_numbers, leading_numbers
+from lineseg.readers.tables.numbers import all_numbers, leading_numbers
 
 plain = st.builds(lambda value, digits: f"{value:.{digits}f}", st.floats(-1e6, 1e6), st.integers(0, 9))
 other = st.floats().map(repr) | st.sampled_from(["nan", "inf", "+5", "-0", ".5", "5.", "1e-3", "123456789012345678"])

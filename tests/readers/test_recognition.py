@@ -8,7 +8,7 @@ import pytest
 
 from lineseg.readers import READERS, format_of, open_recording
 from lineseg.readers.account import Notes
-from lineseg.readers.wrapping import unwrapped
+from lineseg.readers.containers.wrapping import unwrapped
 
 FLASER = b"FLASER 3 1.0 2.0 3.0 0 0 0 0 0 0 1.0 x 1.0\n"
 

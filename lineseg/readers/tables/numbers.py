@@ -6,8 +6,8 @@ import re
 
 import numpy as np
 
-from ..kernel import entry_kernel, kernel
-from ..scan import Floats
+from ...kernel import entry_kernel, kernel
+from ...scan import Floats
 
 SEPARATORS = re.compile(rb"[\s,;]+")
 BLANKS = bytes.maketrans(b",;", b"  ")

@@ -11,9 +11,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..poses import Found, Poses, PoseSource
-from .bags import Stream
-from .decoders import MessageBytes, unpacked
+from ...poses import Found, Poses, PoseSource
+from ..bags.decoders import MessageBytes, unpacked
+from ..bags.topics import Stream
 from .moving import Array, Motion, Rigid
 
 TREES = ("tf2_msgs/TFMessage", "tf2_msgs/msg/TFMessage", "tf/tfMessage", "tf/msg/tfMessage")

@@ -7,11 +7,11 @@ from collections.abc import Callable, Iterator
 from contextlib import ExitStack
 from typing import Any
 
-from ..scan import Recording
-from .bags import Stream, choose_streams, collect, cut_off, detail, tell_cut
+from ...scan import Recording
+from ..source import Reader, Source
 from .decoders import Decoder, is_laser
 from .ros1_records import Connection, scan_records
-from .source import Reader, Source
+from .topics import Stream, choose_streams, collect, cut_off, detail, tell_cut
 
 
 class Ros1Bag(Reader):

@@ -9,15 +9,15 @@ from pathlib import Path
 
 import numpy as np
 
-from ..poses import Found, PoseSource, Track
-from ..scan import Recording
-from . import ros1, ros2
-from .account import Notes
+from ...poses import Found, PoseSource, Track
+from ...scan import Recording
+from ..account import Notes
+from ..bags import ros1, ros2
+from ..containers.wrapping import unwrapped
+from ..reading import Reading
+from ..source import Source
 from .bag_poses import Wanted, found_in, has_poses
-from .reading import Reading
-from .source import Source
 from .trajectory import trajectory_of
-from .wrapping import unwrapped
 
 MESSAGES = {
     ros1.Ros1Bag.format: ros1.messages_of, ros2.Ros2Bag.format: ros2.messages_of, ros2.Mcap.format: ros2.messages_of,

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import BinaryIO, NamedTuple
 from zlib import crc32
 
-from .bounded import MOST_MESSAGE, TooLargeError, limit_of, too_large, unzstd
+from ..containers.bounded import MOST_MESSAGE, TooLargeError, limit_of, too_large, unzstd
 
 MAGIC = b"\x89MCAP0\r\n"
 SCHEMA, CHANNEL, MESSAGE, CHUNK, MESSAGE_INDEX, DATA_END, FOOTER = 3, 4, 5, 6, 7, 15, 2

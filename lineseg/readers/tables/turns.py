@@ -6,8 +6,8 @@ from itertools import pairwise
 
 import numpy as np
 
-from ..scan import Floats
-from .guessing import middle_of
+from ...scan import Floats
+from ..guessing import middle_of
 
 # A beam so far ahead, where the angle also leaps back, begins the next scan rather than following a gap.
 WIDE = np.deg2rad(30)

@@ -10,7 +10,10 @@ from dataclasses import replace
 from itertools import chain, islice, pairwise
 from typing import Any
 
-from ..scan import Recording
+from ...scan import Recording
+from ..lasers import rows_of_one_laser
+from ..reading import Reading, columns_of
+from ..source import Reader, Source
 from .beam_rows import columns_beside, read_beams, table_of
 from .dialect import (
     COMMENTS,
@@ -41,12 +44,9 @@ from .headers import (
     unit_of,
 )
 from .interleaved import interleaved, read_interleaved
-from .lasers import rows_of_one_laser
 from .numbered import read_numbered
-from .reading import Reading, columns_of
 from .scan_columns import alike, named_columns, tell_columns
 from .scan_rows import parsed, read_scans, scans_of
-from .source import Reader, Source
 from .spanning import scans_over_lines
 from .table import echo_columns, read_table
 

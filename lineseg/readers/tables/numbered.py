@@ -7,13 +7,13 @@ from itertools import pairwise
 
 import numpy as np
 
-from ..scan import Floats, Recording
+from ...scan import Floats, Recording
+from ..reading import Reading
+from ..source import Source
 from .beam_rows import table_of
 from .dialect import Dialect, Row
 from .headers import LENGTHS, SCANS, STAMPS, TIMES, Name, column_of, is_beam, is_distance
-from .reading import Reading
 from .scan_rows import scans_of
-from .source import Source
 
 
 def read_numbered(

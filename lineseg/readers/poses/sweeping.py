@@ -8,9 +8,9 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ..poses import Poses, in_world, seen_from
-from ..scan import Recording, Scan
-from .account import Notes
+from ...poses import Poses, in_world, seen_from
+from ...scan import Recording, Scan
+from ..account import Notes
 from .moving import Motion, Rigid
 
 Array = NDArray[np.floating]

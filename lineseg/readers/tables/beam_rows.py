@@ -12,15 +12,15 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..scan import Floats, Recording, Topic
+from ...scan import Floats, Recording, Topic
+from ..guessing import FAR, MOST_DEGREES, angle_unit_of, guess_angle_unit
+from ..reading import RADIANS, Direction, Reading
+from ..source import Source, Sweeps
+from ..stamping import in_seconds
 from .dialect import LEFT_OUT, Dialect, Row
-from .guessing import FAR, MOST_DEGREES, angle_unit_of, guess_angle_unit
 from .headers import LENGTHS, SCANS, STAMPS, TIMES, TURNS, Name, column_of, is_angle, is_distance
-from .reading import RADIANS, Direction, Reading
 from .scan_columns import alike, tell_columns, with_angles
 from .scan_rows import scans_of
-from .source import Source, Sweeps
-from .stamping import in_seconds
 from .turns import regularity, turns
 
 # The steps of real angles are about equal; those of other columns are not.

@@ -7,10 +7,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..scan import Floats, Recording
+from ...scan import Floats, Recording
+from ..reading import Reading
+from ..source import Source
 from .beam_rows import Roles, bearings_of, columns_of_beam, with_roles
-from .reading import Reading
-from .source import Source
 
 LEAST_BEAMS, MOST_NUMBERS = 20, 4
 # Neighbours in a row of ranges differ less than this share of them; an angle and a distance differ more.

@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import BinaryIO, NamedTuple
 
-from .bounded import MOST_MESSAGE, TooLargeError, limit_of, too_large
+from ..containers.bounded import MOST_MESSAGE, TooLargeError, limit_of, too_large
 
 MESSAGE, CHUNK, CONNECTION = 2, 5, 7
 MOST_CHUNK = 8 * MOST_MESSAGE

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..poses import Poses
+from ...poses import Poses
 
 Array = NDArray[np.floating]
 # Between poses that are farther apart [s], a scan has no pose, unless the robot stood still meanwhile [m], [rad].

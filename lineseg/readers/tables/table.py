@@ -9,14 +9,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..scan import Floats, Recording, Topic
+from ...scan import Floats, Recording, Topic
+from ..reading import Reading
+from ..source import Source, Sweeps
+from ..stamping import in_seconds
 from .dialect import LEFT_OUT, Dialect, Row
 from .headers import LENGTHS, STAMPS, TIMES, Name, array_columns, column_of
 from .numbers import all_numbers
-from .reading import Reading
 from .scan_rows import tell_usual_angles, usual_angles
-from .source import Source, Sweeps
-from .stamping import in_seconds
 
 # What precedes the ranges in `ros2 topic echo --csv`.
 BEFORE_RANGES = (

@@ -10,15 +10,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..scan import Floats, Recording, Topic
-from .account import Notes
+from ...scan import Floats, Recording, Topic
+from ..account import Notes
+from ..guessing import angle_unit_of
+from ..plausible import unwrapped, wrap_of
+from ..reading import RADIANS, Reading
+from ..source import Source, Sweeps
+from ..stamping import in_seconds
 from .dialect import Dialect, Row, text_of
-from .guessing import angle_unit_of
-from .plausible import unwrapped, wrap_of
-from .reading import RADIANS, Reading
 from .scan_columns import alike, tell_columns
-from .source import Source, Sweeps
-from .stamping import in_seconds
 
 # angle_min and angle_increment, in degrees, of common lasers by number of beams.
 LASERS = {

@@ -11,8 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from .bounded import unzstd_message
-from .laser_scan import TYPES, LaserScan, decode_cdr, decode_json, decode_ros1
+from ..containers.bounded import unzstd_message
+from ..laser_scan import TYPES, LaserScan, decode_cdr, decode_json, decode_ros1
 
 ZSTD_MAGIC = b"\x28\xb5\x2f\xfd"
 MULTI_ECHO = ("sensor_msgs/MultiEchoLaserScan", "sensor_msgs/msg/MultiEchoLaserScan")

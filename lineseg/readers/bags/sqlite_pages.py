@@ -9,7 +9,7 @@ import struct
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
-from .bounded import MOST_MESSAGE
+from ..containers.bounded import MOST_MESSAGE
 
 LEAF = 0x0D
 # The columns of `messages`: id (kept as the number of the row), topic_id, timestamp, data.

@@ -10,9 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from ..scan import Recording, Topic
+from ...scan import Recording, Topic
+from ..source import Source, Sweeps
 from .decoders import MULTI_ECHO, POINT_CLOUDS, Decoder, decoder_of, is_laser
-from .source import Source, Sweeps
 
 
 @dataclass(frozen=True)

@@ -8,8 +8,8 @@ from collections.abc import Callable, Iterator
 from itertools import chain, islice
 from typing import NamedTuple
 
+from ..source import Source
 from .dialect import COMMENTS, Row
-from .source import Source
 
 # How most rows begin; nothing is to be done to them.
 PLAIN = frozenset(b"%c" % each for each in b"+-.0123456789")

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from ..poses import Found, PoseSource
+from ...poses import Found, PoseSource
 from .moving import Array, Motion, Rigid
 
 MOST_LINES = 20_000_000

@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..scan import Floats, Recording, Topic
-from .account import Notes
-from .guessing import guess_angle_unit
+from ...scan import Floats, Recording, Topic
+from ..account import Notes
+from ..guessing import guess_angle_unit
+from ..reading import RADIANS
+from ..source import Source, Sweeps
+from ..stamping import in_seconds
 from .headers import Name, column_of, is_angle, is_beam
-from .reading import RADIANS
-from .source import Source, Sweeps
-from .stamping import in_seconds
 
 # Scans of one place differ by less than this share of their ranges; other quantities beside them differ by more.
 ALIKE = 0.15

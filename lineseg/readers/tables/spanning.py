@@ -7,12 +7,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..scan import Floats
+from ...scan import Floats
+from ..source import Source
 from .dialect import COMMENTS, Dialect, Row
 from .dressing import rows_of
 from .scan_columns import alike
 from .scan_rows import usual_angles
-from .source import Source
 
 # Wider rows are scans; fewer numbers are no scan.
 WIDEST, LEAST_BEAMS = 40, 30

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from ..scan import Floats
+from ...scan import Floats
 from .numbers import all_numbers, is_number, number_of
 
 COMMENTS = (b"#", b"%", b"//")

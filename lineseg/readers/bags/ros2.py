@@ -12,17 +12,17 @@ from pathlib import Path
 from typing import Protocol
 from urllib.parse import quote
 
-from ..scan import Recording
-from ..unfinished import temporary_folder
-from .account import Notes
-from .bags import NotABagError, Stream, choose_streams, collect, cut_off, detail, guarded, tell_cut
-from .bounded import MOST_MESSAGE, expand, limit_of, zstd_file
+from ...scan import Recording
+from ...unfinished import temporary_folder
+from ..account import Notes
+from ..containers.bounded import MOST_MESSAGE, expand, limit_of, zstd_file
+from ..containers.folder import missing_parts, storage_files
+from ..containers.wrapping import tell_break
+from ..source import Reader, Source
 from .decoders import Decoder, plain_type
-from .folder import missing_parts, storage_files
 from .mcap_records import McapChannel, McapFile
-from .source import Reader, Source
 from .sqlite_pages import scan_pages
-from .wrapping import tell_break
+from .topics import NotABagError, Stream, choose_streams, collect, cut_off, detail, guarded, tell_cut
 
 SQLITE_MAGIC = b"SQLite format 3\0"
 MCAP_MAGIC = b"\x89MCAP"

@@ -6,7 +6,7 @@ import re
 from itertools import islice
 from pathlib import Path
 
-from .source import known_suffixes
+from ..source import known_suffixes
 from .wrapping import BAG_PARTS, MOST_NAMED
 
 METADATA = "metadata.yaml"

@@ -14,11 +14,11 @@ from contextlib import ExitStack
 from pathlib import Path, PurePosixPath
 from typing import IO, cast
 
-from ..unfinished import temporary_folder
-from .account import Notes
+from ...unfinished import temporary_folder
+from ..account import Notes
+from ..source import known_suffixes
 from .bounded import expand, file_name, limit_of, zstd_file
 from .cut_zip import unpack_cut
-from .source import known_suffixes
 
 ZIP_MAGIC = b"PK\x03\x04"
 # What each begins with, its name, and how it is opened.

@@ -6,7 +6,7 @@ import re
 from functools import lru_cache
 from typing import NamedTuple
 
-from .reading import AngleUnit, Unit
+from ..reading import AngleUnit, Unit
 
 ANGLES = (
     "angle", "angles", "ang", "theta", "thetas", "bearing", "bearings", "azimuth", "azimuths", "phi", "winkel", "alpha",

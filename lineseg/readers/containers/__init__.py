@@ -1,0 +1,1 @@
+"""What a recording may be inside of: compressed files, archives, folders."""
