@@ -431,17 +431,22 @@ class Session:
 
     def _fall_back(self, request: Request, message: str | None) -> None:
         """Keep the present picture; if there is none, show the first recording that works."""
-        view = request.view
+        view, rev = request.view, request.rev
         with self._lock:
             self._done = request.number
             cancelled, self._cancelled = self._cancelled, False
-            now = self._wanted.view
-            if now.place == view.place:
+            now = self._wanted
+            if message is None and not cancelled and now.number != request.number:
+                # Given up for another recording; what is wanted now waits, even if it is the same recording again.
+                return
+            if now.view.place == view.place:
+                # Whatever joined it meanwhile fails with it.
+                rev = now.rev
                 self._broken.add(view.recording)
                 other = View(recording=self._library.instead_of(self._broken), dark=view.dark)
-                self._wanted = replace(self._wanted, view=self._shown.view if self._shown else other)
+                self._wanted = replace(now, view=self._shown.view if self._shown else other)
                 if self._shown is None and other.recording:
-                    self._ask(other, self._wanted.rev, "page")
+                    self._ask(other, rev, "page")
                 else:
                     self._done = self._wanted.number
                     self._drawing.drop()
@@ -450,7 +455,7 @@ class Session:
         if message is not None:
             file = None if cancelled else refused(self._library, view, message)
             told = message if file is None else for_the_page(message)
-            self._tell(Failure(where="recording", message=told, rev=request.rev, refused=file))
+            self._tell(Failure(where="recording", message=told, rev=rev, refused=file))
         self._survey()
 
     def _tell(self, message: BaseModel) -> None:

@@ -9,6 +9,7 @@ from lineseg_app.server import Settings
 from lineseg_app.session.pace import QUICK_TURN
 from lineseg_app.session.session import Session
 from lineseg_app.session.sessions import SessionLimits
+from lineseg_app.shelf import library
 from live import Address, Page, page_of, serving
 from websockets.exceptions import ConnectionClosed
 
@@ -144,6 +145,50 @@ def test_an_unknown_recording_is_an_error_and_the_old_picture_stays(page: Page):
         assert page.refused(recording=id)["where"] == "recording"
     state = page.change(params={"epsilon": 0.04})
     assert (state["label"], state["frame"]) == ("walls.npz", 3)
+
+
+def holding(patch: pytest.MonkeyPatch, owner: object, name: str) -> tuple[threading.Event, threading.Event]:
+    """Events of a function: it has been called, and may go on."""
+    called, go_on, function = threading.Event(), threading.Event(), getattr(owner, name)
+
+    def late(*what, **how):
+        called.set()
+        assert go_on.wait(60)
+        return function(*what, **how)
+
+    patch.setattr(owner, name, late)
+    return called, go_on
+
+
+def test_what_joins_a_recording_that_cannot_be_opened_is_answered_with_it(page: Page, monkeypatch: pytest.MonkeyPatch):
+    page.hello()
+    page.change(frame=2)
+    opening, go_on = holding(monkeypatch, library, "open_recording")
+    page.ask(recording="sample:hallway", topic="/none")
+    assert opening.wait(60)
+    page.ask(frame=1)
+    last = page.ask(params={"epsilon": 0.05})
+    # What is not valid is answered at once: the changes before it have been heard.
+    page.ask(frame="one")
+    assert page.hear_a("error")["where"] == "view"
+    go_on.set()
+    assert page.hear_a("error")["rev"] == last
+    state = page.change(selected=None)
+    assert (state["label"], state["frame"], state["params"]["epsilon"]) == ("walls.npz", 2, 0.03)
+
+
+def test_a_recording_that_is_left_and_chosen_again_at_once_is_drawn(page: Page, monkeypatch: pytest.MonkeyPatch):
+    page.hello()
+    opening, may_open = holding(monkeypatch, library, "open_recording")
+    given_up, go_on = holding(monkeypatch, Session, "_fall_back")
+    page.ask(recording="sample:laboratory", reading={"frames": "7:9"})
+    assert opening.wait(60)
+    page.ask(recording="sample:hallway", reading={"frames": None})
+    assert given_up.wait(60)
+    last = page.ask(recording="sample:laboratory", reading={"frames": "7:9"})
+    go_on.set()
+    may_open.set()
+    assert page.drawn(last)["state"]["recording"] == "sample:laboratory"
 
 
 def test_a_tab_that_begins_with_a_bad_link_shows_the_first_recording(page: Page):
