@@ -78,8 +78,8 @@ def noise(recording: Recording) -> RangeNoise:
     Unknown (NaN) if there is too little data: a scan of ten beams, no return, no straight wall.
     """
     ranges, departures = _neighbouring(recording)
-    edges, sigma, walls, windows = _by_range(ranges, departures)
-    base, growth = _law(edges, sigma, windows)
+    edges, middles, sigma, walls, windows = _by_range(ranges, departures)
+    base, growth = _law(middles, sigma, windows)
     return RangeNoise(edges, sigma, walls, windows, base, growth)
 
 
@@ -134,19 +134,20 @@ def departure(ranges, rays, i, j, k):
     return (one - two + three) / math.sqrt(size) if size > 0.0 else 0.0
 
 
-def _by_range(ranges: Floats, departures: Floats) -> tuple[Floats, Floats, Floats, NDArray[np.int64]]:
-    """edges, sigma, walls, windows of bins with equally many windows each."""
+def _by_range(ranges: Floats, departures: Floats) -> tuple[Floats, Floats, Floats, Floats, NDArray[np.int64]]:
+    """edges, median ranges, sigma, walls, windows of bins with equally many windows each."""
     bins = min(BINS, len(ranges) // LEAST)
     if not bins:
-        return np.empty(0), np.empty(0), np.empty(0), np.empty(0, np.int64)
+        return np.empty(0), np.empty(0), np.empty(0), np.empty(0), np.empty(0, np.int64)
     order = np.argsort(ranges)
     parts = np.array_split(order, bins)
     edges = np.append([ranges[part[0]] for part in parts], ranges[order[-1]])
+    middles = np.array([np.median(ranges[part]) for part in parts])
     fits = [_scale(departures[part], WINDOW_DOF) for part in parts]
     walls = np.array([share for _, share in fits])
     scales = np.array([scale for scale, _ in fits])
     sigma = np.where((walls >= TRUSTED) & (scales <= MOST), scales, np.nan)
-    return edges, sigma, walls, np.array([len(part) for part in parts])
+    return edges, middles, sigma, walls, np.array([len(part) for part in parts])
 
 
 def _scale(values: Floats, dof: float) -> tuple[float, float]:
@@ -183,12 +184,12 @@ def _mixture(
     return likelihood, log_scale, share
 
 
-def _law(edges: Floats, sigma: Floats, windows: NDArray[np.int64]) -> tuple[float, float]:
+def _law(middles: Floats, sigma: Floats, windows: NDArray[np.int64]) -> tuple[float, float]:
     """base and growth: least squares of the relative error of σ² as a line over ρ², neither of them negative."""
     told = np.isfinite(sigma)
     if not told.any() or not sigma[told].any():
         return math.nan, math.nan
-    squares, distances = sigma[told] ** 2, ((edges[:-1] + edges[1:])[told] / 2) ** 2
+    squares, distances = sigma[told] ** 2, middles[told] ** 2
     rows = np.column_stack((np.ones(len(squares)), distances)) / squares[:, None] * np.sqrt(windows[told])[:, None]
     goal = np.sqrt(windows[told])
     constant, slope = np.linalg.lstsq(rows, goal, rcond=None)[0] if told.sum() > 1 else (squares[0], 0.0)

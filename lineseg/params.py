@@ -154,7 +154,7 @@ class Params(Thresholds):
     epsilon_growth: Annotated[
         float,
         Knob(
-            "κ", 0.0, 0.02, "m/m", 0.0005, least=0.0, most=1.0, growth=0.35,
+            "κ", 0.0, 0.05, "m/m", 0.0005, least=0.0, most=1.0, growth=0.75,
             label="growth of ε with range",
             why="noise does not shrink with the range",
             help="At the range ρ, a point may lie √(ε² + (κρ)²) from its line. Higher accepts noisier points far from "

@@ -38,12 +38,12 @@ LEAST_FRAMES = 4
 # The factor from one value of ε to the next; lines are compared APART values apart.
 STEP, APART = 1.6**0.25, 3
 # The search begins at this many times the white noise, and ends so many steps above the ε that suits the scatter.
-LOWEST, STEPS = 2.3, 6
+LOWEST, STEPS = 2.7, 6
 # Walls that beams graze scatter by less than others, for which ε is a little larger than what suits them all.
 MORE = 1.1
 # The share of ε by which points may scatter about their lines: for white noise, ε is then about three times as large.
 # At a coarse laser more is allowed, because there a larger ε takes in doors: the share grows with this power of ε.
-SHARE, SHARE_AT, POWER = 0.32, 0.05, 0.35
+SHARE, SHARE_AT, POWER = 0.32, 0.05, 0.15
 # At an ε of SHARE_AT or less, lines must be so much steadier at a value where they scatter more by a factor of e; above
 # it, in proportion to the square of ε.
 WORTH = 0.3
@@ -58,7 +58,7 @@ AS_GOOD = 0.002
 LEAST_EPSILON = 0.02
 # The growing part of the noise counts if it is this many times as large at the farthest points as the constant part of
 # the scatter: an ε that grows where noise does not makes walls swallow doors.
-COUNTS = 0.7
+COUNTS = 1.0
 # Above this ε [m], walls and what stands before them become one line.
 MOST_EPSILON = 0.5
 
@@ -195,13 +195,13 @@ class _Search:
         found, present = self._extracted(proposed), self._extracted(self.present)
         around = [self._extracted(rescaled(proposed, factor)) for factor in BESIDE]
         lacking = np.mean([_agreement(found, other) - _agreement(present, other) for other in around])
-        pieces = _pieces(present, found)
+        pieces, lost = _pieces(present, found)
         bend = self._bend(found)
         self.scatter = math.hypot(self._white, bend)
         answer = replace(self.nothing(""), fitting=proposed, bend=bend, pieces=pieces, tried=tried, steady=steady)
         if lacking <= AS_GOOD:
             return answer
-        return replace(answer, params=proposed, changed=True, text=self._text(proposed, pieces))
+        return replace(answer, params=proposed, changed=True, text=self._text(proposed, pieces, lost))
 
     def _worth(self, suits: float, scatter: Floats, steady: Floats) -> int:
         """Which of the values is proposed, from the scatter of the lines there [m] and how steady they are."""
@@ -259,18 +259,32 @@ class _Search:
             raise Cancelled
         return [extractor(scan, params) for scan in self._scans]
 
-    def _text(self, proposed: Thresholds, pieces: float) -> str:
+    def _text(self, proposed: Thresholds, pieces: float, lost: float) -> str:
         name, knob = _leading(proposed)
-        value, before = getattr(proposed, name), getattr(self.present, name)
-        told = f"Points scatter by {1e3 * self.scatter:.0f} mm here."
-        if value > before and pieces >= 1.1:
-            broken = f"at {before:g} a wall breaks into {pieces:.1f} pieces on average"
-            return f"{told} {knob.symbol} = {value:g} fits; {broken}."
-        if not 1 / MUCH <= value / before <= MUCH:
-            return f"{told} {knob.symbol} = {value:g} fits better than {before:g}."
+        values = [(knob.symbol, getattr(proposed, name), getattr(self.present, name))]
+        values += [
+            (other.symbol, value, before)
+            for name, _, other in proposed.knobs()
+            if other.growth and (value := getattr(proposed, name)) > (before := getattr(self.present, name))
+        ]
+        fits = " and ".join(f"{symbol} = {value:g}" for symbol, value, _ in values)
+        now = " and ".join(f"{before:g}" for _, _, before in values)
+        told = f"Points scatter by {1e3 * self.scatter:.0f} mm here. {fits} fit{'s' if len(values) == 1 else ''}"
+        higher = self._reach(proposed) / self._reach(self.present)
+        broken = [f"a wall breaks into {pieces:.1f} pieces on average"] if pieces >= 1.1 else []
+        broken += [f"{lost:.0%} of the walls are not found"] if lost >= 0.1 else []
+        if higher > 1 and broken:
+            return f"{told}; at {now}{' ' if pieces >= 1.1 else ', '}{', and '.join(broken)}."
+        if not 1 / MUCH <= higher <= MUCH:
+            return f"{told} better than {now}."
         *others, last = (f"{knob.symbol} to {value:g}" for knob, value in _changes(self.present, proposed))
         new = f"{', '.join(others)} and {last}" if others else last
-        return f"{told} Setting {new} would fit slightly better."
+        return f"Points scatter by {1e3 * self.scatter:.0f} mm here. Setting {new} would fit slightly better."
+
+    def _reach(self, params: Thresholds) -> float:
+        """How far a point at the median range may lie from its line [m]."""
+        rise = sum(getattr(params, name) for name, _, knob in params.knobs() if knob.growth)
+        return math.hypot(getattr(params, _leading(params)[0]), rise * self._middle)
 
 
 def _allowed(scale: float) -> float:
@@ -313,11 +327,12 @@ def _agreement(found: list[Extraction], judges: list[Extraction]) -> float:
     return score if math.isfinite(score) else 0.0
 
 
-def _pieces(present: list[Extraction], walls: list[Extraction]) -> float:
-    """Mean number of segments on a wall, over the walls that have any; NaN if none has."""
+def _pieces(present: list[Extraction], walls: list[Extraction]) -> tuple[float, float]:
+    """Mean number of segments on a wall, over the walls that have any, and the share of walls without; NaN if none."""
     counts = []
     for one, other in zip(present, walls, strict=True):
         matching = match(one, other.labels)
         counts.append((2 * matching.shared > matching.segment_beams).sum(axis=1))
     numbers = np.concatenate(counts)
-    return float(numbers[numbers > 0].mean()) if (numbers > 0).any() else math.nan
+    pieces = float(numbers[numbers > 0].mean()) if (numbers > 0).any() else math.nan
+    return pieces, float((numbers == 0).mean()) if len(numbers) else math.nan

@@ -79,6 +79,16 @@ def test_for_walls_that_bend_and_noise_that_grows_the_proposal_is_as_good_as_any
     assert score(recording, propose(recording).params) > 0.97 * best_score(recording)
 
 
+@pytest.mark.parametrize(("name", "growth"), [("office", 0.015), ("lobby", 0.01), ("workshop", 0.01)])
+def test_for_noise_in_proportion_to_the_range_the_proposal_is_better_than_any_constant_epsilon(name, growth):
+    laser = replace(RPLIDAR_A2, sigma=0.015, sigma_far=0.015, growth=growth)
+    recording = replace(WORLDS[name], laser=laser).recording(name, FRAMES)
+    found = propose(recording)
+    assert score(recording, found.params) > best_score(recording)
+    assert f"ε = {found.params.epsilon:g} and κ = {found.params.epsilon_growth:g} fit; at 0.03 and 0.002" in found.text
+    assert "% of the walls are not found." in found.text
+
+
 def test_nothing_is_proposed_if_the_current_values_are_as_good():
     recording = world("flat", 0.008, RPLIDAR_A2)
     found = propose(recording)
