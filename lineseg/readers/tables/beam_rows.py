@@ -18,7 +18,17 @@ from ..reading import RADIANS, Direction, Reading
 from ..source import Source, Sweeps
 from ..stamping import in_seconds
 from .dialect import LEFT_OUT, Dialect, Row
-from .headers import LENGTHS, SCANS, STAMPS, TIMES, TURNS, Name, column_of, is_angle, is_distance
+from .headers import (
+    LENGTHS,
+    SCANS,
+    STAMPS,
+    TIMES,
+    TURNS,
+    Name,
+    column_of,
+    distance_of,
+    is_angle,
+)
 from .scan_columns import alike, tell_columns, with_angles
 from .scan_rows import scans_of
 from .turns import regularity, turns
@@ -35,6 +45,11 @@ CLOCKWISE = re.compile(r"(?<!counter_)(?<!anti_)(?:clockwise|(?<![^_])cw(?![^_])
 HEADINGS, QUATERNION = {"heading", "yaw"}, 4
 # Headings that differ, and agree with the ways of the moves (`_unity`).
 SPREAD_HEADINGS, ONE_WAY, MOST_MOVES = 0.98, 0.95, 2000
+# More columns hold more than the time and a path, which may be below 0 in more than a few places.
+# Columns that count, such as times and angles, have about equal steps.
+MOST_OF_PATH, FEW_BELOW, EVEN = 4, 0.05, 0.01
+# Paths begin within so many steps of zero, or have bearings that are less even than this.
+NEAR_ZERO, OF_PATH = 2.5, 0.25
 # Points of one plane differ less in height [m], but for a few.
 FLAT = 0.05
 # Codes for "no return" are few.
@@ -73,6 +88,7 @@ def beams_of(
     if _are_poses(table, names):
         way = "" if names is not None else " If it has beams after all, say what the columns hold with --columns."
         raise ValueError(f"{source.name} has poses, not scans; open the scans, and give this file as --poses.{way}")
+    _check_path(source, table, names)
     if names is not None:
         return with_roles(source, reading, table, names, _named(names), guess_direction, format)
     if table.shape[1] > 2 and alike(table):
@@ -99,6 +115,54 @@ def _are_poses(table: NDArray[np.float64], names: list[Name] | None) -> bool:
         return False
     angles = _radians(table[np.isfinite(table[:, angle]), angle])
     return len(angles) < len(table) or _sense_of(table[:, points], angles) is None
+
+
+def _check_path(source: Source, table: NDArray[np.float64], names: list[Name] | None) -> None:
+    """Raises ValueError if x and y are those of a robot that moves, and not of points around a laser."""
+    if source.reading.columns is not None or len(table) < LEAST_ROWS:
+        return
+    if names is not None:
+        points = None if _named(names).polar else _points(names)
+        found = points if points is not None and _is_path(table[:, points]) else None
+    else:
+        first = int(table.shape[1] > 2 and bool((np.diff(table[:, 0]) >= 0).all()))
+        pairs = [(x, x + 1) for x in range(first, min(2, table.shape[1] - 1))]
+        found = next((pair for pair in pairs if table.shape[1] <= MOST_OF_PATH and _goes_about(table[:, pair])), None)
+    if found is not None:
+        words = ["-"] * table.shape[1]
+        words[found[0]], words[found[1]] = "x", "y"
+        raise ValueError(
+            f"{source.name} has x and y along a path, as a robot drives it, and no scans; open its scans instead. If "
+            f"these are points around the laser, say so with --columns={','.join(words)}."
+        )
+
+
+def _goes_about(xy: NDArray[np.float64]) -> bool:
+    """Whether two columns without names may be a path: they do not count evenly, and are not all above 0."""
+    steps = np.abs(np.diff(xy, axis=0))
+    usual = np.median(steps, axis=0)
+    even = (np.median(np.abs(steps - usual), axis=0) <= EVEN * usual).any()
+    below = ((xy < 0).mean(axis=0) > FEW_BELOW).any()
+    return bool((below or _begins_at_zero(xy)) and not even and _is_path(xy))
+
+
+def _begins_at_zero(xy: NDArray[np.float64]) -> bool:
+    """Whether points (n, 2) begin nearer to zero than a few of their steps, where no laser sees anything."""
+    steps = np.hypot(*np.diff(xy, axis=0).T)
+    return bool(np.hypot(*xy[0]) < NEAR_ZERO * np.median(steps))
+
+
+def _is_path(xy: NDArray[np.float64]) -> bool:
+    """Whether points (n, 2) follow each other smoothly from zero on, or while their bearings do not go on evenly."""
+    xy = xy[:MOST_MOVES][xy[:MOST_MOVES].any(axis=1)]
+    if len(xy) < LEAST_ROWS or not np.isfinite(xy).all():
+        return False
+    steps = np.diff(xy, axis=0)
+    lengths = np.hypot(*steps.T)
+    # Where a robot stands still, noise moves it.
+    steps = steps[(lengths > 0) & (lengths >= 0.5 * np.median(lengths))]
+    sweeps = regularity(np.arctan2(xy[:, 1], xy[:, 0])) < OF_PATH and not _begins_at_zero(xy)
+    return len(steps) >= FEW_ROWS and not sweeps and _unity(np.diff(np.arctan2(steps[:, 1], steps[:, 0]))) > ONE_WAY
 
 
 def _moves_ahead(table: NDArray[np.float64]) -> bool:
@@ -233,7 +297,7 @@ def _scaled(table: NDArray[np.float64], names: list[Name] | None, column: int) -
 def _named(names: list[Name]) -> Roles:
     scan = column_of(names, lambda name: name.plain in SCANS)
     stamp = column_of(names, lambda name: name.plain in STAMPS)
-    angle, distance = column_of(names, is_angle), column_of(names, is_distance)
+    angle, distance = column_of(names, is_angle), distance_of(names)
     if angle is not None and distance is not None:
         return Roles(True, angle, distance, scan, stamp)
     points = _points(names)

@@ -9,14 +9,20 @@ from typing import NamedTuple
 from ..reading import AngleUnit, Unit
 
 ANGLES = (
-    "angle", "angles", "ang", "theta", "thetas", "bearing", "bearings", "azimuth", "azimuths", "phi", "winkel", "alpha",
+    "angle", "angles", "ang", "theta", "thetas", "bearing", "bearings", "azimuth", "azimuths", "az", "azi", "phi",
+    "winkel", "alpha",
     "ángulo", "angulo", "angolo", "角度", "角", "方位", "方位角", "각도", "угол",
 )  # fmt: skip
 DISTANCES = (
-    "distance", "distances", "dist", "dists", "range", "ranges", "rho", "r", "d", "radius", "depth", "depths",
+    "distance", "distances", "dist", "dists", "range", "ranges", "rng", "rho", "r", "d", "radius", "depth", "depths",
     "distanz", "abstand", "entfernung", "länge", "laenge", "length",
     "distancia", "distanza", "距離", "距离", "거리", "расстояние",
 )  # fmt: skip
+# What a column beside them holds if its name has one of these words, such as range_min or angle_increment.
+BESIDE = {
+    "min", "max", "minimum", "maximum", "limit", "increment", "resolution", "start", "end", "std", "stddev", "sigma",
+    "var", "variance", "err", "error", "noise", "rate", "valid", "quality", "type", "status", "time",
+}  # fmt: skip
 STAMPS = ("stamp", "timestamp", "time", "t", "secs", "sec", "seconds", "zeit", "rosbagtimestamp", "datetime")
 BEAMS = ("beam", "beam_id", "beam_index", "beam_number", "beam_no", "ray", "point_id", "index", "idx", "i", "step",
     "step_n", "step_no",
@@ -133,15 +139,31 @@ def unit_of(text: str) -> tuple[str, float] | None:
 
 
 def is_angle(name: Name) -> bool:
-    words = name.plain.split("_")
-    known = words[-1] in ANGLES or words[0] in ANGLES or words[0].startswith(("angul", "angel"))
-    return name.element < 0 and known and not name.ends("angle_min", "angle_max", "angle_increment")
+    return name.element < 0 and says_angle(name)
 
 
 def is_distance(name: Name) -> bool:
+    return name.element < 0 and says_distance(name)
+
+
+def says_angle(name: Name) -> bool:
+    """Whether it is the name of an angle, or of one in an array of them."""
+    words = name.plain.split("_")
+    known = words[-1] in ANGLES or words[0] in ANGLES or words[0].startswith(("angul", "angel")) or words == ["a"]
+    return known and words[-1] not in DISTANCES and not BESIDE & {*words}
+
+
+def says_distance(name: Name) -> bool:
+    """Whether it is the name of a distance, or of one in an array of them."""
     words = name.plain.split("_")
     known = words[0] in DISTANCES or words[-1] in DISTANCES
-    return name.element < 0 and known and not name.ends("range_min", "range_max", "time")
+    return known and words[-1] not in ANGLES and not BESIDE & {*words}
+
+
+def distance_of(names: list[Name]) -> int | None:
+    """The column of the distances: the first whose name ends so, such as raw_range, or else begins so."""
+    ends = column_of(names, lambda name: is_distance(name) and name.plain.split("_")[-1] in DISTANCES)
+    return column_of(names, is_distance) if ends is None else ends
 
 
 def is_beam(name: Name) -> bool:
@@ -169,3 +191,15 @@ def array_columns(names: list[Name]) -> list[int]:
     first = dict(reversed(stems[stem]))
     found = [first[element] for element in sorted(first)]
     return found if of_ranges or len(found) >= 8 else []
+
+
+def units_as_names(names: list[Name]) -> list[Name]:
+    """The names of an angle and a distance for a header that has only their units, such as "deg,mm"."""
+    if any(map(is_angle, names)) or any(map(is_distance, names)):
+        return names
+    turns = [at for at, name in enumerate(names) if name.plain in TURNS and not name.unit]
+    lengths = [at for at, name in enumerate(names) if name.plain in LENGTHS and not name.unit]
+    if len(turns) != 1 or len(lengths) != 1:
+        return names
+    found = {turns[0]: "angle", lengths[0]: "distance"}
+    return [Name(found[at], name.plain) if at in found else name for at, name in enumerate(names)]

@@ -14,6 +14,7 @@ from ...scan import Recording
 from ..lasers import rows_of_one_laser
 from ..reading import Reading, columns_of
 from ..source import Reader, Source
+from .beam_groups import groups_of, read_groups
 from .beam_rows import columns_beside, read_beams, table_of
 from .dialect import (
     COMMENTS,
@@ -42,6 +43,7 @@ from .headers import (
     is_distance,
     name_of,
     unit_of,
+    units_as_names,
 )
 from .interleaved import interleaved, read_interleaved
 from .numbered import read_numbered
@@ -243,7 +245,7 @@ def _names(dialect: Dialect, head: list[Row], cells: list[bytes]) -> list[Name]:
         wide = re.split(rb"\t+| {2,}|\s*,\s*", head[0].text.strip())
         if len(cells) != width == len(wide):
             cells = wide
-    names = [name_of(text_of(cell)) for cell in cells]
+    names = units_as_names([name_of(text_of(cell)) for cell in cells])
     return [UNNAMED, *names] if _are_numbered(dialect, head[1:], len(names)) else names
 
 
@@ -274,6 +276,8 @@ def _read_named(
     if reading.columns is not None:
         given = columns_of(reading.columns)
         return _read_columns(source, reading, rows, dialect, given)
+    if (groups := groups_of(names)) is not None:
+        return read_groups(source, reading, rows, dialect, names, groups)
     if len(names) < FEW_COLUMNS:
         sample = list(islice(rows := iter(rows), FEW_ROWS))
         rows = chain(sample, rows)
@@ -284,6 +288,12 @@ def _read_named(
         if len(rows) > len(names):
             return _read_columns_of_scans(source, reading, rows, dialect, names, *columns)
     ranges = column_of(names, lambda name: name.element < 0 and name.ends("ranges"))
+    if ranges is not None and any(map(is_angle, names)):
+        sample = list(islice(rows := iter(rows), FEW_ROWS))
+        rows = chain(sample, rows)
+        cells = [dialect.cells(row.text)[ranges : ranges + 1] for row in sample]
+        # One number in a cell is the range of one beam.
+        ranges = None if all(dialect.number(cell) is not None for row in cells for cell in row) else ranges
     beams = array_columns(names)
     if ranges is not None or beams:
         if column_of(names, lambda name: name.ends("frame_id")) is not None:
