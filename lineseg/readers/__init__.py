@@ -34,7 +34,7 @@ from .printed import PrintedMessages
 from .reading import Reading
 from .sick import SickTelegrams
 from .source import Cancelled, Progress, Reader, Source
-from .tables.dialect import LONG_LIST, labels_of
+from .tables.dialect import LAST_LIST, LONG_LIST, labels_of
 from .tables.text import Text
 from .urgbenri import UrgBenriLog
 from .xml_scans import XmlScans
@@ -150,6 +150,7 @@ def _has_numbers(head: bytes) -> bool:
     return (
         labels_of(lines[:MOST_LINES]) is not None
         or LONG_LIST.search(head) is not None
+        or any(LAST_LIST.search(line) for line in lines[:MOST_LINES])
         or any(line.lstrip(b" \t[(")[:1] in b"+-.0123456789" for line in lines if line.strip())
     )
 

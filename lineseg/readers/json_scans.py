@@ -176,7 +176,8 @@ def _angles(source: Source, found: Mapping[str, tuple[Name, Any]], beams: int) -
     step, low = reading.angle_increment, reading.angle_min
     usual = usual_angles(beams)
     if step is None and usual is not None:
-        low, step = (math.radians(each) for each in usual)
+        usual_low, step = (math.radians(each) for each in usual)
+        low = usual_low if low is None else low
         tell_usual_angles(notes, reading, "the scan has", beams, low, step)
     if step is None:
         raise ValueError(f"it has {beams} ranges without angles; give angle_min and angle_increment")

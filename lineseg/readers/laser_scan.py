@@ -154,6 +154,8 @@ def _text(value: Any) -> str:
 
 def _whole(stamp: Mapping[str, Any], *names: str) -> int:
     value = next((stamp[name] for name in names if name in stamp), 0)
+    if isinstance(value, str) and value.isdecimal():  # as protobuf writes long numbers
+        value = int(value)
     if isinstance(value, bool) or not isinstance(value, int) or not 0 <= value < 1 << 32:
         raise ValueError(f"the stamp's {names[0]} is {_shown(value)}; it must be a whole number")
     return value

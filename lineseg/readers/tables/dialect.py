@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import re
+from collections import Counter
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from datetime import UTC, datetime
@@ -35,11 +36,12 @@ IN_NAME = re.compile(
 )
 # What stands before the size or an index of an array, as in ranges[541].
 INDEXED = re.compile(rb"\w$")
+# A number can be read in one way only, so that a long line that fits nothing takes no time.
+NUMBER = rb"(?>[-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?|[-+.]?inf|\.?nan|null|none)"
+# Two numbers or more in brackets at the end of a line.
+LAST_LIST = re.compile(rb"[\[({]\s*+(%s(?>(?:\s*+,\s*+|\s++)%s)+)\s*+[\])}]\W*$" % (NUMBER, NUMBER), re.IGNORECASE)
 # A list of ten numbers or more.
-LONG_LIST = re.compile(
-    rb"(?:\[|\{\w+ )((?:\s*(?:[-+]?\d*\.?\d+(?:e[-+]?\d+)?|[-+.]?inf|\.?nan|null|none)\s*,){9}[^\[\]{}]*)[\]}]",
-    re.IGNORECASE,
-)
+LONG_LIST = re.compile(rb"(?:\[|\{\w+ )((?>(?:\s*+%s\s*+,){9}[^\[\]{}]*))[\]}]" % NUMBER, re.IGNORECASE)
 WORDS = {
     rb"float\(['\"]([-+\w]+)['\"]\)": rb"\1",
     rb"\b(?:np|numpy|math)\.": b"",
@@ -49,8 +51,10 @@ WORDS = {
 }
 MISSING = (
     b"", b"-", b"--", b"null", b"none", b"na", b"n/a", b"#n/a", b"#value!", b"#num!", b"#div/0!", b"#ref!", b".nan",
-    b".inf", b"-.inf",
+    b".inf", b"-.inf", b"undefined", b"nil", b"missing", b"invalid", b"out of range", b"no return", b"no echo",
 )  # fmt: skip
+# What C programs print on Windows.
+OF_WINDOWS = re.compile(rb"[-+]?(?:1\.#(?:inf|ind|qnan|snan)\d*|nan\(\w*\))", re.IGNORECASE)
 TIME = re.compile(
     rb"(?:(\d{4})[-/.](\d\d?)[-/.](\d\d?)[T /_-])?(\d\d?):(\d\d):(\d\d(?:[.,]\d+)?)\s*(?:Z|UTC|([-+]\d\d):?(\d\d))?"
 )
@@ -126,7 +130,7 @@ class Dialect:
             return number_of(cell.replace(b",", b".") if self.comma else cell)
         except ValueError:
             cell = cell.strip()
-            if cell.lower() in MISSING:
+            if cell.lower() in MISSING or OF_WINDOWS.fullmatch(cell):
                 return float("nan")
             number = _with_thousands(cell)
             return seconds_of(cell) if number is None else number
@@ -191,6 +195,11 @@ def text_of(cell: bytes) -> str:
 def dialect_of(lines: list[bytes]) -> Dialect:
     """The dialect of some lines, of which the first may be a header."""
     data = (lines if begins_with_number(lines[0]) else lines[1:]) or lines
+    if _has_commas_alone(lines[0]) and len(data) < len(lines):
+        # Its cells may hold lists with other marks.
+        commas = lines[0].count(b",")
+        if all(b'"' not in line and line.count(b",") == commas for line in data):
+            return Dialect(b",")
     whole = b" ".join(data)
     for mark in (b";", b"\t", b"|"):
         if mark in whole and sum(mark in line for line in data) > len(data) / 2:
@@ -204,6 +213,10 @@ def dialect_of(lines: list[bytes]) -> Dialect:
         return Dialect(b" ")
     # In quotes, a comma may be a decimal sign also where commas part the cells.
     return Dialect(b",", _decimal_commas([Dialect(b",").cells(line) for line in data if line.count(b'"') > 2]))
+
+
+def _has_commas_alone(header: bytes) -> bool:
+    return header.count(b",") > 1 and not any(mark in header for mark in (b";", b"\t", b"|"))
 
 
 def begins_with_number(line: bytes) -> bool:
@@ -237,11 +250,26 @@ def is_list(line: bytes) -> bool:
     return brackets and LIST.fullmatch(line.strip()) is not None and not IN_NAME.match(line)
 
 
-def in_log(lines: list[bytes]) -> bool:
-    """Whether most lines have a list of numbers among words, as logs of a node have."""
-    return (b"[" in lines[0] or b"{" in lines[0]) and 2 * sum(
-        LONG_LIST.search(line) is not None for line in lines
-    ) > len(lines)
+def in_log(lines: list[bytes]) -> re.Pattern[bytes] | None:
+    """What finds the list of numbers among the words of most lines, as logs of a node have; None without one."""
+    if b"[" not in lines[0] and b"{" not in lines[0]:
+        return None
+    return next(
+        (list_ for list_ in (LONG_LIST, LAST_LIST) if 2 * sum(map(bool, map(list_.search, lines))) > len(lines)), None
+    )
+
+
+def of_one_label(rows: Iterable[Row], lines: list[bytes]) -> Iterable[Row]:
+    """The rows whose brackets have the usual words before them, if other words stand before some of the others."""
+    labels = Counter(_words_before(line) for line in lines if b"[" in line)
+    label, count = labels.most_common(1)[0] if labels else (b"", 0)
+    if len(labels) < 2 or 2 * count <= len(lines) or not label:
+        return rows
+    return (row for row in rows if _words_before(row.text) == label)
+
+
+def _words_before(line: bytes) -> bytes:
+    return re.sub(rb"[^A-Za-z]+", b" ", line.partition(b"[")[0]).strip()
 
 
 def bracketed(rows: Iterable[Row], name: str) -> Iterator[Row]:

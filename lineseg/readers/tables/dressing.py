@@ -28,6 +28,10 @@ DASH = re.compile(rb"\s*-\s+(?=[-+]?\.?(?:\d|nan|inf)\S*\s*$)", re.IGNORECASE)
 ROW_END = re.compile(rb"\\\\(?:\[[^\]]*\])?\s*(?:\\\w+\s*)*$|\\(?:tabularnewline|cr)\b.*$")
 DEGREES = re.compile(rb"\^\{?\\circ\}?|\\textdegree|\\degree")
 MARKS = re.compile(rb"\$|\\(?:,|\w+\{|)|[{}]")
+# A table in a box, as MySQL, polars and Markdown draw it.
+UPRIGHT = re.compile("\\||│|┃|║|┆|┊|¦".encode())
+BOXED = re.compile("\\s*(?:\\||│|┃|║)[^\n]*(?:\\||│|┃|║)\\s*".encode())
+RULE = re.compile(rb"[-:= ]*")
 MANY, ENOUGH, SAMPLE = 10, 16, 40
 
 
@@ -55,7 +59,16 @@ def _of_latex(line: bytes) -> bytes:
     return MARKS.sub(b"", DEGREES.sub("°".encode(), ROW_END.sub(b"", line.strip()))).replace(b"&", b"\t")
 
 
+def _of_box(line: bytes) -> bytes:
+    """The cells of a row, parted by tabs; nothing for lines that are drawn."""
+    cells = [cell.strip() for cell in UPRIGHT.split(line.strip())]
+    if len(cells) < 3 or all(RULE.fullmatch(cell) for cell in cells):
+        return b""
+    return b"\t".join(cells[1:-1])
+
+
 DRESSES = (
+    Dress(BOXED.fullmatch, _of_box),
     Dress(RECEIVED.match, _without_time),
     Dress(lambda line: b"&" in line and ROW_END.search(line.strip()), _of_latex),
     Dress(QUOTES.fullmatch, lambda line: QUOTES.sub(rb"\1", line)),

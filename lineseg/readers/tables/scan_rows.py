@@ -38,6 +38,9 @@ VIEWS, STEPS = (180.0, 190.0, 200.0, 240.0, 270.0, 275.0), (1.0, 0.5, 1 / 3, 0.2
 MOST_LEADING = 8
 # Before the ranges of a known laser may also stand what a robot knows.
 MOST_SETTINGS = 32
+# More columns than a turn has degrees are no angles.
+MOST_DEGREES = 361
+MOST_LASERS = 4
 # Rows may vary by this share; those that differ more are broken.
 VARIES = 0.1
 LEAST_BEAMS = 10
@@ -77,8 +80,12 @@ def scans_of(
         values = [row[::2] for row in values]
     geometry = None
     if len(values) > 1:
-        geometry = _angle_row(source, reading, values) or _settings_row(values)
-        if geometry is not None:
+        numbered = _numbers_columns(values)
+        angles = None if numbered > MOST_DEGREES else _angle_row(source, reading, values)
+        geometry = angles or _settings_row(values)
+        if numbered and angles is not None:
+            _tell_counted(source.notes, reading, angles)
+        if geometry is not None or numbered:
             # The row may be there again before each scan.
             others = [at for at, row in enumerate(values) if not np.array_equal(row, values[0], equal_nan=True)]
             numbers, values = [numbers[at] for at in others], [values[at] for at in others]
@@ -89,9 +96,10 @@ def scans_of(
     beams = Counter(len(row) - skip for row in values).most_common(1)[0][0]
     angle_min, increment = _angles(source, reading, beams, geometry)
     stamps = _stamps(source, values, skip, leading)
+    lasers = _lasers(values, skip) if leading is None else [""] * len(values)
     sweeps = Sweeps()
-    for row, stamp in zip(values, stamps.tolist(), strict=True):
-        sweeps.add(row[skip:], angle_min, increment, stamp=stamp)
+    for row, stamp, laser in zip(values, stamps.tolist(), lasers, strict=True):
+        sweeps.add(row[skip:], angle_min, increment, stamp=stamp, frame_id=laser)
     lengths = [len(row) - skip for row in values]
     if min(lengths) != max(lengths):
         source.notes.notice(
@@ -194,6 +202,25 @@ def _angle_row(source: Source, reading: Reading, values: list[Floats]) -> Geomet
         step = float(angles[-1] - angles[0]) / (len(angles) - 1)
         return Geometry(float(angles[0]) * turn, step * turn, len(angles), "the first row")
     return None
+
+
+def _numbers_columns(values: list[Floats]) -> int:
+    """How many columns the first row numbers from 0 or 1, as spreadsheets and pandas do; 0 if it does not."""
+    for lead in range(min(4, len(values[0]))):
+        first, second = values[0][lead:], values[1][lead:]
+        if len(first) >= LEAST_BEAMS and first[0] in (0, 1) and (np.diff(first) == 1).all():
+            return 0 if len(second) == len(first) and _even(second) else len(first)
+    return 0
+
+
+def _tell_counted(notes: Notes, reading: Reading, angles: Geometry) -> None:
+    """Tells that a row that counts was taken for angles in degrees."""
+    if reading.angle_min is None and reading.angle_increment is None:
+        first, step = usual_angles(angles.beams) or (-angles.beams / 2, 1.0)
+        why = "the first row counts, as degrees do, or the numbers of columns"
+        last = math.degrees(angles.angle_min) + angles.beams - 1
+        change = {"angle_min": round(math.radians(first), 8), "angle_increment": round(math.radians(step), 8)}
+        notes.guess("angle_min", f"{math.degrees(angles.angle_min):.0f}…{last:.0f}°", why, **change)
 
 
 def _even(numbers: Floats) -> bool:
@@ -314,6 +341,17 @@ def _stamps(source: Source, values: list[Floats], skip: int, leading: tuple[str,
     if leading is None:
         source.notes.guess("stamps", f"column {at + 1} as {words}", "it rises from row to row", stamps="none")
     return times
+
+
+def _lasers(values: list[Floats], skip: int) -> list[str]:
+    """(rows,) the number of each row's laser, if a leading column has a few whole numbers in turn; otherwise ""."""
+    for lead in range(min(skip, MOST_LEADING)):
+        column = np.array([row[lead] for row in values])
+        count = len(np.unique(column))
+        repeats = column[count:] == column[:-count]
+        if 2 <= count <= MOST_LASERS and len(repeats) >= count and repeats.all() and (column == np.floor(column)).all():
+            return [f"{laser:.0f}" for laser in column.tolist()]
+    return [""] * len(values)
 
 
 # Angles

@@ -18,7 +18,6 @@ from .beam_groups import groups_of, read_groups
 from .beam_rows import columns_beside, read_beams, table_of
 from .dialect import (
     COMMENTS,
-    LONG_LIST,
     Dialect,
     Row,
     begins_with_number,
@@ -27,6 +26,7 @@ from .dialect import (
     in_log,
     is_list,
     labels_of,
+    of_one_label,
     text_of,
     unlabelled,
 )  # fmt: skip
@@ -59,6 +59,7 @@ TEXT_FORMS = "use one scan per row, or columns of angle and distance, or a table
 ANGLE = re.compile("([A-Za-z][A-Za-z_ ]*[@_ ])?([-+]?\\d+(?:[.,]\\d+)?)([\\s_]*(?:deg|rad|°)?)".encode(), re.IGNORECASE)
 MARK = re.compile(rb"[,;\t]")
 MOST_NAMES = 4
+NUMBERS = re.compile(rb"[-+.:\d]+")
 # The column of numbers that a header leaves out.
 UNNAMED = Name("index")
 # With fewer rows, nothing is a title.
@@ -94,8 +95,28 @@ class Text(Reader):
             raise ValueError(f"{source.name} has no line of numbers; {TEXT_FORMS}")
         reading = _with_comments(source, said)
         rest = (row for row in rows if not row.text.startswith(COMMENTS))
-        head = _below_titles(source, [first, *islice(rest, SAMPLE)])
+        head, rest = _without_headings(source, [first, *islice(rest, SAMPLE)], rest)
+        head = _below_titles(source, head)
         return _read(source, reading, head, chain(head, rest), comment)
+
+
+def _without_headings(source: Source, head: list[Row], rest: Iterable[Row]) -> tuple[list[Row], Iterable[Row]]:
+    """The rows without lines of the same words, such as "Scan 3 at 1.5 s", that stand above some of them."""
+    words = _words(head[0].text)
+    these = [_words(row.text) == words for row in head]
+    if not words or sum(these) < 2 or 2 * sum(these) > len(head):
+        return head, rest
+    below = [row.text for row, heading in zip(head[1:], these, strict=False) if heading]
+    if not all(map(begins_with_number, below)):
+        return head, rest
+    shown = text_of(head[0].text.strip()[:40])
+    source.notes.notice("titles", f"Lines of words between the rows, such as {shown!r}, were passed over.")
+    return [row for row in head if _words(row.text) != words], (row for row in rest if _words(row.text) != words)
+
+
+def _words(line: bytes) -> bytes:
+    """The words of a line that does not begin with a number, without the numbers in it."""
+    return b"" if begins_with_number(line) else NUMBERS.sub(b"", line)
 
 
 def _below_titles(source: Source, head: list[Row]) -> list[Row]:
@@ -175,12 +196,12 @@ def _read(source: Source, reading: Reading, head: list[Row], rows: Iterable[Row]
     """Decides what the rows hold, from the first of them."""
     lines = [row.text for row in head]
     source.notes.kind = "text"
-    if not is_list(lines[0]) and in_log(lines):
-        lists = (Row(row.number, found[1]) for row in rows if (found := LONG_LIST.search(row.text)))
+    if not is_list(lines[0]) and (pattern := in_log(lines)) is not None:
+        lists = (Row(row.number, found[1]) for row in rows if (found := pattern.search(row.text)))
         head = list(islice(lists, SAMPLE))
         return _read_numbers(source, reading, head, chain(head, lists), Dialect(b","), None)
     if is_list(lines[0]):
-        rows, dialect = bracketed(rows, source.name), Dialect(b" ")
+        rows, dialect = bracketed(of_one_label(rows, lines), source.name), Dialect(b" ")
         head = list(islice(rows, SAMPLE))
         if not head:
             raise ValueError(f"{source.name} has brackets, but no list of numbers in them; {TEXT_FORMS}")
@@ -233,7 +254,8 @@ def _angles_in_names(source: Source, dialect: Dialect, cells: list[bytes]) -> by
         return None
     if (unit := TURNS.get(text_of(units.pop()))) and source.reading.angle_unit is None:
         source.notes.found["angle_unit"] = unit
-    return dialect.separator.join([*[b"nan"] * lead, *(each[2] for each in found if each)])
+    angles = [each[2] if dialect.comma else each[2].replace(b",", b".") for each in found if each]
+    return dialect.separator.join([*[b"nan"] * lead, *angles])
 
 
 def _names(dialect: Dialect, head: list[Row], cells: list[bytes]) -> list[Name]:
