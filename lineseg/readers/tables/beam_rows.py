@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...scan import Floats, Recording, Topic
-from ..guessing import FAR, MOST_DEGREES, angle_unit_of, guess_angle_unit
+from ..guessing import FAR, MOST_DEGREES, angle_unit_of, guess_angle_unit, middle_of
 from ..reading import RADIANS, Direction, Reading
 from ..source import Source, Sweeps
 from ..stamping import in_seconds
@@ -88,7 +88,8 @@ def beams_of(
     if _are_poses(table, names):
         way = "" if names is not None else " If it has beams after all, say what the columns hold with --columns."
         raise ValueError(f"{source.name} has poses, not scans; open the scans, and give this file as --poses.{way}")
-    _check_path(source, table, names)
+    if names is not None or table.shape[1] > 2:
+        _check_path(source, table, names)
     if names is not None:
         return with_roles(source, reading, table, names, _named(names), guess_direction, format)
     if table.shape[1] > 2 and alike(table):
@@ -139,17 +140,18 @@ def _check_path(source: Source, table: NDArray[np.float64], names: list[Name] | 
 
 def _goes_about(xy: NDArray[np.float64]) -> bool:
     """Whether two columns without names may be a path: they do not count evenly, and are not all above 0."""
+    if not ((xy < 0).mean(axis=0) > FEW_BELOW).any() and not _begins_at_zero(xy):
+        return False
     steps = np.abs(np.diff(xy, axis=0))
     usual = np.median(steps, axis=0)
     even = (np.median(np.abs(steps - usual), axis=0) <= EVEN * usual).any()
-    below = ((xy < 0).mean(axis=0) > FEW_BELOW).any()
-    return bool((below or _begins_at_zero(xy)) and not even and _is_path(xy))
+    return not even and _is_path(xy)
 
 
 def _begins_at_zero(xy: NDArray[np.float64]) -> bool:
     """Whether points (n, 2) begin nearer to zero than a few of their steps, where no laser sees anything."""
     steps = np.hypot(*np.diff(xy, axis=0).T)
-    return bool(np.hypot(*xy[0]) < NEAR_ZERO * np.median(steps))
+    return bool(np.hypot(*xy[0]) < NEAR_ZERO * middle_of(np.sort(steps)))
 
 
 def _is_path(xy: NDArray[np.float64]) -> bool:
@@ -379,6 +381,8 @@ def _guessed(source: Source, table: NDArray[np.float64]) -> Roles:
     score, roles = columns_of_beam(table)
     if len(table) < FEW_ROWS:
         score, roles = 0.0, Roles(True, 0, 1)
+    if table.shape[1] == 2 and not (roles.polar and score <= LEAST_REGULAR):
+        _check_path(source, table, None)
     if score > LEAST_REGULAR:
         raise ValueError(
             f"{source.name} has rows of {table.shape[1]} numbers of which none is an angle that rises or falls evenly; "

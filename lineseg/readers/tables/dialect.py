@@ -265,6 +265,8 @@ def of_one_label(rows: Iterable[Row], lines: list[bytes]) -> Iterable[Row]:
     label, count = labels.most_common(1)[0] if labels else (b"", 0)
     if len(labels) < 2 or 2 * count <= len(lines) or not label:
         return rows
+    if not all(b"]" in line.partition(b"[")[2] for line in lines if _words_before(line) == label):
+        return rows
     return (row for row in rows if _words_before(row.text) == label)
 
 

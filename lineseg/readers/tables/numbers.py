@@ -49,10 +49,14 @@ def all_numbers(text: bytes) -> Floats | None:
     found, end = _plain_decimals(np.frombuffer(text, np.uint8), values, EXACT_POWERS)
     if end >= len(text):
         return values[:found].copy()
+    words = text[end:].translate(BLANKS).split()
     try:
-        rest = list(map(number_of, text[end:].translate(BLANKS).split()))
+        rest = list(map(float, words))
     except ValueError:
-        return None
+        try:
+            rest = list(map(number_of, words))
+        except ValueError:
+            return None
     return np.concatenate((values[:found], rest))
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
@@ -31,17 +31,20 @@ def scans_over_lines(
     source: Source, dialect: Dialect, head: list[Row], width: int
 ) -> tuple[list[int], list[Floats]] | None:
     """(line numbers, ranges) of scans that are parted by blank lines, by lines of words, or by a shorter line; or of
-    one scan in all lines. None if the file has one scan, or one beam, a line. width: the most cells of a line."""
+    one scan in all lines. None if the file has one scan, or several numbers of one beam, a line, or lines of other
+    words. width: the most cells of a line."""
     if width == 2 or width > WIDEST or usual_angles(width) is not None:
         return None
     if width > 2:
         whole = [found for row in head if (found := dialect.numbers(row.text)) is not None and len(found) == width]
         if len(whole) < LEAST_LINES or not alike(np.array(whole, np.float64)):
             return None
-    lines = list(_lines(source, dialect))
+    texts = [(row.number, row.text.strip()) for row in rows_of(source)]
+    if width == 1 and (whole := _column(texts, dialect)) is not None:
+        return whole
+    lines = [Line(number, text, _numbers(text, dialect)) for number, text in texts]
     ends: list[Callable[[Line], bool]] = [_is_blank, _is_words]
     if width > 2:
-        # A whole file of one column is read as one scan elsewhere.
         ends += [lambda line: line.numbers is not None and len(line.numbers) < width, lambda line: False]
     for scans in (_parts(lines, end) for end in ends):
         sizes = {sum(map(len, values)) for _, values in scans}
@@ -53,10 +56,19 @@ def scans_over_lines(
     return None
 
 
-def _lines(source: Source, dialect: Dialect) -> Iterator[Line]:
-    for number, line in rows_of(source):
-        text = line.strip()
-        yield Line(number, text, None if not text or text.startswith(COMMENTS) else dialect.numbers(text))
+def _column(texts: list[tuple[int, bytes]], dialect: Dialect) -> tuple[list[int], list[Floats]] | None:
+    """The scan in a column without a gap, parsed at once; None if there are gaps or words between its numbers."""
+    texts = [(number, text) for number, text in texts if not text.startswith(COMMENTS)]
+    while texts and not texts[-1][1]:
+        texts.pop()
+    if not texts or not all(text for _, text in texts):
+        return None
+    values = dialect.numbers(b"\n".join(text for _, text in texts))
+    return None if values is None or len(values) != len(texts) else ([texts[0][0]], [values])
+
+
+def _numbers(text: bytes, dialect: Dialect) -> Floats | None:
+    return None if not text or text.startswith(COMMENTS) else dialect.numbers(text)
 
 
 def _is_blank(line: Line) -> bool:

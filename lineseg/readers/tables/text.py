@@ -104,7 +104,7 @@ def _without_headings(source: Source, head: list[Row], rest: Iterable[Row]) -> t
     """The rows without lines of the same words, such as "Scan 3 at 1.5 s", that stand above some of them."""
     words = _words(head[0].text)
     these = [_words(row.text) == words for row in head]
-    if not words or sum(these) < 2 or 2 * sum(these) > len(head):
+    if not re.search(rb"[A-Za-z]", words) or is_list(head[0].text) or sum(these) < 2 or 2 * sum(these) > len(head):
         return head, rest
     below = [row.text for row, heading in zip(head[1:], these, strict=False) if heading]
     if not all(map(begins_with_number, below)):
