@@ -14,6 +14,8 @@ from cyclonedds.domain import Domain, DomainParticipant
 from .address import domain_of
 
 RANGES = ("LOCALHOST", "SUBNET", "OFF", "SYSTEM_DEFAULT")
+# Cyclone DDS announces itself to a peer for 30 s only; a robot may start later, and may listen to nothing else.
+STEADY = "<SPDPInterval>1s</SPDPInterval><InitialLocatorPruneDelay>inf</InitialLocatorPruneDelay>"
 PARTICIPANTS = "<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>32</MaxAutoParticipantIndex>"
 
 
@@ -24,17 +26,15 @@ def join(domain: int | None) -> DomainParticipant:
     """
     id = domain_of(os.environ) if domain is None else domain
     uri = os.environ.get("CYCLONEDDS_URI", "")
-    config = ",".join(filter(None, (discovery(os.environ), uri)))
     try:
-        if config:
-            _domain(id, config)
+        _domain(id, ",".join(filter(None, (discovery(os.environ), uri))))
         return DomainParticipant(id)
     except DDSException as error:
         raise OSError(f"domain {id} cannot be joined: {_why(uri) or error.msg or error}") from None
 
 
 def discovery(environ: Mapping[str, str]) -> str:
-    """Cyclone DDS's configuration for where to look for others, as ROS 2 would have it; "" for its usual way."""
+    """Cyclone DDS's configuration for where to look for others, as ROS 2 would have it."""
     only_here = environ.get("ROS_LOCALHOST_ONLY") == "1"
     range = "LOCALHOST" if only_here else environ.get("ROS_AUTOMATIC_DISCOVERY_RANGE") or "SUBNET"
     if range not in RANGES:
@@ -42,16 +42,17 @@ def discovery(environ: Mapping[str, str]) -> str:
     peers = [] if only_here or range in ("OFF", "SYSTEM_DEFAULT") else _peers(environ.get("ROS_STATIC_PEERS", ""))
     if range == "LOCALHOST":
         peers.insert(0, "localhost")
-    general = "<Interfaces><NetworkInterface address='127.0.0.1'/></Interfaces>" if only_here else ""
+    # Cyclone DDS refuses an interface that is chosen twice.
+    chosen = "NetworkInterface" in environ.get("CYCLONEDDS_URI", "")
+    here = "<Interfaces><NetworkInterface address='127.0.0.1'/></Interfaces>"
+    general = here if only_here and not chosen else ""
     if range in ("LOCALHOST", "OFF"):
         general += "<AllowMulticast>false</AllowMulticast>"
     found = "".join(f"<Peer Address='{peer}'/>" for peer in peers)
-    parts = f"<General>{general}</General>" if general else ""
-    if range == "OFF":
-        parts += f"<Discovery><Tag>off-{os.getpid()}</Tag></Discovery>"
-    elif found:
-        parts += f"<Discovery>{PARTICIPANTS}<Peers>{found}</Peers></Discovery>"
-    return f"<CycloneDDS><Domain>{parts}</Domain></CycloneDDS>" if parts else ""
+    others = PARTICIPANTS + f"<Peers>{found}</Peers>" if found else ""
+    others = f"<Tag>off-{os.getpid()}</Tag>" if range == "OFF" else others
+    general = f"<General>{general}</General>" if general else ""
+    return f"<CycloneDDS><Domain>{general}<Discovery>{STEADY}{others}</Discovery></Domain></CycloneDDS>"
 
 
 def _peers(text: str) -> list[str]:

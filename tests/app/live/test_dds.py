@@ -292,14 +292,20 @@ def test_an_interface_that_is_not_there_is_named(peer: Obedient, monkeypatch: py
         ({}, ""),
         ({"ROS_AUTOMATIC_DISCOVERY_RANGE": "SUBNET"}, ""),
         ({"ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}, "<AllowMulticast>false.*<Peer Address='localhost'/>"),
-        ({"ROS_LOCALHOST_ONLY": "1"}, "<NetworkInterface address='127.0.0.1'/>.*<Peer Address='localhost'/>"),
+        ({"ROS_LOCALHOST_ONLY": "1"}, "address='127.0.0.1'/>.*<AllowMulticast>false.*<Peer Address='localhost'/>"),
+        (
+            {"ROS_LOCALHOST_ONLY": "1", "CYCLONEDDS_URI": URI},
+            "<General><AllowMulticast>false.*<Peer Address='localhost'/>",
+        ),
         ({"ROS_STATIC_PEERS": "10.0.0.2;robot"}, "<Peer Address='10.0.0.2'/><Peer Address='robot'/>"),
         ({"ROS_AUTOMATIC_DISCOVERY_RANGE": "OFF", "ROS_STATIC_PEERS": "robot"}, "<AllowMulticast>false.*<Tag>off-"),
     ],
 )
 def test_the_environment_of_ros_says_where_to_look(environment: dict[str, str], expected: str):
-    assert re.search(expected, discovery(environment))
-    assert bool(discovery(environment)) == bool(expected)
+    found = discovery(environment)
+    assert re.search(expected, found)
+    assert ("<Peer " in found, "<AllowMulticast>" in found) == ("<Peer " in expected, "<AllowMulticast>" in expected)
+    assert "<InitialLocatorPruneDelay>inf<" in found
 
 
 def test_a_variable_that_cannot_be_is_told(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]):
