@@ -10,6 +10,15 @@ export function recall(key) {
   }
 }
 
+/** What was kept as JSON; null if there is none. Another version, or a person, may have put anything there. @param {string} key @returns {any} */
+export function recalled(key) {
+  try {
+    return JSON.parse(recall(key) ?? "null");
+  } catch {
+    return null;
+  }
+}
+
 /** @param {string} key @param {string | null} value null: forgets it */
 export function keep(key, value) {
   try {

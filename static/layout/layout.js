@@ -1,5 +1,6 @@
 // @ts-check
 // How the window is divided: the sizes that a person gave to the panel and the timeline, and which of them are hidden.
+import { keep, recalled } from "../kept.js";
 import { createDivider } from "./divider.js";
 
 const KEY = "lineseg.layout";
@@ -9,6 +10,9 @@ const HIDDEN_PX = 120;
 // Plots lower than this are not shown; dragged as far down, the timeline is hidden.
 const SNAP_PX = 24;
 const PLOTS_PX = 200;
+const LEAST_KEPT_PX = 24;
+const MOST_KEPT_PX = 4000;
+const SIZES = /** @type {const} */ (["panel", "learn", "below", "plots"]);
 // What remains of the stage.
 const STAGE_PX = 180;
 // In one column the panel lies below the stage. The same condition is in layout.css.
@@ -21,7 +25,7 @@ const ONE_COLUMN = matchMedia("(width <= 720px), (orientation: portrait) and (wi
  * @param {typeof import("../text/page.js").pageText.layout} text
  */
 export function createLayout({ main, panels, plots, timeline }, text) {
-  let sizes = kept();
+  let sizes = sizesIn(recalled(KEY));
   const shown = () => panels.find((panel) => !panel.hidden) ?? panels[0];
   const sized = () => (ONE_COLUMN.matches ? "below" : main.dataset.mode === "learn" ? "learn" : "panel");
   const panelDivider = createDivider(text.panel, {
@@ -73,13 +77,13 @@ export function createLayout({ main, panels, plots, timeline }, text) {
   /** @param {Sizes} next */
   function set(next) {
     sizes = next;
-    localStorage.setItem(KEY, JSON.stringify(sizes));
+    keep(KEY, JSON.stringify(sizes));
     show();
   }
 
   function show() {
     const { style } = document.body;
-    for (const name of /** @type {const} */ (["panel", "learn", "below", "plots"])) {
+    for (const name of SIZES) {
       const size = sizes[name];
       style.setProperty(`--${name}-size`, size ? `${size}px` : "");
     }
@@ -98,11 +102,9 @@ export function createLayout({ main, panels, plots, timeline }, text) {
   };
 }
 
-/** The sizes that this browser keeps. @returns {Sizes} */
-function kept() {
-  try {
-    return JSON.parse(localStorage.getItem(KEY) ?? "{}") ?? {};
-  } catch {
-    return {};
-  }
+/** What can be used of sizes from a file, or of those that this browser keeps. @param {any} said @returns {Sizes} */
+export function sizesIn(said) {
+  const sizes = SIZES.filter((name) => said?.[name] >= LEAST_KEPT_PX && said[name] <= MOST_KEPT_PX);
+  const hidden = ["panel", "timeline"].filter((part) => Array.isArray(said?.hidden) && said.hidden.includes(part));
+  return { ...Object.fromEntries(sizes.map((name) => [name, Number(said[name])])), hidden };
 }

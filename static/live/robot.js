@@ -3,6 +3,7 @@
 import { openDialog } from "../widgets/dialog.js";
 import { h } from "../widgets/dom.js";
 import { messageOf } from "../fetch.js";
+import { keep, recalled } from "../kept.js";
 
 const KEY = "lineseg.robot";
 const BRIDGE = "";
@@ -67,7 +68,8 @@ export async function showSend(words, method, params) {
  * @param {string[]} addresses the bridges that were named at the start, since no others are reached
  */
 function createBridge(text, addresses) {
-  const last = remembered();
+  /** @type {{address?: string, node?: string, ros?: number, extensions?: boolean}} */
+  const last = recalled(KEY) ?? {};
   const named = addresses.length && !addresses.includes(last.address ?? "") ? addresses[0] : last.address;
   const address = field(text.address, named ?? "ws://localhost:9090", "url");
   const list = h("datalist", { id: "named-robots" }, ...addresses.map((value) => h("option", { value })));
@@ -102,7 +104,7 @@ function createBridge(text, addresses) {
 
 /** @param {Words["send"]} text @param {object} asked @param {import("../wire.js").Params} params @returns {Outcome} */
 async function toBridge(text, asked, params) {
-  localStorage.setItem(KEY, JSON.stringify(asked));
+  keep(KEY, JSON.stringify(asked));
   const { values, trouble } = await post("/api/robot/params", { ...asked, params });
   return { content: trouble === null ? table(text, values.sent) : [], trouble };
 }
@@ -210,15 +212,6 @@ function field(label, value, inputMode) {
     inputMode,
   });
   return { input, row: h("label", { class: "robot-field" }, h("span", {}, label), input) };
-}
-
-/** @returns {{address?: string, node?: string, ros?: number, extensions?: boolean}} */
-function remembered() {
-  try {
-    return JSON.parse(localStorage.getItem(KEY) ?? "{}") ?? {};
-  } catch {
-    return {};
-  }
 }
 
 /** @param {string} url @param {object} asked @returns {Promise<{values: any, trouble: string | null}>} */

@@ -16,6 +16,7 @@ export const tuningText = {
     close: "Close",
     manage: "Keep or open a profile…",
     used: (/** @type {string} */ name) => `Profile ${name}. Ctrl+Z brings the former thresholds and layers back.`,
+    unknown: (/** @type {string} */ method) => `This profile is for the method ${method}, which is not known here.`,
     notOne: (/** @type {string} */ file) => `${file} is not a profile of lineseg. Choose a .lineseg-profile.json file.`,
   },
   fit: {

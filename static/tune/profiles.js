@@ -1,6 +1,9 @@
 // @ts-check
 // Profiles: thresholds, Reading, layers and layout under a name, in this browser and as small files.
+import { keep, recalled } from "../kept.js";
+import { sizesIn } from "../layout/layout.js";
 import { chooseFile } from "../open/files.js";
+import { fieldOf } from "../view/fields.js";
 import { isIn } from "../view/key.js";
 import { download } from "../widgets/clipboard.js";
 import { openDialog } from "../widgets/dialog.js";
@@ -12,6 +15,7 @@ import { toast } from "../widgets/toast.js";
 const KEY = "lineseg.profiles";
 const FORMAT = "lineseg profile 1";
 const LONGEST_NAME = 60;
+const LARGEST = 100_000;
 
 /** @typedef {ReturnType<typeof createProfiles>} Profiles */
 
@@ -23,9 +27,10 @@ const LONGEST_NAME = 60;
 export function createProfiles(page, layout, text) {
   /** @param {Profile} profile */
   function use({ name, view, layout: sizes }) {
+    if (!page.methods.some((method) => method.name === view.method)) return toast(text.unknown(view.method ?? ""));
     page.change({ ...view, step: page.learning ? 0 : null, selected: null });
     layout.set(sizes);
-    toast(text.used(name));
+    return toast(text.used(name));
   }
 
   /** What is on the screen, without which recording and which frame. @param {string} name @returns {Profile} */
@@ -72,7 +77,7 @@ function showProfiles(text, { use, taken }) {
           h("span", {}, profile.name),
           button(text.use, () => (dialog.close(), use(profile))),
           button(text.save, () => download(`${profile.name}.lineseg-profile.json`, JSON.stringify(profile, null, 2))),
-          button(text.remove, () => (keep(profile.name, null), refresh())),
+          button(text.remove, () => (keepAs(profile.name, null), refresh())),
         ),
       ),
     );
@@ -81,17 +86,17 @@ function showProfiles(text, { use, taken }) {
   function add() {
     const words = name.value.trim();
     if (!words) return name.focus();
-    keep(words, taken(words));
+    keepAs(words, taken(words));
     name.value = "";
     return refresh();
   }
 
   /** @param {File[]} files */
   async function read(files) {
-    const found = profileIn(await files[0].text());
+    const found = await profileIn(files[0]);
     trouble.hidden = found !== null;
     if (!found) return setText(trouble, text.notOne(files[0].name));
-    keep(found.name, found);
+    keepAs(found.name, found);
     return refresh();
   }
 
@@ -114,31 +119,48 @@ function showProfiles(text, { use, taken }) {
 }
 
 /** @param {string} name @param {Profile | null} profile null: no longer */
-function keep(name, profile) {
+function keepAs(name, profile) {
   const { [name]: _, ...others } = kept();
-  localStorage.setItem(KEY, JSON.stringify(profile ? { ...others, [name]: profile } : others));
+  keep(KEY, JSON.stringify(profile ? { ...others, [name]: profile } : others));
 }
 
 /** The profiles of this browser. @returns {Record<string, Profile>} */
 function kept() {
-  try {
-    return JSON.parse(localStorage.getItem(KEY) ?? "{}") ?? {};
-  } catch {
-    return {};
-  }
+  const profiles = Object.entries(recalled(KEY) ?? {}).map(([name, said]) => [name, profileOf(said)]);
+  return Object.fromEntries(profiles.filter(([, profile]) => profile));
 }
 
-/** The profile in the text of a file; null if it is none. The server checks what it says of the View. @param {string} words @returns {Profile | null} */
-function profileIn(words) {
+/** The profile in a file; null if it is none. @param {File} file */
+async function profileIn(file) {
+  if (file.size > LARGEST) return null;
   try {
-    const { format, name, view, layout } = JSON.parse(words);
-    const { method, params, reading, layers } = view;
-    const sound = format === FORMAT && typeof name === "string" && name !== "" && typeof params === "object";
-    const sizes = typeof layout === "object" && layout ? layout : {};
-    return sound
-      ? { format, name: name.slice(0, LONGEST_NAME), view: { method, params, reading, layers }, layout: sizes }
-      : null;
+    return profileOf(JSON.parse(await file.text()));
   } catch {
     return null;
   }
+}
+
+/** What is of the right kind in a profile that anybody may have written; the server checks the values. @param {any} said @returns {Profile | null} */
+function profileOf(said) {
+  const { format, name, view, layout } = said ?? {};
+  if (format !== FORMAT || typeof name !== "string" || !name.trim() || typeof view?.method !== "string") return null;
+  const { method, params, reading = {}, layers = {} } = view;
+  const usual = fieldOf("layers").default;
+  const sound =
+    consistsOf(params, (value) => Number.isFinite(value)) &&
+    consistsOf(reading, (value) => ["string", "number"].includes(typeof value) || value === null) &&
+    consistsOf(layers, (value, layer) => typeof value === "boolean" && Object.hasOwn(usual, layer));
+  if (!sound) return null;
+  return {
+    format,
+    name: name.trim().slice(0, LONGEST_NAME),
+    view: { method, params, reading, layers },
+    layout: sizesIn(layout),
+  };
+}
+
+/** @param {any} values @param {(value: any, name: string) => boolean} fits */
+function consistsOf(values, fits) {
+  const named = typeof values === "object" && values !== null && !Array.isArray(values);
+  return named && Object.entries(values).every(([name, value]) => fits(value, name));
 }

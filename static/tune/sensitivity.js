@@ -1,5 +1,6 @@
 // @ts-check
 // A small curve under each slider of the results over its range, and the legend that switches the lines of the curves.
+import { keep, recalled } from "../kept.js";
 import { h, setText } from "../widgets/dom.js";
 import { tooltip } from "../widgets/tooltip.js";
 import { createCurve, LINES } from "./curve.js";
@@ -29,7 +30,8 @@ export class Sensitivity {
     this.#onSet = onSet;
     this.#onShow = onShow;
     this.#row = row;
-    this.#hidden = new Set(JSON.parse(localStorage.getItem(KEY) ?? "[]"));
+    const hidden = recalled(KEY);
+    this.#hidden = new Set(Array.isArray(hidden) ? hidden : []);
     this.#all = h("button", { type: "button", class: "curve-key all", onclick: () => this.#toggle("all") }, text.show);
     tooltip(this.#all, text.help, "left");
     this.#keys = new Map(LINES.map((line) => [line, this.#createKey(line)]));
@@ -56,7 +58,7 @@ export class Sensitivity {
   /** @param {string} line */
   #toggle(line) {
     if (!this.#hidden.delete(line)) this.#hidden.add(line);
-    localStorage.setItem(KEY, JSON.stringify([...this.#hidden]));
+    keep(KEY, JSON.stringify([...this.#hidden]));
     this.#show();
     if (line === "all") this.#onShow();
   }

@@ -169,3 +169,37 @@ def test_a_profile_is_kept_under_a_name_and_chosen_like_a_preset(new_tab: Callab
     page.keyboard.press("Control+z")
     tab.until("s.params.epsilon === 0.02 && s.layers.numbers")
     tab.eventually(lambda: menu.inner_text() != "our RPLIDAR", "the button names a profile that was undone")
+
+
+def test_a_profile_of_anybody_leaves_the_page_usable_and_so_does_what_the_browser_kept(new_tab: Callable[..., Tab]):
+    tab = new_tab("#recording=sample:hallway")
+    page = tab.page
+    view = {"method": "region-growing", "params": {"epsilon": 0.05}, "reading": {}, "layers": {}}
+    profile = {"format": "lineseg profile 1", "name": "__proto__", "view": view, "layout": {"hidden": 5, "panel": 1e9}}
+    wrong = [
+        {"params": {"epsilon": "x"}},
+        {"params": None},
+        {"layers": {"points": [[]]}},
+        {"reading": 5},
+        {"method": {}},
+    ]
+    page.locator(".panel-toolbar .menu-button").first.click()
+    page.get_by_role("menuitem", name="Keep or open a profile").click()
+    for content in [{}, [], *({**profile, "view": view | each} for each in wrong), profile]:
+        with page.expect_file_chooser() as asked:
+            page.get_by_role("button", name="Open a file…").click()
+        file = {"name": "p.json", "mimeType": "application/json", "buffer": json.dumps(content).encode()}
+        asked.value.set_files(file)  # pyright: ignore[reportArgumentType]
+        told = page.get_by_text("p.json is not a profile of lineseg")
+        told.wait_for(state="hidden" if content == profile else "visible")
+    page.locator(".profiles li").filter(has_text="__proto__").get_by_role("button", name="Use").click()
+    tab.until("s.params.epsilon === 0.05")
+    assert page.locator("#panel").bounding_box()["width"] < 720  # pyright: ignore[reportOptionalSubscript]
+    for poison in ("{", '{"hidden": 5, "panel": {}, "name": null}'):
+        script = (
+            "poison => ['layout', 'profiles', 'curves', 'robot'].forEach(k => localStorage['lineseg.' + k] = poison)"
+        )
+        page.evaluate(script, poison)
+        page.reload()
+        tab.until("s.params.epsilon === 0.05")
+    page.evaluate("localStorage.clear()")
