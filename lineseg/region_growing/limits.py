@@ -37,10 +37,23 @@ def unpacked(limits):
     return Limits(*_numbers(limits))
 
 
+def _times(follows: tuple[bool, ...], k: int = 0) -> Any:
+    """A kernel that returns limits[k], limits[k + 1], …, of which those that follow are multiplied by a factor."""
+    if not follows:
+        return kernel(lambda limits, times: ())
+    others = _times(follows[1:], k + 1)
+    if follows[0]:
+        return kernel(lambda limits, times: (times * limits[k], *others(limits, times)))
+    return kernel(lambda limits, times: (limits[k], *others(limits, times)))
+
+
+_follow_the_noise = _times(tuple(knob.scatter > 0 or knob.growth > 0 for _, _, knob in Params.knobs()))
+
+
 @kernel
 def loosened(limits, times):
-    """The limits with ε, at every range, and δ multiplied by a factor."""
-    return Limits(times * limits.epsilon, times * limits.delta, *limits[2:-1], times * limits.epsilon_growth)
+    """The limits with the thresholds that follow the noise (ε, at every range, and δ) multiplied by a factor."""
+    return Limits(*_follow_the_noise(limits, times))
 
 
 @kernel
