@@ -298,7 +298,11 @@ export interface ScoreEntry {
   weight: number;
 }
 
-/** The answer to hello. viser: address of the scene; presenter: id with which others may follow this tab. */
+/**
+ * The answer to hello. viser: address of the scene; presenter: id with which others may follow this tab.
+ *
+ * suffixes: those by which a recording is known among other files.
+ */
 export interface Welcome {
   type: "welcome";
   session: string;
@@ -310,6 +314,7 @@ export interface Welcome {
   reading: ReadingEntry[];
   recordings: RecordingEntry[];
   uploadLimit: number;
+  suffixes: string[];
   presenter: string;
 }
 

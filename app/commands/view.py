@@ -42,8 +42,8 @@ def view(
     """Show the page in the browser.
 
     Args:
-        sources: recordings to open: bags, MCAP, logs, NPZ, JSON, CSV or other text, also compressed (default: the
-            samples). Or, to watch lasers live, their addresses: ws://robot:9090 (rosbridge), ws://robot:8765
+        sources: recordings to open: bags, logs, arrays, tables or other text, also compressed (default: the samples).
+            Or, to watch lasers live, their addresses: ws://robot:9090 (rosbridge), ws://robot:8765
             (Foxglove), each with #/TOPIC if it has several lasers, ros2:/scan or ros2://DOMAIN/scan (DDS; ros2: lists
             the topics), zenoh:/scan or zenoh://router:7447/scan (Zenoh).
         reading: how to read the files; of a robot, only the topic can be chosen.

@@ -17,6 +17,7 @@ from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from lineseg import EXTRACTORS, __version__
 from lineseg.failing import mistake
+from lineseg.readers.containers.wrapping import suffixes_of_recordings
 
 from ..session.following import OWN
 from ..session.page import Page
@@ -43,6 +44,7 @@ def add_sockets(app: FastAPI, library: Library, sessions: Sessions, asked: bool)
     methods = [MethodEntry.of(method) for method in EXTRACTORS.values()]
     scores = [ScoreEntry(**asdict(score)) for score in STRIP_SCORES.values()]
     fields = ReadingEntry.all()
+    suffixes = suffixes_of_recordings()
 
     @app.websocket("/api/session")
     async def session_socket(socket: WebSocket) -> None:
@@ -67,6 +69,7 @@ def add_sockets(app: FastAPI, library: Library, sessions: Sessions, asked: bool)
                 reading=fields,
                 recordings=library.entries(),
                 uploadLimit=library.uploads.limit,
+                suffixes=suffixes,
                 presenter=session.presenter.id,
             )
             await _converse(socket, session, sessions, library, hello, welcome, complaint)

@@ -94,8 +94,7 @@ class Numbers:
         if field == "joined":
             return self._joined(traced, decision), _metres
         value = abs(decision.value - decision.limit) if field == "over" else getattr(decision, field)
-        counted = decision.check in ("min_points", "max_dropout")
-        return value, _count if counted else UNITS["deg"] if decision.check == "merge_angle" else _metres
+        return value, _WRITTEN.get(decision.check, _metres)
 
     def _joined(self, traced: Trace, decision: Decision) -> float:
         """The distance of the beam of a decision from the line that is fitted to its points and to this one."""
@@ -160,3 +159,11 @@ def _metres(value: float) -> str:
 
 def _angle(value: float) -> str:
     return f"{value:g}\u00a0rad ({UNITS['deg'](value)})"
+
+
+# Thresholds that are no lengths.
+_WRITTEN: dict[str, Callable[[float], str]] = {
+    name: UNITS["deg"] if knob.unit == "rad" else _count
+    for name, kind, knob in Params.knobs()
+    if kind is int or knob.unit == "rad"
+}

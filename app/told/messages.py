@@ -140,7 +140,10 @@ class ScoreEntry(BaseModel):
 
 
 class Welcome(BaseModel):
-    """The answer to hello. viser: address of the scene; presenter: id with which others may follow this tab."""
+    """The answer to hello. viser: address of the scene; presenter: id with which others may follow this tab.
+
+    suffixes: those by which a recording is known among other files.
+    """
 
     type: Literal["welcome"] = "welcome"
     session: str
@@ -152,6 +155,7 @@ class Welcome(BaseModel):
     reading: list[ReadingEntry]
     recordings: list[RecordingEntry]
     uploadLimit: int
+    suffixes: list[str]
     presenter: str
 
 

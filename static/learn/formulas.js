@@ -7,6 +7,7 @@ import { fraction, math, num, power, root, row, signed, term, words } from "./ma
 /** @typedef {import("./trace.js").Event} Event */
 /** @typedef {import("./trace.js").Trace} Trace */
 /** @typedef {import("./trace.js").Line} Line */
+/** @typedef {import("../wire.js").Knob} Knob */
 /** @typedef {{title: string, rows: Element[]}} Formula */
 /** @typedef {typeof import("../text/learn.js").learnText.formulas} Text */
 
@@ -44,10 +45,10 @@ export function createFormulas(text, onTerm) {
       light(name);
       if (name) body.querySelector(`[data-term="${name}"]`)?.scrollIntoView({ block: "nearest" });
     },
-    /** @param {Event | null} event @param {Trace | null} trace @param {import("../wire.js").Params} params */
-    set(event, trace, params) {
+    /** @param {Event | null} event @param {Trace | null} trace @param {import("../wire.js").Params} params @param {Knob[]} knobs */
+    set(event, trace, params, knobs) {
       lit = null;
-      const shown = event && trace ? formulasOf(event, trace, params, text) : [];
+      const shown = event && trace ? formulasOf(event, trace, params, knobs, text) : [];
       element.hidden = shown.length === 0;
       body.replaceChildren(
         ...shown.map(({ title, rows }) =>
@@ -72,10 +73,10 @@ export function createFormulas(text, onTerm) {
 }
 
 /**
- * @param {Event} event @param {Trace} trace @param {import("../wire.js").Params} params @param {Text} text
+ * @param {Event} event @param {Trace} trace @param {import("../wire.js").Params} params @param {Knob[]} knobs @param {Text} text
  * @returns {Formula[]}
  */
-function formulasOf(event, trace, params, text) {
+function formulasOf(event, trace, params, knobs, text) {
   const { kind, check, line, beam } = event;
   if (kind === "seed found") return [fitted(event, trace, text)];
   if (check === "delta" && line) return [predictedPoint(event, trace, line, text)];
@@ -89,8 +90,8 @@ function formulasOf(event, trace, params, text) {
   if (check === "merge_rms") return [spread(event, text)];
   if (kind === "overlap cut") return [cut(event, text)];
   if (kind === "endpoints" && line) return [endpoint(event, trace, line, text)];
-  if (["max_gap", "max_dropout", "max_void"].includes(check)) return [broken(event, text)];
-  return [];
+  const knob = knobs.find(({ name }) => name === check);
+  return knob ? [refused(event, knob, text)] : [];
 }
 
 /**
@@ -310,13 +311,12 @@ function endpoint({ first, ends }, trace, [a, b, c], text) {
   };
 }
 
-/** @param {Event} event @param {Text} text @returns {Formula} */
-function broken({ check, value, limit }, text) {
-  const beams = check === "max_dropout";
-  const [name, unit] = beams ? [text.dropout, ""] : [check === "max_gap" ? text.gap : text.void, " m"];
-  const digits = beams ? 0 : 3;
+/** What any other threshold refused. @param {Event} event @param {Knob} knob @param {Text} text @returns {Formula} */
+function refused({ value, limit }, { symbol, unit, kind, label, extension }, text) {
+  const digits = kind === "int" ? 0 : 3;
+  const sign = value > limit ? ">" : "<";
   return {
-    title: text.broken,
-    rows: [math(words(name), "=", num(value, digits), ">", num(limit, digits), words(unit))],
+    title: text.refused(symbol, label, extension),
+    rows: [math(num(value, digits), sign, `${symbol} =`, num(limit, digits), words(unit && ` ${unit}`))],
   };
 }

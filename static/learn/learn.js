@@ -240,7 +240,7 @@ class Learn {
       this.#handlers.closeUp.ask(false);
     }
     this.#dock.classList.toggle("asking", this.#predict.asked !== null);
-    this.#formulas.set(explained, this.#trace, this.#params);
+    this.#formulas.set(explained, this.#trace, this.#params, this.#knobs);
     this.#charts.set(explained, this.#trace, this.#params);
     this.#arrange();
     this.#splitting.light(event?.kind ?? "");

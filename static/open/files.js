@@ -4,8 +4,8 @@ import { h } from "../widgets/dom.js";
 import { messageOf } from "../fetch.js";
 
 const PARAMETERS = /\.(ya?ml|launch|xml|json|py)$|flags[^/]*\.txt$/i;
-const RECORDING_INSIDE =
-  /\.(db3|mcap|bag|log|clf|carmen|gfs|plog|ubh|npz|npy|csv|tsv|txt|dat|asc|xy|jsonl|ndjson|pcd|ply|gz|zst|bz2|xz|zip|tar|tgz)$/i;
+// In a folder these are mostly something else than a recording: parameters, settings, programs.
+const MOSTLY_OTHERS = /\.(ya?ml|xml|json|m)$/i;
 const PART_OF_BAG = /\.(db3|mcap)(\.zstd)?$/i;
 const METADATA = "metadata.yaml";
 const NUMBER_OF_PART = /(_\d+)?\.(db3|mcap)(\.zstd)?$/i;
@@ -19,9 +19,10 @@ const folders = new WeakMap();
 /**
  * Reacts to files dropped anywhere in a window.
  * @param {Window} target the page, or the scene in it
- * @param {{onHover: (over: boolean) => void, onFiles: (files: File[]) => void}} handlers
+ * @param {{onHover: (over: boolean) => void, onFiles: (files: File[]) => void, suffixes: () => string[]}} handlers
+ *   suffixes: of recordings
  */
-export function catchDrops(target, { onHover, onFiles }) {
+export function catchDrops(target, { onHover, onFiles, suffixes }) {
   const carriesFiles = (/** @type {DragEvent} */ event) => event.dataTransfer?.types.includes("Files") ?? false;
   for (const kind of /** @type {const} */ (["dragenter", "dragover", "dragleave", "drop"])) {
     target.addEventListener(
@@ -32,7 +33,7 @@ export function catchDrops(target, { onHover, onFiles }) {
         event.stopImmediatePropagation();
         if (kind === "drop") {
           onHover(false);
-          filesIn(/** @type {DataTransfer} */ (event.dataTransfer)).then(onFiles);
+          filesIn(/** @type {DataTransfer} */ (event.dataTransfer), suffixes()).then(onFiles);
         } else onHover(kind !== "dragleave" || event.relatedTarget !== null);
       },
       true,
@@ -42,26 +43,36 @@ export function catchDrops(target, { onHover, onFiles }) {
 
 /**
  * The dropped files; for a folder (a ROS 2 bag), the files directly in it.
- * @param {DataTransfer} data
+ * @param {DataTransfer} data @param {string[]} suffixes of recordings
  */
-async function filesIn(data) {
+async function filesIn(data, suffixes) {
   const entries = [...data.items].map((item) => item.webkitGetAsEntry?.());
   const plain = [...data.files];
-  const found = await Promise.all(entries.map((entry, k) => (entry?.isDirectory ? filesInFolder(entry) : [plain[k]])));
+  const found = await Promise.all(
+    entries.map((entry, k) => (entry?.isDirectory ? filesInFolder(entry, suffixes) : [plain[k]])),
+  );
   return found.flat().filter((file) => file instanceof File);
 }
 
 /**
  * The files in a folder, or in its folders if it has no recording itself.
- * @param {FileSystemEntry} folder @param {number} [depth] of further folders @returns {Promise<File[]>}
+ * @param {FileSystemEntry} folder @param {string[]} suffixes of recordings
+ * @param {number} [depth] of further folders @returns {Promise<File[]>}
  */
-async function filesInFolder(folder, depth = 2) {
+async function filesInFolder(folder, suffixes, depth = 2) {
   const entries = await entriesOf(/** @type {FileSystemDirectoryEntry} */ (folder)).catch(() => []);
   const files = await Promise.all(entries.filter(({ isFile }) => isFile).map(fileOf));
   for (const file of files) folders.set(file, folder.fullPath);
-  if (!depth || files.some(({ name }) => RECORDING_INSIDE.test(name))) return files;
-  const inner = entries.filter(({ isDirectory }) => isDirectory).map((each) => filesInFolder(each, depth - 1));
+  if (!depth || files.some((file) => isRecording(file, suffixes))) return files;
+  const inner = entries
+    .filter(({ isDirectory }) => isDirectory)
+    .map((each) => filesInFolder(each, suffixes, depth - 1));
   return [...files, ...(await Promise.all(inner)).flat()];
+}
+
+/** Whether a file in a folder is a recording, by its name. @param {File} file @param {string[]} suffixes of recordings */
+function isRecording({ name }, suffixes) {
+  return suffixes.some((suffix) => name.toLowerCase().endsWith(suffix)) && !MOSTLY_OTHERS.test(name);
 }
 
 /** @param {FileSystemDirectoryEntry} folder @returns {Promise<FileSystemEntry[]>} */
@@ -86,17 +97,17 @@ function fileOf(entry) {
 /**
  * What several files are: recordings, each of one file or more, or files that look like parameters by their names. The
  * metadata.yaml beside a bag is none of these.
- * @param {File[]} files
+ * @param {File[]} files @param {() => string[]} suffixes of recordings
  * @returns {{kind: "recordings", recordings: File[][]} | {kind: "parameters", files: File[]} | null}
  */
-export function pick(files) {
+export function pick(files, suffixes) {
   const about = files.filter(({ name }) => name === METADATA);
   const bags = bagsOf(files.filter(({ name }) => PART_OF_BAG.test(name)));
   const rest = files.filter((file) => !PART_OF_BAG.test(file.name) && !(bags.length && about.includes(file)));
   const parameters = rest.filter(({ name, size }) => PARAMETERS.test(name) && size < LARGEST_PARAMETERS);
   const others = rest.filter((file) => !parameters.includes(file));
   // What else lies in a folder was not meant; what was dropped by itself was.
-  const single = others.filter((file) => !folders.has(file) || RECORDING_INSIDE.test(file.name));
+  const single = others.filter((file) => !folders.has(file) || isRecording(file, suffixes()));
   const chosen = bags.length || single.length ? single : others.slice(0, 1);
   const recordings = [
     ...bags.map((parts) => (parts.length > 1 ? [...parts, ...metadataOf(parts, about, bags.length)] : parts)),

@@ -21,7 +21,7 @@ export function createOpening(page, { work, notices, tune, learn }, text, { rest
     if (await hasLesson(files)) return openLessons(files);
     const progress = await progressIn(files);
     if (progress) return learn.readProgress(progress);
-    const picked = pick(files);
+    const picked = pick(files, known(page));
     if (!picked) return work.refuse(text.stage.nothingDropped);
     if (picked.kind === "recordings") {
       const [[file]] = picked.recordings;
@@ -92,11 +92,16 @@ export function createOpening(page, { work, notices, tune, learn }, text, { rest
     cancel,
     choose: () => chooseFile(open),
     /** Opens what is dropped on a window. @param {Window} target */
-    acceptDrops: (target) => catchDrops(target, { onHover: notices.setDropping, onFiles: open }),
+    acceptDrops: (target) => catchDrops(target, { onHover: notices.setDropping, onFiles: open, suffixes: known(page) }),
   };
 }
 
 /** @param {number} bytes */
 function megabytes(bytes) {
   return `${Math.ceil(bytes / 1e6).toLocaleString("en")} MB`;
+}
+
+/** Those of recordings; none before the server has named them. @param {import("../page.js").Page} page */
+function known(page) {
+  return () => page.welcome?.suffixes ?? [];
 }

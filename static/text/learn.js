@@ -196,10 +196,8 @@ export const learnText = {
     times: "γ times that of two lines",
     cut: "Where the overlap is cut",
     endpoint: (/** @type {number} */ beam) => `Endpoint from beam ${beam} (Eqs. 7, 8)`,
-    broken: "A gap that is too wide (not in the paper)",
-    gap: "gap",
-    void: "void",
-    dropout: "beams without a return",
+    refused: (/** @type {string} */ symbol, /** @type {string} */ label, /** @type {boolean} */ extension) =>
+      `Refused by ${symbol}: ${label}${extension ? " (not in the paper)" : ""}`,
     joins: "it joins",
     stops: "growth stops",
     noSeed: "no seed",

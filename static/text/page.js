@@ -147,7 +147,8 @@ export const pageText = {
         `map line ${length.toFixed(2)} m ±${(1000 * sigma).toFixed(0)} mm, from ${seen === 1 ? "1 line" : `${seen.toLocaleString("en")} lines`}`,
     },
     empty: "Drop a recording here",
-    emptyHint: "CARMEN log, ROS bag, MCAP, NPZ or text. Or choose a sample from the menu above.",
+    emptyHint:
+      "Any file with scans of a 2D laser: a bag, a log, arrays, a table. Or choose a sample from the menu above.",
     starting: "Starting…",
     loading: (/** @type {string} */ label) => `Opening ${label}`,
     uploading: (/** @type {string} */ label) => `Uploading ${label}`,

@@ -29,6 +29,7 @@ STREAMS: dict[bytes, tuple[str, Callable[[IO[bytes]], IO[bytes]]]] = {
     b"\xfd7zXZ\0": ("xz", lambda raw: cast(IO[bytes], lzma.LZMAFile(raw))),  # noqa: SIM115 - it ends with `raw`
 }
 STREAM_SUFFIXES = (".gz", ".zst", ".zstd", ".bz2", ".xz")
+ARCHIVE_SUFFIXES = (".zip", ".tar", ".tgz")
 TAR_MAGIC, TAR_AT = b"ustar", 257
 # UTF-32 first, because its mark begins like that of UTF-16.
 MARKS = {
@@ -47,6 +48,11 @@ BAG_PARTS = (".db3", ".mcap", ".db3.zstd", ".mcap.zstd")
 NAME_AT = 30
 
 Progress = Callable[[int, int], None]
+
+
+def suffixes_of_recordings() -> list[str]:
+    """By which a recording is known among other files, also one that is packed."""
+    return sorted({*known_suffixes(), *STREAM_SUFFIXES, *ARCHIVE_SUFFIXES})
 
 
 def unwrapped(path: Path, stack: ExitStack, notes: Notes, progress: Progress) -> Path:
