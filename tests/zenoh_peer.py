@@ -39,8 +39,10 @@ class Obeying:
 
         self.ends[topic] = ROS2Subscriber(topic, type, self.received[topic].append, **defined(type, hash), **self.where)
 
-    def scan(self, topic: str, ranges: list[float], second: int = 0) -> None:
+    def scan(self, topic: str, ranges: list[float], second: int = 0, losing: int = 0) -> None:
+        """losing: messages before it that seem to be lost."""
         end = self.ends[topic]
+        end.sequence_number += losing
         types = end.session_mgr.store.types
         stamp = types["builtin_interfaces/msg/Time"](sec=second, nanosec=7)
         end.publish(

@@ -24,6 +24,9 @@ class Told(Protocol):
     def misses(self, why: str) -> None:
         """The connection holds, but scans no longer come."""
 
+    def loses(self, scans: int) -> None:
+        """So many were sent and never arrived."""
+
     def hand(self, decode: Callable[[], LaserScan], arrived: float, newest: bool = True) -> None:
         """arrived: when (`time.perf_counter`); newest: whether no later scan has arrived already."""
 

@@ -32,7 +32,7 @@ from .outgoing import Message, full_type
 from .topics import LASER_SCAN, Offer, chosen_topic, of_lasers
 
 PREFIX = "rt"
-MOST_WAITING = 64
+MOST_WAITING = 1000
 LOOK_SECONDS = 0.1
 # After so long without a match, two participants that know of each other do not fit.
 MATCH_SECONDS = 1.0

@@ -127,7 +127,7 @@ class Node:
         return arrived
 
     def _counts(self) -> str:
-        counted = {"left out": self._robot.left_out, "refused": self._robot.refused}
+        counted = {"left out": self._robot.left_out, "lost": self._robot.lost, "refused": self._robot.refused}
         published = self._robot.published
         return f"{published} scan{'s' * (published != 1)}" + "".join(
             f", {n} {words}" for words, n in counted.items() if n

@@ -126,6 +126,9 @@ class Robot(Source):
     def misses(self, why: str) -> None:
         self.say("lost", why)
 
+    def loses(self, scans: int) -> None:
+        self.lost += scans
+
     def hand(self, decode: Callable[[], LaserScan], arrived: float, newest: bool = True) -> None:
         """Add one scan. A message that is not a scan is reported, and receiving continues."""
         if self._closing.is_set():

@@ -66,7 +66,7 @@ class Source:
         self.publishing: Publishing | None = None
         self.published = 0
         self.last_published: Published | None = None
-        self.left_out = 0
+        self.left_out = self.lost = 0
         self.publish_trouble = ""
         self._arrived = arrived
         self._times: deque[float] = deque(maxlen=512)

@@ -19,6 +19,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
+from typing import NamedTuple
 
 import zenoh
 
@@ -39,7 +40,8 @@ HASHLESS = "TypeHashNotSupported"
 LOOK_SECONDS = 0.1
 # Tokens and messages come in any order.
 GONE_SECONDS = 0.5
-MOST_WAITING = 64
+MOST_WAITING = 1000
+MOST_WRITERS = 100
 MOST_OFFERS = 10_000
 STATE = struct.Struct("<qqB")
 
@@ -49,6 +51,14 @@ class ZenohOffer(Offer):
     """hash: of the definition of the type, as the publisher has it."""
 
     hash: str
+
+
+class Arrived(NamedTuple):
+    """A message, when it arrived (`time.perf_counter`), and what is attached to it."""
+
+    moment: float
+    data: bytes
+    attached: bytes
 
 
 @contextmanager
@@ -89,7 +99,8 @@ class Zenoh:
         self._offers: dict[str, ZenohOffer] = {}
         self._hashless = False
         self._closing = threading.Event()
-        self._arrived: queue.Queue[tuple[float, bytes]] = queue.Queue(MOST_WAITING)
+        self._arrived: queue.Queue[Arrived] = queue.Queue(MOST_WAITING)
+        self._last_numbers: dict[bytes, int] = {}
         self._declared = [
             session.liveliness().declare_token(self._token(0, NODE)),
             session.liveliness().declare_subscriber(f"{SPACE}/{domain}/**", self._hear, history=True),
@@ -158,17 +169,18 @@ class Zenoh:
             self._offers[key] = ZenohOffer(parts[9].replace("%", "/"), plain_type(parts[10]), parts[11])
 
     def _keep(self, sample: zenoh.Sample) -> None:
-        """The newest scans and when they arrived; the oldest makes room."""
-        arrived = time.perf_counter()
+        """The newest scans; the oldest makes room."""
+        attached = sample.attachment.to_bytes() if sample.attachment else b""
+        arrived = Arrived(time.perf_counter(), sample.payload.to_bytes(), attached)
         while True:
             try:
-                return self._arrived.put_nowait((arrived, sample.payload.to_bytes()))
+                return self._arrived.put_nowait(arrived)
             except queue.Full:
                 self._take()
 
     # --- in the thread of `scans` -------------------------------------------------------------------------------------
 
-    def _take(self) -> tuple[float, bytes] | None:
+    def _take(self) -> Arrived | None:
         try:
             return self._arrived.get_nowait()
         except queue.Empty:
@@ -194,11 +206,24 @@ class Zenoh:
             while (scan := self._take()) is not None:
                 waiting.append(scan)
             if waiting:
-                hand_all(told, [partial(decode_cdr, data) for _, data in waiting], waiting[-1][0])
+                told.loses(sum(self._lost_before(each.attached) for each in waiting))
+                hand_all(told, [partial(decode_cdr, each.data) for each in waiting], waiting[-1].moment)
                 gone, heard = False, time.monotonic()
             elif not gone and time.monotonic() - heard > GONE_SECONDS and not self._offered(topic):
                 gone = True
                 told.misses(f"{topic} is no longer published; waiting for it")
+
+    def _lost_before(self, attached: bytes) -> int:
+        """How many messages of the same writer are missing between this one and the one before it."""
+        if len(attached) < STATE.size:
+            return 0
+        number, _, _ = STATE.unpack_from(attached)
+        writer = attached[STATE.size :]
+        before = self._last_numbers.pop(writer, number - 1)
+        if len(self._last_numbers) >= MOST_WRITERS:
+            self._last_numbers.clear()
+        self._last_numbers[writer] = number
+        return max(number - before - 1, 0)
 
     def _offered(self, topic: str) -> bool:
         return any(offer.is_laser and offer.topic == topic for offer in self.offers())

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import re
 import socket
 import time
 from collections.abc import Iterator
@@ -88,6 +89,15 @@ def test_a_robot_with_humble_whose_types_have_no_hash_hears_the_segments(peer: O
     with running(address(port, topic), topic):
         opened(peer, topic, hash="TypeHashNotSupported")
         assert cloud_back(peer, topic, 2.0, second=7)["width"] == 1
+
+
+def test_scans_that_never_arrive_are_counted(peer: Obedient, port: int, topic: str):
+    with running(address(port, topic), topic) as told:
+        opened(peer, topic)
+        cloud_back(peer, topic, 2.0, second=1)
+        peer.ask("scan", topic=topic, ranges=wall(2.0), second=2, losing=7)
+        cloud_back(peer, topic, 2.0, second=3)
+    assert re.match(r"ended after \d+ scans(, \d+ left out)?, 7 lost", told[-1])
 
 
 def test_a_router_may_die_and_return(topic: str):
