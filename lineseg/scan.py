@@ -153,6 +153,7 @@ class Recording:
     pack: origin of a failure pack; None for other recordings.
     numbers: (frames,) the frame of the file that each scan is, rising, if some were left out; None if none was.
     whole, began: how many frames the file has, and the stamp of its first [s], if some were left out.
+    partial: whether more of its file follows, which was not read yet.
     account: what the file was taken for; None for recordings that were not read from a file.
     """
 
@@ -178,6 +179,7 @@ class Recording:
     numbers: NDArray[np.int64] | None = None
     whole: int | None = None
     began: float | None = None
+    partial: bool = False
     account: Account | None = None
 
     @classmethod

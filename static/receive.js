@@ -57,7 +57,7 @@ export function createReceiver(page, { address, notices, work, following, panel,
     const unpacked = pack && recording !== before?.recording && !linked.names(recording) && !following.active;
     page.drawn = Object.freeze({ ...state, marks: state.marks ?? before?.marks ?? {} });
     if (page.settled()) page.adoptDrawn();
-    if (!work.busy) notices.setLoaded();
+    if (!work.busy && !state.growing) notices.setLoaded();
     page.tell("setState", page.drawn, origin);
     const title = `${state.label} – ${text.appName}`;
     if (document.title !== title) document.title = title;

@@ -324,7 +324,7 @@ export interface Recordings {
   recordings: RecordingEntry[];
 }
 
-/** A recording is being read; note: why it takes long. */
+/** A recording is being read; note: why it takes long; behind: whether its first scans are shown already. */
 export interface Loading {
   type: "loading";
   recording: string;
@@ -332,6 +332,7 @@ export interface Loading {
   done: number;
   total: number;
   note: string;
+  behind: boolean;
 }
 
 /**
@@ -673,9 +674,9 @@ export interface OfView {
  * pack: description in a failure pack. place: equal for states of the same scans. readAs: the Reading that was
  * asked for, with the topic. account: what the file was taken for, null if there is no file. live: whether the
  * newest frame is followed, null if the recording is not live. frames: how many there are, of which the first has
- * the number `first`, the next `first + every`. mayHavePoses: whether poses were or can be looked for; poses: what
- * is said of them, "" if nobody asked. truth: whether the recording has its true walls; byViews: what is said of
- * walls that many views agree on, "" for others.
+ * the number `first`, the next `first + every`; growing: whether more of them are being read. mayHavePoses: whether
+ * poses were or can be looked for; poses: what is said of them, "" if nobody asked. truth: whether the recording
+ * has its true walls; byViews: what is said of walls that many views agree on, "" for others.
  */
 export interface OfRecording {
   recording: string;
@@ -691,6 +692,7 @@ export interface OfRecording {
   live: boolean | null;
   first: number;
   every: number;
+  growing: boolean;
   mayHavePoses: boolean;
   poses: string;
   truth: boolean;
@@ -735,6 +737,7 @@ export interface Scene {
   live: boolean | null;
   first: number;
   every: number;
+  growing: boolean;
   mayHavePoses: boolean;
   poses: string;
   truth: boolean;
@@ -804,6 +807,7 @@ export interface DrawnState {
   live: boolean | null;
   first: number;
   every: number;
+  growing: boolean;
   mayHavePoses: boolean;
   poses: string;
   truth: boolean;

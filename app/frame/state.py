@@ -114,6 +114,7 @@ def _of_recording(view: View, recording: Recording, label: str) -> told.OfRecord
         "live": view.live if isinstance(recording, LiveRecording) else None,
         "first": first,
         "every": every,
+        "growing": recording.partial,
         "mayHavePoses": recording.track is not None,
         "poses": said_of(recording.poses, recording.pose_source) if view.space == "world" else "",
         "truth": recording.walls is not None and recording.poses is not None,

@@ -95,6 +95,8 @@ def _add_segments(app: FastAPI, library: Library, sessions: Sessions) -> None:
         shown = sessions.shown(session)
         if to not in SEGMENT_WRITERS:
             raise HTTPException(400, f"segments cannot be written as {to!r}; choose from {', '.join(SEGMENT_WRITERS)}")
+        if shown.recording.partial:
+            raise HTTPException(409, "the file is still being read; export its segments when all of it is")
         # Readers of GeoJSON expect degrees, so the name says that these are not.
         suffix = f"metres.{to}" if to == "geojson" else to
         headers = attachment(library.label(shown.view.recording), suffix)

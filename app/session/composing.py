@@ -90,7 +90,7 @@ class Composer:
         self._clock = lru_cache(maxsize=4)(Clock.of)
         self._bounds = lru_cache(maxsize=4)(bounds_of)
         self._world = lru_cache(maxsize=2)(World.of)
-        self._live_bounds: tuple[str, int, Bounds] = ("", 0, (0.0, 0.0, 0.0, 0.0))
+        self._growing_bounds: tuple[str, int, Bounds] = ("", 0, (0.0, 0.0, 0.0, 0.0))
 
     def compose(self, view: View, recording: Recording, around: Around) -> Content:
         view = _inside(view, recording)
@@ -127,21 +127,23 @@ class Composer:
         return looked if recording == view.recording else None
 
     def _bounds_of(self, view: View, recording: Recording) -> Bounds:
-        """The bounds; those of a live recording only grow, and rarely, so that the grid stays still."""
-        if not isinstance(recording, LiveRecording):
+        """The bounds; those of a recording that grows only grow, and rarely, so that the grid stays still."""
+        live = isinstance(recording, LiveRecording)
+        if not (live or recording.partial):
             return self._bounds(recording)
-        source, age, bounds = self._live_bounds
-        if source != view.recording or recording.total >= 2 * age or recording.total >= age + 200:
+        source, age, bounds = self._growing_bounds
+        scans = recording.total if live else len(recording)
+        if source != view.place or scans >= 2 * age or (live and scans >= age + 200):
             wider = bounds_of(recording)
-            if source == view.recording:
+            if source == view.place:
                 wider = united(bounds, wider)
-            self._live_bounds = (view.recording, recording.total, wider)
-        return self._live_bounds[2]
+            self._growing_bounds = (view.place, scans, wider)
+        return self._growing_bounds[2]
 
 
 def _shows_ghosts(view: View, recording: Recording) -> bool:
     """Whether lines that the frame probably misses are drawn: where their sentences are read, and not while growing."""
-    if isinstance(recording, LiveRecording) or view.step is not None:
+    if isinstance(recording, LiveRecording) or recording.partial or view.step is not None:
         return False
     return view.mode == "inspect" and view.layers.ghosts
 

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from lineseg import Recording
 
-from ..shelf.library import Library
+from ..shelf.library import DRAWN, Library
 from ..shelf.preview import named_in
 from ..told.messages import Loading, Refused
 from ..view import View
@@ -15,10 +15,17 @@ from ..view import View
 WALLS = "Looking for the walls that many scans agree on"
 
 
-def opened(library: Library, view: View, tell: Callable[[Loading], None], wanted: Callable[[], bool]) -> Recording:
+def opened(
+    library: Library,
+    view: View,
+    tell: Callable[[Loading], None],
+    wanted: Callable[[], bool],
+    so_far: Callable[[Recording], None] | None = None,
+) -> Recording:
     """The recording of a View.
 
-    tell: hears how far it is. wanted: whether to go on. Raises ValueError for one that cannot be shown.
+    tell: hears how far it is. wanted: whether to go on. so_far: as for `Library.recording`. Raises ValueError for one
+    that cannot be shown.
     """
     if not view.recording:
         raise ValueError("there is no recording to show; drop a file on the page")
@@ -29,10 +36,15 @@ def opened(library: Library, view: View, tell: Callable[[Loading], None], wanted
         note = source.note if source is not None else WALLS if view.reading.walls else ""
         tell(Loading(recording=view.recording, label=label, done=done, total=total, note=note))
 
-    recording = library.recording(view.recording, view.read_as, progress, wanted)
+    recording = library.recording(view.recording, view.read_as, progress, wanted, so_far)
     if not len(recording):
         raise ValueError(f"{label} holds no scans")
     return recording
+
+
+def is_file(view: View) -> bool:
+    """Whether the recording of a View is read from a file."""
+    return bool(view.recording) and not view.recording.startswith(("live:", DRAWN))
 
 
 def refused(library: Library, view: View, message: str) -> Refused | None:

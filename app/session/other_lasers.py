@@ -46,7 +46,8 @@ def lasers_work(name: str, tell: Callable[[], None]) -> Aside[Robot, tuple[Other
 def shows_lasers(view: View, recording: Recording) -> bool:
     """Whether the scene shows the other lasers of a recording."""
     shown = view.space == "world" and view.layers.other_lasers and view.mode != "learn"
-    return shown and not isinstance(recording, LiveRecording) and bool(others_in(recording))
+    still = not isinstance(recording, LiveRecording) and not recording.partial
+    return shown and still and bool(others_in(recording))
 
 
 def _lasers_of(robot: Robot, progress: Progress) -> tuple[OtherLaser, ...]:

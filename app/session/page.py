@@ -55,8 +55,8 @@ class Told:
         request, content, recording = painted.request, painted.content, painted.recording
         found = content.found
         messages: list[BaseModel] = []
-        # The times of a recording that grows are sent once it is paused.
-        growing = isinstance(recording, LiveRecording) and request.view.live
+        # The times of a recording that grows are sent once it is paused, or read to its end.
+        growing = recording.partial or (isinstance(recording, LiveRecording) and request.view.live)
         if self._times is not recording and not growing:
             self._times = recording
             messages.append(content.times())

@@ -29,9 +29,10 @@ from ..told.messages import Failure, Loading
 from ..view import View
 from .composing import Composer
 from .following import Presence, Presenter, Pupil, mirrored
-from .loading import opened, refused
+from .loading import refused
 from .pace import quick, takes_long, turn_of, waits_for
 from .page import NOBODY, Page, Told
+from .reading_on import ReadingOn
 from .shown import Origin, Painted, Request, Shown, Watch
 from .strip import Strip, key_of
 from .surroundings import Surroundings
@@ -85,6 +86,7 @@ class Session:
         self._drawing = Newest(f"session {id[:6]}", self._work)
         self._strip = Strip(f"strip {id[:6]}", warm_up.surveyed, self._tell, self._surveyed)
         self._surroundings = Surroundings(id[:6], library, self._made_more)
+        self._reading = ReadingOn(f"reading {id[:6]}", library, self._tell, self._keep_up)
         self._followed = 0.0
         self.presenter = Presenter()
         self._leave_presenter: Callable[[], None] | None = None
@@ -111,6 +113,7 @@ class Session:
 
     def attach(self, page: Page, rev: int | None = None) -> None:
         """A page has connected; send it everything. rev: the page's revision."""
+        self._reading.forget()
         with self._lock:
             self.detached_at = None
             self.last_input = time.monotonic()
@@ -170,7 +173,9 @@ class Session:
         return complaint
 
     def cancel(self) -> None:
-        """Cancel loading, if in progress."""
+        """Stop reading; what is shown of a file stays."""
+        if self._reading.stop():
+            return
         with self._lock:
             self._cancelled = self._done != self._wanted.number
 
@@ -188,6 +193,7 @@ class Session:
         self.presenter.tell("gone")
         self._strip.close()
         self._surroundings.close()
+        self._reading.close()
         self._drawing.close()
         self._alone.acquire(timeout=CLOSING_SECONDS)
         self._scene.stop()
@@ -250,7 +256,7 @@ class Session:
         if view.mode == "learn" and (shown.mode, shown.frame, shown.params) != (view.mode, view.frame, view.params):
             # To write a trace for the page takes longer than a picture.
             return False
-        return shown.place == view.place and quick(self._shown.recording)
+        return shown.place == view.place and quick(self._shown.recording) and not self._shown.recording.partial
 
     def _change_from_scene(self, patch: Mapping[str, Any]) -> None:
         if self.following:
@@ -297,7 +303,7 @@ class Session:
             self._fall_back(request, mistake(error))
 
     def _keep_up(self) -> None:
-        """Draw the newest frame of a live recording that is followed, if nothing else is to be drawn."""
+        """Draw a recording that has grown, if nothing else is to be drawn."""
         with self._lock:
             if self._behind() and self._done == self._wanted.number:
                 self._followed = max(self._followed + FOLLOW_EVERY, time.monotonic())
@@ -310,9 +316,13 @@ class Session:
                 self._ask(self._wanted.view, self._wanted.rev, "scene")
 
     def _behind(self) -> bool:
-        """Whether a newer frame of the live recording should be shown."""
+        """Whether a newer frame of the live recording should be shown, or more was read of the file."""
         shown, wanted = self._shown, self._wanted.view
-        if self._page is None or shown is None or not (wanted.live and isinstance(shown.recording, LiveRecording)):
+        if self._page is None or shown is None:
+            return False
+        if shown.recording.partial:
+            return shown.view.place == wanted.place and self._reading.newer(shown.recording)
+        if not (wanted.live and isinstance(shown.recording, LiveRecording)):
             return False
         source = self._library.live.get(wanted.recording)
         return source is not None and source.ring.total != shown.recording.total
@@ -427,7 +437,7 @@ class Session:
                 now = self._wanted.view
                 return now.place == view.place and not self._cancelled and not self._closing
 
-        return opened(self._library, view, self._tell, wanted)
+        return self._reading.recording(view, wanted)
 
     def _fall_back(self, request: Request, message: str | None) -> None:
         """Keep the present picture; if there is none, show the first recording that works."""

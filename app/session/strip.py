@@ -138,7 +138,11 @@ class Strip:
                 self._subject = subject
                 self._surveying.put(subject)
             elif self._subject.recording is not recording:
-                self._surveying.put(subject, due=self._rest_until if view.live else 0.0)
+                if self._subject.recording.partial and not recording.partial:
+                    self._subject.stop[0] = True
+                    self._subject = subject
+                growing = view.live or recording.partial
+                self._surveying.put(subject, due=self._rest_until if growing else 0.0)
 
     def keep(self, view: View | None) -> None:
         """Stop work that is not for this View; with None, stop any work, which may be requested again."""

@@ -23,6 +23,7 @@ from .library import Library
 LONGEST_HOW = 60
 # Which frames are read does not change a frame, so that its labels stay.
 NOT_NAMED = frozenset({"topic", "frames", "seconds", "every_scan"})
+PARTIAL = "a file cannot be labelled while it is read; wait until all of it is"
 LIVE = "a live recording cannot be labelled, because its frames are replaced; save it as a file first"
 
 
@@ -72,6 +73,8 @@ class LabelFiles:
         """The path of the labels of a recording. Raises ValueError if it cannot have any."""
         if isinstance(recording, LiveRecording):
             raise ValueError(LIVE)
+        if recording.partial:
+            raise ValueError(PARTIAL)
         kind, _, name = id.partition(":")
         if kind == "drawn":
             return users_label_file("drawn", name, self._folder)

@@ -54,6 +54,7 @@ class _Load:
     def __init__(self, key: _Key) -> None:
         self.done = threading.Event()
         self.progress = (0, 0)
+        self.part: Recording | None = None
         self.waiting = 0
         self.recording: Recording | None = None
         self.error: BaseException | None = None
@@ -63,13 +64,17 @@ class _Load:
     def start(self, finish: Callable[[_Load], None]) -> None:
         def work() -> None:
             try:
-                self.recording = open_recording(self._key.path, self._key.reading, progress=self._report)
+                path, reading = self._key.path, self._key.reading
+                self.recording = open_recording(path, reading, progress=self._report, so_far=self._show)
             except BaseException as error:
                 self.error = error
             finish(self)
             self.done.set()
 
         threading.Thread(target=work, name=f"load {self._key.path.name}", daemon=True).start()
+
+    def _show(self, part: Recording) -> None:
+        self.part = part
 
     def give_up(self) -> None:
         self._given_up = True
@@ -211,10 +216,12 @@ class Library:
         reading: Reading | None = None,
         progress: Progress | None = None,
         wanted: Callable[[], bool] = lambda: True,
+        so_far: Callable[[Recording], None] | None = None,
     ) -> Recording:
         """The recording with an id, read from its file if not open yet. Raises Cancelled once it is not `wanted`.
 
-        For a live source: the scans so far. Raises ValueError for a Reading of what is not a file.
+        For a live source: the scans so far. so_far: called now and then with the first scans of a long file being read.
+        Raises ValueError for a Reading of what is not a file.
         """
         reading = reading or Reading()
         if id.startswith(("live:", DRAWN)) and reading.but(topic=None).given():
@@ -234,7 +241,7 @@ class Library:
                 load.start(lambda load: self._finish(key, load))
             load.waiting += 1
         try:
-            recording = _wait(load, progress, wanted)
+            recording = _wait(load, progress, wanted, so_far)
         except (ValueError, OSError):
             if id.startswith("upload:") and not reading.given():
                 self._unread.add(id)
@@ -292,11 +299,16 @@ def _drawn(text: str) -> Recording:
     return Drawing.parse(text).recording()
 
 
-def _wait(load: _Load, progress: Progress | None, wanted: Callable[[], bool]) -> Recording:
-    told = None
+def _wait(
+    load: _Load, progress: Progress | None, wanted: Callable[[], bool], so_far: Callable[[Recording], None] | None
+) -> Recording:
+    told = shown = None
     while not load.done.wait(POLL):
         if not wanted():
             raise Cancelled
+        if so_far is not None and load.part is not shown and load.part is not None:
+            shown = load.part
+            so_far(shown)
         if progress is not None and load.progress != told:
             told = load.progress
             progress(*told)

@@ -275,9 +275,9 @@ class OfRecording(TypedDict):
     pack: description in a failure pack. place: equal for states of the same scans. readAs: the Reading that was asked
     for, with the topic. account: what the file was taken for, null if there is no file. live: whether the newest frame
     is followed, null if the recording is not live. frames: how many there are, of which the first has the number
-    `first`, the next `first + every`. mayHavePoses: whether poses were or can be looked for; poses: what is said of
-    them, "" if nobody asked. truth: whether the recording has its true walls; byViews: what is said of walls that
-    many views agree on, "" for others.
+    `first`, the next `first + every`; growing: whether more of them are being read. mayHavePoses: whether poses were or
+    can be looked for; poses: what is said of them, "" if nobody asked. truth: whether the recording has its true walls;
+    byViews: what is said of walls that many views agree on, "" for others.
     """
 
     recording: str
@@ -293,6 +293,7 @@ class OfRecording(TypedDict):
     live: bool | None
     first: int
     every: int
+    growing: bool
     mayHavePoses: bool
     poses: str
     truth: bool

@@ -167,7 +167,7 @@ class Recordings(BaseModel):
 
 
 class Loading(BaseModel):
-    """A recording is being read; note: why it takes long."""
+    """A recording is being read; note: why it takes long; behind: whether its first scans are shown already."""
 
     type: Literal["loading"] = "loading"
     recording: str
@@ -175,6 +175,7 @@ class Loading(BaseModel):
     done: int
     total: int
     note: str = ""
+    behind: bool = False
 
 
 class LiveStatus(BaseModel):

@@ -5,7 +5,8 @@ A new format is one small class in one file, and one line in READERS.
 
 from __future__ import annotations
 
-from contextlib import ExitStack
+from collections.abc import Callable
+from contextlib import ExitStack, suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -15,7 +16,7 @@ import numpy as np
 from ..arguments import need_path
 from ..failing import named, shown
 from ..scan import Recording
-from .account import Account, Guess, Notice, Skipped
+from .account import Account, Guess, Notes, Notice, Skipped
 from .applying import applied
 from .arrays import Npy
 from .bags.ros1 import Ros1Bag
@@ -29,6 +30,7 @@ from .matlab import Matlab
 from .messages import EchoYaml, JsonMessages
 from .npz import Npz, save_npz
 from .pack import FailurePack
+from .parts import Parts, can_be_shown
 from .player import PlayerLog
 from .printed import PrintedMessages
 from .reading import Reading
@@ -56,12 +58,19 @@ READERS: tuple[type[Reader], ...] = (
 
 
 def open_recording(
-    path: str | Path, reading: Reading | None = None, *, progress: Progress | None = None, **given: Any
+    path: str | Path,
+    reading: Reading | None = None,
+    *,
+    progress: Progress | None = None,
+    so_far: Callable[[Recording], None] | None = None,
+    **given: Any,
 ) -> Recording:
     """The scans of a file, or of the folder of a ROS 2 bag; `Recording.account` says what it was taken for.
 
     reading: how to read it, where the file does not say it or says it wrongly.
     progress: called with (done, total) while reading; may raise `Cancelled`, which is passed on.
+    so_far: called now and then, while a long bag or MCAP file is read, with a `partial` Recording of its first scans,
+    which share the memory of the whole.
     given: fields of the Reading, as in open_recording("scan.csv", unit="mm").
     Raises ValueError or OSError, with one sentence, if the file cannot be read.
     """
@@ -75,9 +84,25 @@ def open_recording(
     # Damaged numbers may be anything, and are checked in the end.
     with named(shown(path.name or path), passed=(Cancelled,)), np.errstate(all="ignore"), ExitStack() as stack:
         try:
-            return _read(Source(path, reading, progress or (lambda done, total: None), named=path), stack)
+            source = Source(path, reading, progress or (lambda done, total: None), named=path)
+            return _read(replace(source, parts=_parts(source, so_far)), stack)
         except PermissionError:
             raise PermissionError(f"{path}: you have no permission to read it.") from None
+
+
+def _parts(source: Source, so_far: Callable[[Recording], None] | None) -> Parts | None:
+    """Where parts are wanted: shows them as the Reading wants them."""
+    if so_far is None or not can_be_shown(source.reading):
+        return None
+
+    def show(part: Recording, notes: Notes) -> None:
+        # What is wrong with the Reading is told in the end, about the whole.
+        with suppress(ValueError, OSError):
+            shown = applied(part, source.reading, notes, source.named or source.path, source.progress)
+            if shown.ranges.size:
+                so_far(shown)
+
+    return Parts(show)
 
 
 def _read(source: Source, stack: ExitStack) -> Recording:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from copy import copy
 from dataclasses import dataclass
 from dataclasses import field as dataclass_field
 from functools import cached_property
@@ -147,6 +148,13 @@ class Notes:
         self.skipped: list[Skipped] = []
         self.skips = 0
         self.skipping = "scan"
+
+    def so_far(self) -> Notes:
+        """What was found out by now; what is added to it is not added here."""
+        notes = copy(self)
+        for name, value in vars(self).items():
+            setattr(notes, name, copy(value))
+        return notes
 
     def guess(self, field: str, value: str, why: str, **change: Any) -> None:
         self.guesses.append(Guess(field, value, why, change))

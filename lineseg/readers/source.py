@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from array import array
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field
+from contextlib import suppress
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, ClassVar
 
@@ -13,6 +15,7 @@ from ..failing import shown
 from ..scan import Floats, Recording, Topic
 from .account import Notes
 from .laser_scan import LaserScan
+from .parts import Parts
 from .reading import Reading
 
 Progress = Callable[[int, int], None]
@@ -29,7 +32,8 @@ class Source:
     """One file to read, and how.
 
     path: the file, or its expanded copy; named: as the user named it. progress: called with (done, total) in bytes or
-    messages; it may raise `Cancelled`. notes: what the reader finds out besides the scans.
+    messages; it may raise `Cancelled`. notes: what the reader finds out besides the scans. parts: who wants to see the
+    scans before all are read.
     """
 
     path: Path
@@ -37,6 +41,16 @@ class Source:
     progress: Progress = lambda done, total: None
     notes: Notes = field(default_factory=Notes)
     named: Path | None = None
+    parts: Parts | None = None
+
+    def offer(self, scans: int, part: Callable[[Source], Recording]) -> None:
+        """Show the first scans of the file to who wants to see them, now and then.
+
+        part: makes a Recording of this many scans, with the notes of the Source that it is given.
+        """
+        if self.parts is not None and self.parts.due(scans):
+            so_far = replace(self, notes=self.notes.so_far())
+            self.parts.show(part(so_far), so_far.notes)
 
     @property
     def name(self) -> str:
@@ -120,6 +134,15 @@ class Joined:
         self.lengths: list[int] = []
         self._numbers: Floats = np.empty(0, np.float32)
         self._used = 0
+        self._seen = False
+
+    def reserve_for(self, arrays: int) -> None:
+        """Make room for as many arrays like the first, so that nothing need be copied when more come."""
+        # Memory that was never written to costs nothing. A damaged file may announce any number.
+        with suppress(MemoryError, ValueError):
+            room = np.empty(max(arrays * self.lengths[0], self._used), self._numbers.dtype)
+            room[: self._used] = self._numbers[: self._used]
+            self._numbers = room
 
     def append(self, numbers: Floats) -> None:
         stop = self._used + len(numbers)
@@ -127,16 +150,30 @@ class Joined:
             common = np.result_type(numbers, self._numbers) if self._used else numbers.dtype.newbyteorder("=")
             self._numbers = self._numbers.astype(common, copy=False)
         if stop > len(self._numbers):
-            # The system moves large arrays without a copy, and memory that was never written to costs nothing.
-            self._numbers.resize(max(stop, 2 * len(self._numbers)), refcheck=False)
+            self._grow(max(stop, len(self._numbers) + len(self._numbers) // 4))
         self._numbers[self._used : stop] = numbers
         self._used = stop
         self.lengths.append(len(numbers))
 
+    def _grow(self, size: int) -> None:
+        if self._seen:
+            grown = np.empty(size, self._numbers.dtype)
+            grown[: self._used] = self._numbers[: self._used]
+            self._numbers, self._seen = grown, False
+        else:
+            # The system moves large arrays without a copy.
+            self._numbers.resize(size, refcheck=False)
+
+    def so_far(self) -> Floats:
+        """All numbers by now, which stay as they are when more are appended."""
+        self._seen = True
+        return self._numbers[: self._used]
+
     def all(self) -> Floats:
         """Nothing can be appended afterwards."""
-        self._numbers.resize(self._used, refcheck=False)
-        return self._numbers
+        if not self._seen:
+            self._numbers.resize(self._used, refcheck=False)
+        return self._numbers[: self._used]
 
 
 class Sweeps:
@@ -144,9 +181,9 @@ class Sweeps:
 
     def __init__(self) -> None:
         self.ranges = Joined()
-        self.geometry: list[tuple[float, float, float, float, float]] = []
+        self.geometry = array("d")
         self.frame_ids: list[str] = []
-        self.time_increments: list[float] = []
+        self.time_increments = array("d")
         self.bearings: list[Floats] = []
 
     def __len__(self) -> int:
@@ -165,7 +202,7 @@ class Sweeps:
         time_increment: float = 0.0,
     ) -> None:
         self.ranges.append(ranges)
-        self.geometry.append((angle_min, angle_increment, range_min, range_max, stamp))
+        self.geometry.extend((angle_min, angle_increment, range_min, range_max, stamp))
         self.frame_ids.append(frame_id)
         self.time_increments.append(time_increment)
         if bearings is not None:
@@ -177,12 +214,12 @@ class Sweeps:
             numbers = each.angle_min, each.angle_increment, each.range_min, each.range_max, each.stamp
             self.add(each.ranges, *numbers, each.frame_id, time_increment=each.time_increment)
 
-    def recording(self, source: Source, **fields: Any) -> Recording:
-        """All scans as one Recording; `fields` override the collected values."""
-        geometry = np.array(self.geometry, dtype=np.float64).reshape(-1, 5)
+    def recording(self, source: Source, *, partial: bool = False, **fields: Any) -> Recording:
+        """All scans as one Recording, or those so far; `fields` override the collected values."""
+        geometry = np.array(self.geometry).reshape(-1, 5)
         columns: dict[str, Any] = {
             "name": source.name,
-            "ranges": self.ranges.all(),
+            "ranges": self.ranges.so_far() if partial else self.ranges.all(),
             "offsets": np.concatenate(([0], np.cumsum(self.ranges.lengths, dtype=np.int64))),
             "angle_min": geometry[:, 0],
             "angle_increment": geometry[:, 1],
@@ -192,5 +229,6 @@ class Sweeps:
             "frame_ids": tuple(self.frame_ids),
             "bearings": np.concatenate(self.bearings) if self.bearings else None,
             "time_increment": np.array(self.time_increments) if any(self.time_increments) else None,
+            "partial": partial,
         }
         return Recording(**(columns | fields))

@@ -51,7 +51,8 @@ export function createNoticed(text, { entries, onMend, onChange }) {
     element,
     /** @param {State} state */
     setState(state) {
-      if (state.place === place) return;
+      if (state.growing) element.hidden ||= state.place !== place;
+      if (state.growing || state.place === place) return;
       place = state.place;
       const fresh = items(state).filter(({ words }) => !told.has(`${state.recording} ${words}`));
       for (const { words } of fresh) told.add(`${state.recording} ${words}`);

@@ -45,11 +45,15 @@ function createLoading(text, onCancel) {
 
   return {
     element,
-    /** Something long is under way. */
-    show,
+    /** @type {typeof show} Something long is under way. */
+    show(...what) {
+      setText(cancel, text.cancel);
+      show(...what);
+    },
     /** @param {import("../wire.js").Loading} message */
-    setLoading({ label, done, total, note }) {
-      show(note || text.loading(label), done, total, text.scans(done, total));
+    setLoading({ label, done, total, note, behind }) {
+      setText(cancel, behind ? text.stop : text.cancel);
+      show(note || (behind ? text.readingOn : text.loading)(label), done, total, text.scans(done, total));
     },
     setLoaded() {
       clearTimeout(timer);

@@ -151,10 +151,12 @@ export const pageText = {
       "Any file with scans of a 2D laser: a bag, a log, arrays, a table. Or choose a sample from the menu above.",
     starting: "Starting…",
     loading: (/** @type {string} */ label) => `Opening ${label}`,
+    readingOn: (/** @type {string} */ label) => `Reading the rest of ${label}`,
     uploading: (/** @type {string} */ label) => `Uploading ${label}`,
     scans: (/** @type {number} */ done, /** @type {number} */ total) =>
       total ? `${Math.floor((100 * done) / total)} %` : done ? `${done.toLocaleString("en")}` : "",
     cancel: "Cancel",
+    stop: "Stop",
     dismiss: "Dismiss",
     kept: "The previous recording stays open.",
     linkKept: (/** @type {string} */ name) =>

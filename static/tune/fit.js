@@ -115,10 +115,10 @@ export class Fit {
   }
 
   /** Asks again if something else is shown, but not while a slider moves. @param {State} state */
-  setState({ place: scans, method, params, live, frames }) {
+  setState({ place: scans, method, params, live, growing, frames }) {
     const place = JSON.stringify([scans, method]);
-    // A live recording is looked at again when it has become twice as long.
-    const size = live === null ? frames : Math.floor(Math.log2(frames));
+    // A recording that grows is looked at again when it has become twice as long.
+    const size = live === null && !growing ? frames : Math.floor(Math.log2(frames));
     const wanted = JSON.stringify([place, params, size]);
     if (wanted === this.#wanted) return;
     if (place !== this.#place) this.#forget();

@@ -34,6 +34,8 @@ class Tuner {
   #fit;
   /** @type {Params} */ #params = {};
   /** Identifies the drawn recording. */ #place = "";
+  /** Whether more of the recording is being read. */
+  #growing = false;
   /** What the last request for curves was for. */ #asked = "";
   #timer = 0;
   /** Whether the recording has truth. */ #truth = false;
@@ -92,7 +94,7 @@ class Tuner {
 
   /** What curves would be for. */
   get #wanted() {
-    return JSON.stringify([this.#place, this.#params]);
+    return JSON.stringify([this.#place, this.#growing, this.#params]);
   }
 
   /** Stops curves that are out of date, so that they do not slow down what is dragged. */
@@ -142,6 +144,7 @@ class Tuner {
     if (!this.#able || state.method !== METHOD) return;
     const here = state.place;
     this.#params = state.params;
+    this.#growing = state.growing;
     if (here !== this.#place) {
       this.#place = here;
       this.#setTruth(state.truth);

@@ -9,42 +9,12 @@ import zipfile
 import numpy as np
 import pytest
 import zstandard
-from bags import SCAN, STORES, TEXT, encoded, message
+from bags import SCAN, STORES, bag1, bag2, encoded, message
 from rosbags.rosbag1 import Writer as Writer1
-from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin
-from rosbags.rosbag2 import Writer as Writer2
+from rosbags.rosbag2 import CompressionMode, StoragePlugin
 
 from lineseg.readers import Cancelled, open_recording
 from lineseg.readers.laser_scan import decode_cdr, decode_ros1
-
-
-def bag1(path, *publishers, text=(), stamps=(12.5, 12.6, 12.7)):
-    """A ROS 1 bag; each publisher is (topic, ranges) and sends its scan once for each stamp."""
-    with Writer1(path) as writer:
-        if text:
-            noise = writer.add_connection("/chatter", TEXT, typestore=STORES[1])
-            for word in text:
-                writer.write(noise, 1, STORES[1].serialize_ros1(STORES[1].types[TEXT](data=word), TEXT))
-        connections = [
-            writer.add_connection(topic, SCAN, typestore=STORES[1], callerid=f"/driver_{number}")
-            for number, (topic, _) in enumerate(publishers)
-        ]
-        for number, stamp in enumerate(stamps):
-            for connection, (_, ranges) in zip(connections, publishers, strict=True):
-                writer.write(connection, 10**9 * (100 + number), encoded(1, message(1, ranges, stamp)))
-    return path
-
-
-def bag2(path, *publishers, plugin=StoragePlugin.SQLITE3, compression=None, stamps=(12.5, 12.6, 12.7)):
-    writer = Writer2(path, version=8, storage_plugin=plugin)
-    if compression:
-        writer.set_compression(compression, CompressionFormat.ZSTD)
-    with writer:
-        connections = [writer.add_connection(topic, SCAN, typestore=STORES[2]) for topic, _ in publishers]
-        for number, stamp in enumerate(stamps):
-            for connection, (_, ranges) in zip(connections, publishers, strict=True):
-                writer.write(connection, 10**9 * (100 + number), encoded(2, message(2, ranges, stamp)))
-    return path
 
 
 @pytest.mark.parametrize("frame_id", ["", "l", "la", "las", "lase", "laser_link", "Läser"])

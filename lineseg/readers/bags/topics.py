@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from array import array
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -10,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from ...scan import Recording, Topic
+from ...scan import Floats, Recording, Topic
 from ..source import Source, Sweeps
 from .decoders import MULTI_ECHO, POINT_CLOUDS, Decoder, decoder_of, is_laser
 
@@ -125,18 +126,32 @@ def collect(
     Each publisher has a decoder of its own.
     """
     sweeps = Sweeps()
-    recorded: list[int] = []
+    recorded = array("d")
     publishers: list[Decoder] = []
+    rising = True
+
+    def part(source: Source) -> Recording:
+        recording = sweeps.recording(source, partial=True, topic=topic, topics=topics, format=format)
+        _note_times(source, recording, 1e-9 * np.array(recorded), publishers)
+        return recording
+
     for done, (decode, nanoseconds, data) in enumerate(messages):
         if done % 64 == 0:
             source.progress(done, total)
+            if rising:
+                source.offer(len(sweeps), part)
         try:
+            at = float(nanoseconds)
             sweeps.extend([decode(data)])
         except Exception as error:
             source.notes.skip(f"{source.name}: message {done} of {topic}", f"it cannot be read, {error}")
             continue
-        recorded.append(nanoseconds)
+        # Scans that are to be sorted would be others under the same numbers.
+        rising = rising and (not recorded or at >= recorded[-1])
+        recorded.append(at)
         publishers.append(decode)
+        if len(sweeps) == 1:
+            sweeps.ranges.reserve_for(total)
     source.progress(total, total)
     if not len(sweeps):
         source.notes.nothing_left()
@@ -144,14 +159,20 @@ def collect(
         way = f"choose one of {others}" if others else "no other topic of scans has any, so record it again"
         raise ValueError(f"{source.name}: the topic {topic} has no messages; {way}.")
     recording = sweeps.recording(source, topic=topic, topics=topics, format=format)
-    times, senders = 1e-9 * np.array(recorded, np.float64), np.array(list(map(id, publishers)))
+    times = 1e-9 * np.array(recorded)
     if (np.diff(times) < 0).any():
         order = np.argsort(times, kind="stable")
-        recording, times, senders = recording.only(order), times[order], senders[order]
+        recording, times, publishers = recording.only(order), times[order], [publishers[k] for k in order.tolist()]
+    _note_times(source, recording, times, publishers)
+    return recording
+
+
+def _note_times(source: Source, recording: Recording, times: Floats, publishers: list[Decoder]) -> None:
+    """Notes when and by whom each scan was published."""
     source.notes.recorded = times
+    senders = np.array(list(map(id, publishers)))
     source.notes.publishers = senders if (senders != senders[0]).any() else None
     source.notes.stamps = "the messages" if recording.stamps.any() else "the recorder"
-    return recording
 
 
 def _short(type: str) -> str:

@@ -26,6 +26,8 @@ MESSAGES = {
 
 def with_poses(recording: Recording, reading: Reading, file: Path) -> Recording:
     """The recording with its track. Raises ValueError or OSError if the trajectory that is asked for cannot be read."""
+    if recording.partial and (reading.poses is not None or recording.format in MESSAGES):
+        return replace(recording, track=Track(partial(_not_yet, len(recording))))
     if reading.poses is not None:
         track = Track(partial(trajectory_of, _beside(file, reading.poses), recording.stamps))
         # What is wrong with a file that a person names is told at once.
@@ -37,6 +39,10 @@ def with_poses(recording: Recording, reading: Reading, file: Path) -> Recording:
     frame_ids = frozenset(recording.frame_ids)
     wanted = Wanted(recording.stamps, frame_ids, reading.pose_topic, recorded, mirrored)
     return replace(recording, track=Track(partial(_of_bag, file.absolute(), recording.format, wanted)))
+
+
+def _not_yet(frames: int) -> Found:
+    return Found(np.full((frames, 3), np.nan), PoseSource(missing="they are found once the whole file is read"))
 
 
 def _beside(file: Path, name: str) -> Path:

@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import threading
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
+from bags import bag1
 from lineseg_app.server import Settings
 from lineseg_app.session.sessions import SessionLimits
+from lineseg_app.shelf import library
 from lineseg_app.shelf.library import Library
 from lineseg_app.shelf.recent import Recent
 from lineseg_app.shelf.uploads import Uploads
 from live import Address, Page, page_of, serving
 from websockets.exceptions import ConnectionClosed
 
-from lineseg.readers import Cancelled, Reading
+from lineseg import Recording
+from lineseg.readers import Cancelled, Progress, Reading, open_recording
 
 
 @pytest.fixture(scope="module")
@@ -117,3 +121,73 @@ def test_a_tab_without_input_for_long_is_closed(tmp_path: Path):
                 page.hear()
         assert closed.value.rcvd is not None
         assert closed.value.rcvd.code == 4001
+
+
+@pytest.fixture
+def halfway(monkeypatch: pytest.MonkeyPatch) -> threading.Event:
+    """A long bag is read no further than to its first part until this is set."""
+    go_on = threading.Event()
+
+    def held(path: Path, reading: Reading, *, progress: Progress, so_far: Callable[[Recording], None]) -> Recording:
+        def show(part: Recording) -> None:
+            so_far(part)
+            waited = 0
+            while not go_on.wait(0.05):
+                waited += 1
+                progress(waited, 1_000_000)
+
+        return open_recording(path, reading, progress=progress, so_far=show)
+
+    monkeypatch.setattr(library, "open_recording", held)
+    return go_on
+
+
+@pytest.fixture
+def bag_shelf(recordings: Path, tmp_path: Path) -> Iterator[Address]:
+    bag = bag1(tmp_path / "long.bag", ("/scan", [2.0] * 90), stamps=[100 + 0.025 * k for k in range(400)])
+    with serving(Settings(files=(recordings / "walls.npz", bag), data_folder=tmp_path)) as address:
+        yield address
+
+
+def test_the_first_scans_of_a_bag_are_shown_while_the_rest_is_read(bag_shelf: Address, halfway: threading.Event):
+    with page_of(bag_shelf) as page:
+        page.hello()
+        state = page.change(recording=ids(page)["long.bag"])
+        first = state["frames"]
+        assert state["growing"]
+        assert 0 < first < 400
+        assert page.hear_a("loading")["behind"]
+        assert page.change(frame=first - 1)["frame"] == first - 1
+        assert page.change(params={"epsilon": 0.04})["growing"]
+        wanted = page.ask(frame=300)
+        halfway.set()
+        state = page.drawn(wanted)["state"]
+        assert (state["frame"], state["frames"], state["growing"]) == (300, 400, False)
+        assert page.last["times"]["since"][-1] == pytest.approx(0.025 * 399)
+
+
+def test_what_was_read_stays_when_a_person_stops_it(bag_shelf: Address, halfway: threading.Event):
+    with page_of(bag_shelf) as page:
+        page.hello()
+        first = page.change(recording=ids(page)["long.bag"])["frames"]
+        page.say(type="cancel")
+        state = page.until(lambda state: not state["growing"])
+        assert state["frames"] == first
+        (notice,) = (each for each in state["account"]["notices"] if each["kind"] == "not all")
+        assert f"the first {first} scans" in notice["text"]
+        assert page.change(frame=first - 1, params={"epsilon": 0.05})["frames"] == first
+        halfway.set()
+        page.change(recording=ids(page)["walls.npz"])
+        assert page.change(recording=ids(page)["long.bag"])["label"] == "long.bag"
+        assert page.until(lambda state: not state["growing"])["frames"] == 400
+
+
+def test_leaving_a_bag_that_is_read_stops_reading_it(bag_shelf: Address, halfway: threading.Event):
+    with page_of(bag_shelf) as page:
+        page.hello()
+        assert page.change(recording=ids(page)["long.bag"])["growing"]
+        page.change(recording=ids(page)["walls.npz"])
+        loads = [thread for thread in threading.enumerate() if thread.name == "load long.bag"]
+        for load in loads:
+            load.join(20)
+        assert not any(load.is_alive() for load in loads)
