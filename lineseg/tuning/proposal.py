@@ -46,7 +46,7 @@ MORE = 1.1
 SHARE, SHARE_AT, POWER = 0.32, 0.05, 0.15
 # At an ε of SHARE_AT or less, lines must be so much steadier at a value where they scatter more by a factor of e; above
 # it, in proportion to the square of ε.
-WORTH = 0.3
+WORTH = 0.25
 # Walls deviate from straight by no more than this [m]: lines that scatter more have taken in something else.
 BEND = 0.025
 # Multiples of what is proposed whose lines judge it and the present values. Values that differ by more are told.
