@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
@@ -12,9 +14,10 @@ from .profiles import MAD, Profiles
 # Length of the stretches in which steps are looked for [m], and how many of them are compared on each side.
 FINE, BESIDE = 0.05, 4
 # A step is higher than this [m], and so many times as high as the surface is uneven on so many stretches beside it.
-LEAST_STEP, TIMES_USUAL, ALONG = 0.015, 3.0, 20
-# A step is so many times as high as the walls of the recording are uneven: where boards bend, none is one.
-TIMES_EVEN = 12.0
+LEAST_STEP, TIMES_USUAL, ALONG = 0.015, 2.0, 20
+# A step is so many times as high as the walls of the recording are uneven over so many stretches: where boards bend,
+# none is one.
+TIMES_EVEN, LONG = 4.0, 60
 # Between two steps are more stretches than this.
 APART = 5
 # Shorter parts are left out [m].
@@ -61,10 +64,14 @@ def steps_in(height: Floats, wall: NDArray[np.int64]) -> NDArray[np.bool_]:
 
 
 def evenness(height: Floats, wall: NDArray[np.int64]) -> float:
-    """How far the surface lies from straight [m] where it is straightest: the lower quartile of all places."""
-    firsts = np.searchsorted(wall, np.unique(wall)).tolist()
-    places = [k for a, b in zip(firsts, [*firsts[1:], len(wall)], strict=True) for k in range(a, b - ALONG, ALONG // 2)]
-    return float(np.percentile([_unevenness(height[k : k + ALONG]) for k in places], 25)) if places else 0.0
+    """How far the straightest walls lie from straight [m]: the lower quartile over long parts of the walls.
+
+    Where all walls are shorter, they count whole.
+    """
+    limits = np.append(np.searchsorted(wall, np.unique(wall)), len(wall)).tolist()
+    walls = list(pairwise(limits))
+    parts = [(k, k + LONG) for first, stop in walls for k in range(first, stop - LONG, LONG // 2)] or walls
+    return float(np.percentile([_unevenness(height[a:b]) for a, b in parts], 25)) if parts else 0.0
 
 
 def _unevenness(height: Floats) -> float:
