@@ -192,8 +192,9 @@ class Known:
         scatter = calmed(profiles.scatter, profiles)
         stretch = stretches_of(placed[near], found[near], walls, profiles.starts)
         away = np.hypot(*(placed[near] - poses[scan[near], :2]).T)
-        by_range = scatter_by_range(np.abs(over[near] - height[stretch]), away)
-        firm = straight & is_even(profiles)
+        off = np.abs(over[near] - height[stretch])
+        by_range = scatter_by_range(off, away)
+        firm = straight & is_even(stretch, off, away, by_range, profiles)
         return cls(walls, straight, firm, profiles, height, scatter, by_range, Places.of(placed, views[scan]))
 
     def labels(

@@ -15,6 +15,8 @@ STRETCH = 0.20
 CURVED, LEAST_SAGITTA = 0.025, 0.015
 # A surface that scatters by so many times what most do, and by more than this [m], is rough: a hedge, books, people.
 ROUGH, LEAST_SCATTER = 2.0, 0.025
+# Fewer points than this do not tell how the laser scatters at their range.
+FEW = 200
 # Median absolute deviation of a normal distribution, in standard deviations.
 MAD = 0.6745
 FINEST = 1_000_000
@@ -128,13 +130,22 @@ def scatter_by_range(off: NDArray[np.floating], away: NDArray[np.floating]) -> F
     return np.nan_to_num(medians(metre[::every], off[::every], int(metre.max(initial=0)) + 1) / MAD)
 
 
-def is_even(profiles: Profiles) -> NDArray[np.bool_]:
-    """(w,) whether the surface of each wall scatters no more than most do."""
-    known = profiles.points > 0
-    scatter = profiles.scatter_of_walls
-    every = np.repeat(scatter[profiles.wall[known]], profiles.points[known])
-    usual = float(np.median(every)) if len(every) else 0.0
-    return scatter < max(ROUGH * usual, LEAST_SCATTER)
+def is_even(
+    stretch: NDArray[np.int64], off: NDArray[np.floating], away: NDArray[np.floating], by_range: Floats,
+    profiles: Profiles,
+) -> NDArray[np.bool_]:  # fmt: skip
+    """(w,) whether the surface of each wall scatters no more than the laser does on others as far away, or farther.
+
+    stretch, off, away: (n,) of each point near a wall its stretch, its distance from the surface and from the laser
+    [m]; by_range: see `scatter_by_range`.
+    """
+    metre = away.astype(np.int64)
+    told = np.where(np.bincount(metre, minlength=len(by_range)) >= FEW, by_range, np.inf)
+    usual = np.minimum.accumulate(told[::-1])[::-1]
+    expected = np.maximum(ROUGH * usual[metre], LEAST_SCATTER)
+    walls = len(profiles.starts) - 1
+    shares = medians(profiles.wall[stretch], np.minimum(off / expected, 2.0), walls) / MAD
+    return ~(shares >= 1.0)
 
 
 def is_straight(fine: Profiles, walls: Walls) -> NDArray[np.bool_]:

@@ -14,7 +14,7 @@ from .profiles import MAD, Profiles
 # Length of the stretches in which steps are looked for [m], and how many of them are compared on each side.
 FINE, BESIDE = 0.05, 4
 # A step is higher than this [m], and so many times as high as the surface is uneven on so many stretches beside it.
-LEAST_STEP, TIMES_USUAL, ALONG = 0.015, 2.0, 20
+LEAST_STEP, TIMES_USUAL, ALONG = 0.015, 3.0, 20
 # A step is so many times as high as the walls of the recording are uneven over so many stretches: where boards bend,
 # none is one.
 TIMES_EVEN, LONG = 4.0, 60

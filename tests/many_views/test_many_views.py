@@ -11,7 +11,7 @@ from lineseg.many_views import truth_by_many_views
 from lineseg.many_views.checks import trust
 from lineseg.many_views.returns import Returns
 from lineseg.poses import PoseSource, Track, in_world
-from lineseg.simulate import UTM_30LX, box, circle, door, room
+from lineseg.simulate import PAINT, PLASTER, UTM_30LX, box, circle, door, room
 from lineseg.truth import UNKNOWN, true_lines
 
 WORLD = room([(0, 0), (7, 0), (7, 5), (0, 5)]) + box((3.4, 4.7), 1.2, 0.5) + circle((5.4, 3.4), 0.2)
@@ -59,18 +59,25 @@ def test_walls_and_beams_agree_with_the_exact_truth():
     assert found.shift.max() < 0.05
 
 
-def test_a_door_in_a_shallow_recess_is_a_wall_of_its_own():
-    doors = {2: [door(2.2, 1.2, 0.03)]}
-    recording = driven(drive().poses, room([(0, 0), (7, 0), (7, 5), (0, 5)], doors))
+@pytest.mark.parametrize(("material", "depth"), [(PAINT, 0.03), (PLASTER, 0.05)])
+def test_a_door_in_a_shallow_recess_is_a_wall_of_its_own(material, depth):
+    doors = {2: [door(2.2, 1.2, depth)]}
+    recording = driven(drive().poses, room([(0, 0), (7, 0), (7, 5), (0, 5)], doors, material))
     found = truth_by_many_views(recording).recording
     wall, exact = (np.concatenate([walls_in(scan)[scan.valid] for scan in each]) for each in (found, recording))
     ends = recording.walls
     assert ends is not None
-    leaf = int(np.flatnonzero(np.isclose(ends[:, [1, 3]], 5.03).all(axis=1))[0])
+    leaf = int(np.flatnonzero(np.isclose(ends[:, [1, 3]], 5.0 + depth).all(axis=1))[0])
     numbers = np.bincount(wall[(exact == leaf) & (wall >= 0)])
     share = (exact[wall == numbers.argmax()] == leaf).mean()
     assert numbers.max() > 0.9 * (exact == leaf).sum()
     assert share > 0.95
+
+
+def test_walls_that_the_laser_sees_from_far_are_walls_though_it_scatters_more_there():
+    far = room([(0, 0), (11, 0), (11, 10), (0, 10)])
+    found = truth_by_many_views(driven(drive().poses, far, replace(LASER, sigma=0.006, far=4.0, sigma_far=0.04)))
+    assert found.explained > 0.9
 
 
 def test_walls_end_where_their_returns_do():
