@@ -10,7 +10,8 @@ from fastapi import FastAPI
 from fastapi.responses import StreamingResponse
 from starlette.exceptions import HTTPException
 
-from lineseg.line_map import line_map
+from lineseg import Survey
+from lineseg.line_map import LineMap, line_map
 from lineseg.readers import Progress
 from lineseg.writers.line_maps import MAP_WRITERS, drawings
 
@@ -49,15 +50,19 @@ def add_line_map(app: FastAPI, library: Library, sessions: Sessions) -> None:
                 drawings()
             except ValueError as error:
                 raise HTTPException(MISSING, str(error)) from None
-        return _made(slow, shown, library.label(shown.view.recording), to)
+        tab = sessions.get(session)
+        known = tab.known(shown) if tab is not None else (None, None)
+        return _made(slow, shown, *known, library.label(shown.view.recording), to)
 
 
-def _made(slow: SlowWork, shown: Shown, label: str, to: str) -> StreamingResponse:
-    """Make the map, and answer with the progress and the file."""
+def _made(
+    slow: SlowWork, shown: Shown, lines: Survey | None, known: LineMap | None, label: str, to: str
+) -> StreamingResponse:
+    """Make the map, unless it is known, and answer with the progress and the file."""
     view, recording = shown.view, shown.recording
 
     def work(advance: Progress) -> dict[str, Any]:
-        found = line_map(recording, view.params, progress=advance)
+        found = known if known is not None else line_map(recording, view.params, lines, progress=advance)
         content = MAP_WRITERS[to](found, f"{label}, line map", about_of(recording, view.method, view.params))
         suffix = f"metres.{to}" if to == "geojson" else to
         return {"name": f"{label}_map.{suffix}", "content": base64.b64encode(content).decode(), "text": found.text}

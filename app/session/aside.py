@@ -63,6 +63,11 @@ class Aside(Generic[S, R]):
             made = self._made = None
         return None if made is None else made[1]
 
+    def made_of(self, subject: S) -> R | str | None:
+        """What was made of this very subject, or why there is none; None before it."""
+        made = self._made
+        return made[1] if made is not None and made[0] is subject else None
+
     @property
     def percent(self) -> int:
         """How much of the present work is done."""
@@ -99,19 +104,19 @@ class Aside(Generic[S, R]):
         self._tell()
 
 
-class Surveyed(NamedTuple):
+class FoundLines(NamedTuple):
     """The lines of all frames of a recording."""
 
     recording: Recording
     lines: Survey
 
 
-def map_work(name: str, tell: Callable[[], None]) -> Aside[Surveyed, LineMap]:
+def map_work(name: str, tell: Callable[[], None]) -> Aside[FoundLines, LineMap]:
     """Merges the lines of all frames into a map."""
     return Aside(name, _map_of, tell, "the map could not be made")
 
 
-def _map_of(subject: Surveyed, progress: Progress) -> LineMap:
+def _map_of(subject: FoundLines, progress: Progress) -> LineMap:
     return line_map(subject.recording, found=subject.lines, progress=progress)
 
 

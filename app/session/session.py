@@ -427,6 +427,11 @@ class Session:
         with self._lock:
             return self._surroundings.line_map(self._shown.recording) if self._shown is not None else None
 
+    def known(self, shown: Shown) -> tuple[Survey | None, LineMap | None]:
+        """The lines of all frames with the thresholds of what is shown, and their map, where they are there already."""
+        with self._lock:
+            return self._surroundings.known(shown.recording, shown.view.params)
+
     def _load(self, request: Request) -> Recording:
         view, shown = request.view, self.shown
         if shown is not None and shown.paused(view):

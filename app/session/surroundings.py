@@ -6,12 +6,13 @@ from collections.abc import Callable
 from functools import partial
 
 from lineseg import Recording, Survey
+from lineseg.knobs import Thresholds
 from lineseg.line_map import LineMap
 
 from ..scene.beside import OtherLaser
 from ..shelf.library import Library
 from ..view import View
-from .aside import Surveyed, map_work, shows_map
+from .aside import FoundLines, map_work, shows_map
 from .composing import Around
 from .other_lasers import Robot, lasers_work, others_in, shows_lasers
 from .shown import Shown
@@ -23,7 +24,7 @@ class Surroundings:
     def __init__(self, name: str, library: Library, more: Callable[[], None]) -> None:
         self._library = library
         # The lines of all frames, as far as they were found last.
-        self._lines: Surveyed | None = None
+        self._lines: FoundLines | None = None
         self._map = map_work(f"map {name}", more)
         # The recording on the screen, where its other lasers are asked for.
         self._robot: Robot | None = None
@@ -31,7 +32,7 @@ class Surroundings:
 
     def surveyed(self, recording: Recording, survey: Survey) -> None:
         """Note the lines of all frames."""
-        self._lines = Surveyed(recording, survey)
+        self._lines = FoundLines(recording, survey)
 
     def want(self, view: View, shown: Shown) -> None:
         """Have made of the recording on the screen what the View shows; stop other work."""
@@ -59,6 +60,14 @@ class Surroundings:
         """The map that was made last of a recording."""
         found = self._map.of(recording)
         return found if isinstance(found, LineMap) else None
+
+    def known(self, recording: Recording, params: Thresholds) -> tuple[Survey | None, LineMap | None]:
+        """The lines of all frames with these thresholds, and their map, where they are there already."""
+        lines = self._lines
+        if lines is None or lines.recording is not recording or lines.lines.params != params:
+            return None, None
+        found = self._map.made_of(lines)
+        return lines.lines, found if isinstance(found, LineMap) else None
 
     def close(self) -> None:
         self._map.close()

@@ -39,6 +39,12 @@ def test_the_map_is_drawn_while_its_layer_is_shown(server):
         told = server.get("/api/line-map", params={"session": session}).json()
         assert np.allclose(told["ends"], found.ends, atol=1e-4)
         assert told["seen"] == found.seen.tolist()
+        _, answers = lines_of(server, session, "geojson")
+        assert [list(answer) for answer in answers] == [["done", "total"], ["name", "content", "text"]]
+        assert answers[-1]["text"] == found.text
+        page.change(params={"min_length": 2.0})
+        _, answers = lines_of(server, session, "geojson")
+        assert answers[-1]["text"] != found.text
         state = page.change(layers={"line_map": False})
         assert "line map" not in state["nodes"]
         assert state["world"]["map"] == ""
