@@ -40,6 +40,7 @@ from .tables.dialect import LAST_LIST, LONG_LIST, labels_of
 from .tables.text import Text
 from .urgbenri import UrgBenriLog
 from .xml_scans import XmlScans
+from .yaml_scans import YamlScans
 
 __all__ = [
     "READERS", "Account", "Cancelled", "Guess", "Notice", "Progress", "Reading", "Skipped", "format_of",
@@ -53,7 +54,7 @@ MOST_LINES = 100
 # Readers are asked in this order: a failure pack is a zip like NPZ, and text accepts any lines, so it comes last.
 READERS: tuple[type[Reader], ...] = (
     Ros1Bag, Ros2Bag, Mcap, FailurePack, Npz, Npy, PointCloud, CarmenLog, PlayerLog, UrgBenriLog, SickTelegrams,
-    JsonMessages, XmlScans, PrintedMessages, Matlab, EchoYaml, Text,
+    JsonMessages, XmlScans, PrintedMessages, Matlab, EchoYaml, YamlScans, Text,
 )  # fmt: skip
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -22,6 +23,8 @@ STAMP_NAMES = ("stamp", "time")
 # What an array of scans is called if another stands beside it.
 SCAN_NAMES = ("scan", "scans", "laser", "lasers", "lidar", "data")
 MOST_COLUMNS = 8
+# How many numbers a beam may have in an array of its own.
+OF_BEAM, LEAST_BEAMS = (2, 3, 4), 10
 
 
 class Npy(Reader):
@@ -82,22 +85,39 @@ def _plain(array: NDArray) -> bool:
 
 
 def _pairs(array: NDArray) -> NDArray | None:
-    """(scans, beams, 2): complex numbers as x and y, or an array that has pairs already; None for others."""
+    """(scans, beams, 2 to 4): complex numbers as x and y, or an array that has a few numbers of each beam already; None
+    for others."""
     if array.dtype.kind == "c" and 1 <= array.ndim <= 2 and array.size > 2:
         return np.atleast_3d(np.stack([np.atleast_2d(np.real(array)), np.atleast_2d(np.imag(array))], axis=-1))
-    if array.dtype.kind not in "fiu" or array.ndim != 3 or 2 not in array.shape[1:] or array.size < 6:
+    if array.dtype.kind not in "fiu" or array.ndim != 3 or array.size < 6:
         return None
-    return array if array.shape[2] == 2 else array.swapaxes(1, 2)
+    if array.shape[2] in OF_BEAM and array.shape[1] > 1:
+        return array
+    return array.swapaxes(1, 2) if array.shape[1] in OF_BEAM and array.shape[2] > 1 else None
+
+
+def _joined(arrays: Mapping[str, NDArray]) -> NDArray | None:
+    """(scans, beams, 2 to 4): arrays that have a scan each, with a few numbers of each beam; None for others."""
+    shapes = {array.shape for array in arrays.values() if array.dtype.kind in "fiu"}
+    (shape,) = shapes if len(shapes) == 1 else ((),)
+    if len(arrays) < 2 or len(shape) != 2 or shape[1] not in OF_BEAM or shape[0] < LEAST_BEAMS:
+        return None
+    numbers = {name: [int(each) for each in re.findall(r"\d+", name)] for name in arrays}
+    if not all(numbers.values()):
+        return None
+    # The tenth comes after the ninth.
+    return np.stack([arrays[name] for name in sorted(arrays, key=numbers.__getitem__)])
 
 
 def _of_pairs(source: Source, pairs: NDArray, are_points: bool, format: str) -> Recording:
-    """The scans of (scans, beams, 2): of x and y, or of what the first of them looks like."""
-    scans, beams, _ = pairs.shape
-    table = pairs.reshape(-1, 2).astype(np.float64)
+    """The scans of (scans, beams, 2 to 4): of x and y, or of what the first of them looks like."""
+    scans, beams, numbers = pairs.shape
+    table = pairs.reshape(-1, numbers).astype(np.float64)
     numbered = np.column_stack([np.repeat(np.arange(scans), beams), table])
     given = None if source.reading.columns is None else columns_of(source.reading.columns)
-    if given is not None and (len(given) != 2 or "ranges" in given):
-        raise ValueError(f"{source.name} has pairs of numbers; columns must name two, such as x,y.")
+    if given is not None and (len(given) != numbers or "ranges" in given):
+        such = ",".join(["x", "y", "-", "-"][:numbers])
+        raise ValueError(f"{source.name} has {numbers} numbers for each beam; columns must name them, such as {such}.")
     words = given or (("x", "y") if are_points else words_of(source, table[:beams]))
     names = [Name("scan"), *map(Name, words)]
     return beams_of(source, source.reading, numbered, names, format=format)
@@ -109,6 +129,8 @@ def recording_of_arrays(source: Source, arrays: Mapping[str, NDArray], format: s
         (array,) = arrays.values()
         if (pairs := _pairs(array)) is not None:
             return _of_pairs(source, pairs, array.dtype.kind == "c", format)
+    if (joined := _joined(arrays)) is not None:
+        return _of_pairs(source, joined, False, format)
     tables = {name: array for name, array in arrays.items() if _plain(array) and array.ndim == 2}
     rows = {name: array for name, array in arrays.items() if _plain(array) and array.ndim == 1}
     plain = {name: name_of(name) for name in rows}

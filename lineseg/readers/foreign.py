@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from functools import cache
+from pathlib import PurePath
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,15 +14,34 @@ DRIVER = "record the scans that its driver publishes, or save them as text with 
 SLICE = "cut a slice of one height out of it, and save that as PCD or as text with x and y"
 RECORD = "record the scans of the laser"
 LEAST_NUMBERS = 100
+# What files are by their suffix, if their first bytes say nothing.
+BY_SUFFIX = {
+    ".mat": ("a MATLAB file", "save its matrix in MATLAB with writematrix(ranges, 'scans.csv')"),
+    ".rawlog": ("a rawlog of MRPT", "export its scans with rawlog-edit --export-2d-scans-txt, and open that text"),
+    ".pkl": ("a Python pickle, which could run programs", f"load it yourself and save it with {ARRAYS}"),
+    ".pickle": ("a Python pickle, which could run programs", f"load it yourself and save it with {ARRAYS}"),
+    ".posegraph": ("a map of slam_toolbox", "open the bag that it was made of"),
+}
 # How each begins, what it is, and what to do.
 FOREIGN = (
-    (rb"MATLAB [57]\.\d MAT-file", "a MATLAB file", f"load it with scipy.io.loadmat and save it with {ARRAYS}"),
+    (rb"MATLAB [57]\.\d MAT-file", "a MATLAB file", "save its matrix in MATLAB with writematrix(ranges, "
+     f"'scans.csv'), or load it with scipy.io.loadmat and save it with {ARRAYS}"),
     (rb"\x89HDF", "an HDF5 file, as MATLAB 7.3 also writes", f"load it with h5py and save it with {ARRAYS}"),
     (rb"7\x7f\x06[\x82\x83]", "the log of an SQLite database that is being written",
      "open the .db3 of the same name, with this file beside it"),
     (rb"PAR1", "a Parquet table", "save it as CSV, with pandas.read_parquet(…).to_csv('scans.csv')"),
     (rb"ARROW1|FEA1|\xff\xff\xff\xff\x10", "an Arrow table", "save it as CSV"),
-    (rb"\x80[\x02-\x05]", "a Python pickle, which could run programs", f"load it yourself and save it with {ARRAYS}"),
+    (rb"\x80[\x02-\x05]|(?:\([dlt]p\d|ccopy_reg\n|c(?:numpy|__main__|builtins|collections)[\w.]*\n|[}\]]q\0|\}\x94)",
+     "a Python pickle, which could run programs", f"load it yourself and save it with {ARRAYS}"),
+    (rb"\xdb\x01\xf5\x5b\x7b\x1f\x1d\x7b", "a map of Cartographer (pbstream), and no recording",
+     "open the bag that it was made of"),
+    (rb"# Octomap OcTree", "a map of OctoMap", "open the scans that it was made of"),
+    (rb"2D-Map\r?\n", "a map of ARIA or MobileEyes", "open the log of the scans that it was made of"),
+    (rb"(?![\s\S]*(?:FLASER|ROBOTLASER|RAWLASER))(?:#[^\n]*\n)*(?:VERTEX|EDGE)[\w:]*[ \t]",
+     "a pose graph (g2o or TORO)", "open the log of the scans that it was made of"),
+    (rb"(?:[^\n]{0,80}\n){0,3}\s*Columns 1 (?:through|to|and) \d+",
+     "what MATLAB shows in its window, with a few columns at a time",
+     "save the matrix with writematrix(ranges, 'scans.csv')"),
     (rb"\xd0\xcf\x11\xe0|PK\x03\x04[\s\S]{26,40}(?:\[Content_Types\]|mimetype)", "a workbook or document",
      "save its table as CSV"),
     (rb"\xd4\xc3\xb2\xa1|\xa1\xb2\xc3\xd4|\x4d\x3c\xb2\xa1|\x0a\x0d\x0d\x0a",
@@ -81,6 +101,8 @@ def unknown(name: str, head: bytes, expected: str, formats: str) -> ValueError:
 
     expected: what a file of its suffix has, "" without one; formats: the names of all.
     """
+    if (known := BY_SUFFIX.get(PurePath(name).suffix.lower())) is not None:
+        return ValueError(f"{name} is {known[0]}; {known[1]}.")
     if expected:
         return ValueError(f"{name} begins with {head[:8]!r}, which is not a known format{expected}.")
     for kind, size in (("<f4", 4), ("<u2", 2)):

@@ -16,7 +16,7 @@ from .source import Source
 from .tables.dialect import seconds_of
 from .tables.headers import LENGTHS, TIMES, TURNS, Name, is_angle, is_distance, name_of
 from .tables.numbers import all_numbers
-from .tables.scan_rows import tell_usual_angles, usual_angles
+from .tables.scan_rows import tell_unknown_direction, tell_usual_angles, usual_angles
 
 # What the fields of a scan are called elsewhere.
 NAMES = {
@@ -32,6 +32,8 @@ NAMES = {
 }
 # A text of fewer numbers is none of ranges.
 LEAST_NUMBERS = 8
+# So much of a step may angles be off their places [1], because they are rounded.
+UNEVEN = 0.1
 FIELD = {name: field for field, names in NAMES.items() for name in names}
 
 
@@ -99,6 +101,18 @@ def _one_by_one(text: str) -> Iterator[tuple[int, int, Any]]:
         line, seen = line + text.count("\n", seen, at), at
         yield end, line, value
         at = end
+
+
+def is_even(angles: list[Any]) -> bool:
+    """Whether angles rise or fall evenly, so that the first and the step say all."""
+    try:
+        values = np.asarray(angles, dtype=np.float64)
+    except (TypeError, ValueError):
+        return True
+    if values.ndim != 1 or len(values) < 2 or not np.isfinite(values).all():
+        return True
+    line = np.linspace(values[0], values[-1], len(values))
+    return bool(np.abs(values - line).max() <= UNEVEN * abs(line[1] - line[0]))
 
 
 def scan_of(source: Source, message: Mapping[str, Any]) -> LaserScan:
@@ -179,6 +193,8 @@ def _angles(source: Source, found: Mapping[str, tuple[Name, Any]], beams: int) -
         usual_low, step = (math.radians(each) for each in usual)
         low = usual_low if low is None else low
         tell_usual_angles(notes, reading, "the scan has", beams, low, step)
+    elif step is not None:
+        tell_unknown_direction(notes, reading)
     if step is None:
         raise ValueError(f"it has {beams} ranges without angles; give angle_min and angle_increment")
     return {"angle_min": -step * (beams - 1) / 2 if low is None else low, "angle_increment": step}

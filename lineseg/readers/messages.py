@@ -10,17 +10,21 @@ from typing import Any, TypeGuard
 
 import numpy as np
 
-from ..scan import Recording, Topic
-from .json_scans import NAMES, as_list, json_values, parsed, scan_of
+from ..scan import Floats, Recording, Topic
+from .json_scans import NAMES, as_list, is_even, json_values, parsed, scan_of
 from .laser_scan import LaserScan, decode_json
 from .lasers import rows_of_one_laser
 from .source import Reader, Source, Sweeps
 from .stamping import in_seconds
 from .tables.beam_rows import beams_of, read_beams
 from .tables.dialect import LEFT_OUT, Dialect, Row
-from .tables.headers import is_angle, is_distance, name_of
+from .tables.headers import SCANS, STAMPS, is_angle, is_distance, name_of
+from .tables.scan_rows import scans_of
 
 MOST_DEPTH = 6
+# A shorter list of numbers is no scan; what lists of ranges are called where they have no usual name.
+LONG_LIST = 30
+OF_SCANS = re.compile(r"scan|laser|lidar|rang|dist|depth|reading|measure|value|data|frame|sweep|turn|^\d*$")
 LIST_KEYS = ("ranges", "distances", "range", "distance")
 LEAST_BEAMS = 8
 STAMP_NAMES = NAMES["stamp"]
@@ -106,8 +110,11 @@ def recording_of_values(source: Source, values: Iterable[tuple[str, Any]], forma
     found: dict[str, list[LaserScan]] = {}
     beams: list[Mapping[str, Any]] = []
     tables: list[Table] = []
+    rows: list[Floats] = []
     for place, value in values:
-        for topic, message in _messages(value, "scan"):
+        messages = list(_messages(value, "scan"))
+        rows += [] if messages or found else [np.array(row, dtype=np.float64) for row in _long_lists(value)]
+        for topic, message in messages:
             if isinstance(message, list):
                 tables.append(message)
             elif _ranges_key(message) is None:
@@ -121,12 +128,32 @@ def recording_of_values(source: Source, values: Iterable[tuple[str, Any]], forma
                     found.setdefault(topic, []).append(scan)
     if not found and len(beams) >= LEAST_BEAMS:
         return replace(_beams(source, beams), format=format)
+    if not found and not tables and rows:
+        return scans_of(source, source.reading, list(range(1, len(rows) + 1)), rows, 0, None, format)
     if not found and tables:
         table = np.array([row for each in tables for row in each], dtype=np.float64)
         return beams_of(source, source.reading, table, None, format=format)
     if not found:
         source.notes.nothing_left()
     return recording_of(source, found, format) if found else None
+
+
+def _long_lists(value: Any, depth: int = 0) -> Iterator[list[float | None]]:
+    """The lists of many numbers that are called like scans, or have no name, wherever they lie."""
+    if depth > MOST_DEPTH:
+        return
+    if isinstance(value, Mapping):
+        named = ((name_of(str(key)).plain, held) for key, held in value.items())
+        value = [held for name, held in named if isinstance(held, Mapping) or OF_SCANS.search(name)]
+    elif isinstance(value, list) and len(value) >= LONG_LIST and all(_is_number_or_none(held) for held in value):
+        yield value
+        return
+    for inner in value if isinstance(value, list) else []:
+        yield from _long_lists(inner, depth + 1)
+
+
+def _is_number_or_none(value: Any) -> bool:
+    return value is None or (isinstance(value, int | float) and not isinstance(value, bool))
 
 
 def _messages(value: Any, topic: str, depth: int = 0) -> Iterator[tuple[str, Mapping[str, Any] | Table]]:
@@ -140,7 +167,10 @@ def _messages(value: Any, topic: str, depth: int = 0) -> Iterator[tuple[str, Map
         if (records := _records(value)) is not None:
             value = records
     if isinstance(value, Mapping):
-        if _ranges_key(value) is not None or _is_beam(value):
+        if (beams := _parallel(value)) is not None:
+            for beam in beams:
+                yield topic, beam
+        elif _ranges_key(value) is not None or _is_beam(value):
             yield topic, value
         elif (table := _keyed(value)) is not None:
             yield topic, table
@@ -166,6 +196,25 @@ def _records(value: Mapping[str, Any]) -> list[dict[str, Any]] | None:
     if not rows or not all(isinstance(row, list) and len(row) == len(names) for row in rows):
         return None
     return [dict(zip(names, row, strict=True)) for row in rows]
+
+
+def _parallel(value: Mapping[str, Any]) -> list[dict[str, Any]] | None:
+    """The rows of an object with a list for each column; None if a row is no beam, or all are one scan of even angles.
+
+    A row may also have a whole scan.
+    """
+    columns = {key: held for key, held in value.items() if isinstance(held, list)}
+    names = {key: name_of(key) for key in columns}
+    ranges = next((key for key, name in names.items() if is_distance(name)), None)
+    angles = next((key for key, name in names.items() if is_angle(name)), None)
+    if ranges is None or len(columns) < 2 or len({len(held) for held in columns.values()}) != 1 or not columns[ranges]:
+        return None
+    if not (isinstance(columns[ranges][0], list) and len(columns) == len(value)):
+        numbered = any(name.plain in SCANS for name in names.values())
+        if angles is None or len(columns[angles]) < LEAST_BEAMS or (is_even(columns[angles]) and not numbered):
+            return None
+    alone = {key: held for key, held in value.items() if name_of(key).plain in STAMPS and key not in columns}
+    return [{**alone, **dict(zip(columns, row, strict=True))} for row in zip(*columns.values(), strict=True)]
 
 
 def _ranges_key(value: Mapping[str, Any]) -> str | None:

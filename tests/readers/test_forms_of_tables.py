@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import io
+import json
+import pickle
 from pathlib import Path
 
 import numpy as np
@@ -46,6 +49,30 @@ FORMS = {
             SCANS.ravel()),
     "units alone": "scan,deg,inches\n" + lines(np.repeat([0, 1], 181), np.tile(DEGREES, 2), SCANS.ravel() / 0.0254),
     "plurals": "scan,angles,ranges\n" + lines(np.repeat([0, 1], 181), np.tile(DEGREES, 2), SCANS.ravel()),
+    "columns of pandas as JSON": json.dumps({
+        "scan": dict(enumerate(np.repeat([0, 1], 181).tolist())), "angle": dict(enumerate([*DEGREES.tolist()] * 2)),
+        "range": dict(enumerate(SCANS.ravel().tolist())),
+    }),
+    "lasers in turn": "".join(f"{100 + at} {laser} {row(each + laser, ' ')}\n" for at, each in enumerate(SCANS)
+                              for laser in (0, 1)),
+    "lists in cells": "stamp,angle_min,angle_increment,ranges\n"
+    + "".join(f"{at},{-np.pi / 2},{np.pi / 180},{row(each, ';')}\n" for at, each in enumerate(SCANS)),
+    "words between": "".join(f"Scan {at} at {at}.5 s\n{row(each, ' ')}\n" for at, each in enumerate(SCANS)),
+    "box": "+---+---+---+\n| scan | angle | range |\n+===+===+===+\n"
+    + "".join(f"│ {line.replace(',', ' ┆ ')} │\n" for line in
+              lines(np.repeat([0, 1], 181), np.tile(DEGREES, 2), SCANS.ravel()).splitlines()) + "└───┘\n",
+    "node": "".join("[INFO] [17.5]: scan laser[181]:\nangle_range : [-90, 90]\n"
+                    + "".join(f"angle-distance : [{angle:g}, {each:g}]\n" for angle, each in
+                              zip(DEGREES, ranges, strict=True)) for ranges in SCANS),
+    "lists in a log": "".join(f"[INFO] [17.5]: : [{angle:.6f}, {each:.6f}]\n" for ranges in SCANS
+                              for angle, each in zip(DEGREES, ranges, strict=True)),
+    "named lists of YAML": "".join(f"scan_{at}:\n" + "".join(f"- {each:g}\n" for each in ranges)
+                                   for at, ranges in enumerate(SCANS)),
+    "nested lists of YAML": "scans:\n"
+    + "".join("- " + "  ".join(f"- {each:g}\n" for each in ranges) for ranges in SCANS),
+    "objects of YAML": "".join(f"- stamp: {at}.5\n  ranges:\n" + "".join(f"  - {each:g}\n" for each in ranges)
+                               for at, ranges in enumerate(SCANS)),
+    "lists in JSON": json.dumps({"scans": SCANS.tolist()}),
 }  # fmt: skip
 
 
@@ -85,3 +112,57 @@ def test_the_path_of_a_robot_is_no_scan_unless_said(tmp_path: Path, form: str):
 
 def recording_size(recording: Recording) -> list[int]:
     return [len(scan) for scan in recording]
+
+
+def test_a_row_that_counts_is_no_scan_and_its_angles_are_a_guess(tmp_path: Path):
+    wide = np.concatenate((NEAR, NEAR, NEAR[:179]))  # as many as a laser of 270° by half a degree has
+    for ranges, view in ((NEAR, "0…180°"), (wide, "−135…135°")):
+        text = f",{row(range(len(ranges)))}\n0,{row(ranges)}\n1,{row(ranges)}\n"
+        recording = read(tmp_path, text)
+        assert recording_size(recording) == [len(ranges)] * 2
+        assert recording[0].ranges == pytest.approx(ranges, abs=1e-5)
+        assert recording.account is not None
+        assert view in recording.account.line
+        assert any(guess.field == "angle_min" for guess in recording.account.guesses)
+
+
+def test_points_of_numpy_are_scans_without_those_that_are_nowhere(tmp_path: Path):
+    flat = np.array([np.column_stack((each * X, each * Y, 0 * X)) for each in SCANS])
+    flat[0, 7] = np.nan
+    files = [io.BytesIO() for _ in range(3)]
+    np.save(files[0], flat)
+    np.savez(files[1], points=flat)
+    np.savez(files[2], scan_1=flat[0, :, :2], scan_2=flat[1, :, :2])
+    for name, file in zip(("a.npy", "b.npz", "c.npz"), files, strict=True):
+        recording = read(tmp_path, file.getvalue(), name)
+        assert recording_size(recording) == [180, 181]
+        assert recording[1].ranges == pytest.approx(FAR, abs=1e-5)
+
+
+def test_uneven_angles_of_json_are_kept(tmp_path: Path):
+    uneven = DEGREES + np.where(np.arange(181) % 3 == 1, 0.4, 0)
+    text = json.dumps({"angles": uneven.tolist(), "ranges": NEAR.tolist()})
+    assert np.rad2deg(read(tmp_path, text, "a.json")[0].bearings) == pytest.approx(uneven, abs=1e-6)
+
+
+def test_a_first_angle_that_is_given_is_the_one_of_json_without_angles(tmp_path: Path):
+    recording = read(tmp_path, json.dumps({"ranges": NEAR.tolist()}), "a.json", angle_min=0.5)
+    assert recording[0].bearings[0] == pytest.approx(0.5)
+    assert recording.account is not None
+    assert "28.65…208.6° is a guess" in recording.account.guesses[0].text
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "sentence"),
+    [
+        ("a.p", pickle.dumps({"ranges": [1.5] * 99}, protocol=0), "is a Python pickle"),
+        ("a.p", pickle.dumps({"ranges": [1.5] * 99}, protocol=1), "is a Python pickle"),
+        ("a.g2o", b"VERTEX_SE2 0 0 0 0\nEDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\n" * 20, "is a pose graph"),
+        ("a.mat", bytes(40), "is a MATLAB file; save its matrix in MATLAB with writematrix"),
+        ("a.txt", b"ans =\n\n  Columns 1 through 3\n\n    1.5    1.6   1.7\n", "is what MATLAB shows in its window"),
+        ("a.csv", b"epoch,loss\n" + b"1,2\n" * 20, "which names no column angle"),
+    ],
+)
+def test_what_is_no_scan_is_refused_with_what_it_is(tmp_path: Path, name: str, content: bytes, sentence: str):
+    with pytest.raises(ValueError, match=sentence):
+        read(tmp_path, content, name)

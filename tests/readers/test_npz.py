@@ -122,5 +122,5 @@ def test_pairs_of_numbers_are_points_or_angles_and_distances_of_each_scan(tmp_pa
     assert recording.ranges == pytest.approx(ranges.ravel())
     assert recording[1].bearings == pytest.approx(bearings)
     assert any(guess.field == "columns" for guess in recording.account.guesses) == (form != "complex")
-    with pytest.raises(ValueError, match="has pairs of numbers; columns must name two, such as x,y"):
+    with pytest.raises(ValueError, match="has 2 numbers for each beam; columns must name them, such as x,y"):
         open_recording(tmp_path / "array.npy", columns="stamp,x,y")

@@ -184,7 +184,11 @@ def test_the_room_is_read_from_the_files_of_other_programs(tmp_path, name):
 @pytest.mark.parametrize(
     ("name", "data", "sentence"),
     [
-        ("a.mat", b"MATLAB 5.0 MAT-file, Platform: GLNXA64" + b"\0" * 90, r"is a MATLAB file; load it with scipy"),
+        (
+            "a.mat",
+            b"MATLAB 5.0 MAT-file, Platform: GLNXA64" + b"\0" * 90,
+            r"is a MATLAB file; save its matrix in MATLAB .*, or load it with scipy",
+        ),
         (
             "a.xlsx",
             b"PK\x03\x04" + b"\0" * 26 + b"[Content_Types].xml",

@@ -92,6 +92,7 @@ MAGIC = {
     "printed messages": b"sensor_msgs.msg.LaserScan(header=std_msgs.msg.Header(",
     "MATLAB": b"% scans\nangle_min = -pi/2;\nranges = [\n",
     "echo": b"header:\n  stamp:\n    sec: 1\nangle_min: -1.5\n",
+    "YAML": b"scan:\n" + b"- 1.5\n" * 60,
     "text": b"angle,distance\n",
 }
 

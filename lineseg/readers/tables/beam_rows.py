@@ -202,8 +202,11 @@ def with_roles(
     """The scans of a table (beams, columns) whose columns have these roles. names: of the columns, None without."""
     notes = source.notes
     if not roles.polar:
-        # A point at the laser is a beam without a return; it has no bearing.
-        table = table[(table[:, roles.first] != 0) | (table[:, roles.second] != 0)]
+        # A point at the laser, or nowhere, is a beam without a return; it has no bearing.
+        points = table[:, [roles.first, roles.second]]
+        table = table[points.any(axis=1) & np.isfinite(points).all(axis=1)]
+        if not len(table):
+            raise ValueError(f"{source.name} has no point away from the laser; is the file complete?")
         if names is not None and (z := column_of(names, lambda name: name.plain.split("_")[-1] == "z")) is not None:
             table = _in_plane(source, table, roles, z)
     if names is not None:
@@ -398,10 +401,14 @@ def _guessed(source: Source, table: NDArray[np.float64]) -> Roles:
     return roles
 
 
-def words_of(source: Source, table: NDArray[np.float64]) -> tuple[str, str]:
-    """What two columns without names hold, which is told as a guess."""
-    polar = _guessed(source, table).polar
-    return ("angle", "distance") if polar else ("x", "y")
+def words_of(source: Source, table: NDArray[np.float64]) -> tuple[str, ...]:
+    """What columns without names hold, which is told as a guess; the third of points is their height."""
+    roles = _guessed(source, table)
+    words = ["-"] * table.shape[1]
+    words[roles.first], words[roles.second] = ("angle", "distance") if roles.polar else ("x", "y")
+    if words[:3] == ["x", "y", "-"]:
+        words[2] = "z"
+    return tuple(words)
 
 
 def columns_of_beam(table: NDArray[np.float64]) -> tuple[float, Roles]:

@@ -375,10 +375,16 @@ def _angles(source: Source, reading: Reading, beams: int, geometry: Geometry | N
         )
     if geometry is None and not stated:
         tell_usual_angles(source.notes, reading, "the rows have", beams, low, step)
-    elif reading.direction is None:
-        why = "the file does not say in which sense its angles count"
-        source.notes.guess("direction", "counter-clockwise", why, direction="clockwise")
+    else:
+        tell_unknown_direction(source.notes, reading)
     return low, step
+
+
+def tell_unknown_direction(notes: Notes, reading: Reading) -> None:
+    """Tells, once, that nothing says in which sense the angles count."""
+    if reading.direction is None and not any(guess.field == "direction" for guess in notes.guesses):
+        why = "the file does not say in which sense its angles count"
+        notes.guess("direction", "counter-clockwise", why, direction="clockwise")
 
 
 def tell_usual_angles(notes: Notes, reading: Reading, where: str, beams: int, low: float, step: float) -> None:
