@@ -20,12 +20,19 @@ import zipfile
 from collections import Counter
 from collections.abc import Callable
 from contextlib import closing
+from dataclasses import asdict
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from lineseg_app.live.ring import Ring
 from lineseg_app.live.source import Source
 from lineseg_app.routes.push import _take
+from lineseg_app.shelf.lessons import Home, lesson_files, read_lesson
+from lineseg_app.shelf.library import Library
+from lineseg_app.shelf.recent import Recent
+from lineseg_app.shelf.uploads import Uploads
+from lineseg_app.tuning.kept_trials import KeptTrials
 from lineseg_app.view import View
 from lineseg_app.wire import BadMessageError, Change, Hello, OpenLink, parse
 from rosbags.rosbag1 import Writer
@@ -44,6 +51,12 @@ HOSTILE = [
     b"0", b"-1", b"nan", b"inf", b"1e999", b"9" * 400, b"2147483648", b"18446744073709551615", b"", b"\0", b"\xff\xfe",
     b'"\\ud800"', b"null", b"[]", b"{}", b"!!int \"\"", b"\xed\xa0\x80", b"\xe2\x82\xac", b"self", b"\n", b",", b"  ",
     b"9" * 5000,
+]  # fmt: skip
+
+UNEXPECTED = [
+    None, True, 0, -1, 1.5, 10**400, -(2**63), 10**18, 1e308, float("nan"), float("inf"), "", "\ud800", "\0", "\n",
+    "nan", "x" * 5000, "9" * 5000, "../../etc/passwd", "<script>", "{epsilon}", [], {}, [[]], [None] * 3000, {"": {}},
+    {"self": 1}, json.loads("[" * 300 + "]" * 300),
 ]  # fmt: skip
 
 
@@ -71,6 +84,19 @@ def mutant(content: bytes, chance: random.Random) -> bytes:
                 place = chance.choice(numbers or [at])
                 out[place : place + 1] = chance.choice(HOSTILE)
     return bytes(out)
+
+
+def warped(tree: Any, chance: random.Random) -> Any:
+    """A copy of a JSON value with one part of it replaced by what nobody expects there."""
+    if not (isinstance(tree, dict | list) and tree) or chance.random() < 0.15:
+        return chance.choice(UNEXPECTED)
+    if isinstance(tree, list):
+        at = chance.randrange(len(tree))
+        return [warped(each, chance) if number == at else each for number, each in enumerate(tree)]
+    name = chance.choice(list(tree))
+    if chance.random() < 0.1:
+        return tree | {chance.choice(["", "self", "__proto__", "\ud800", "x" * 5000, "1"]): chance.choice(UNEXPECTED)}
+    return {key: warped(value, chance) if key == name else value for key, value in tree.items()}
 
 
 def recordings(folder: Path) -> dict[str, bytes]:
@@ -162,6 +188,62 @@ def texts() -> dict[str, tuple[bytes, Callable[[bytes, Path], object]]]:
     return found
 
 
+def trees(folder: Path) -> dict[str, tuple[Any, Callable[[str], object]]]:
+    """Files of JSON that people pass on or that are kept, with what reads them."""
+    lessons = [json.loads(file.read_text("utf-8")) for file in lesson_files()[::4]]
+    scans = folder / "scans"
+    scans.mkdir(exist_ok=True)
+    home = Home(folder, "x/", lambda: scans)
+    seed = open_recording(SAMPLES / "hallway.npz").only(np.arange(2))
+    packed = io.BytesIO()
+    write_pack(packed, seed, 1, Params(), "a note")
+    with zipfile.ZipFile(packed) as pack:
+        about, frame = (pack.read(name) for name in ("lineseg.json", "frame.npz"))
+
+    def written(name: str, text: str) -> Path:
+        file = folder / name
+        file.write_text(text, encoding="utf-8", errors="surrogatepass")
+        return file
+
+    def of_lesson(text: str) -> object:
+        return read_lesson(written("lesson.json", text), home).model_dump_json()
+
+    def of_recent(text: str) -> object:
+        uploads, recent = Uploads(10, 1, 10), Recent(written("recent.json", text).parent)
+        recent.add(Path("other.npz"))
+        library = Library([], recent, uploads)
+        return json.dumps([entry.model_dump() for entry in library.entries()]).encode()
+
+    def of_pack(text: str) -> object:
+        with zipfile.ZipFile(folder / "pack.zip", "w") as archive:
+            archive.writestr("lineseg.json", text.encode("utf-8", "surrogatepass"))
+            archive.writestr("frame.npz", frame)
+        recording = open_recording(folder / "pack.zip")
+        return recording.pack and json.dumps(asdict(recording.pack), allow_nan=False).encode()
+
+    def of_trials(text: str) -> object:
+        kept = KeptTrials(folder, {})
+        kept.file.write_text(text, encoding="utf-8", errors="surrogatepass")
+        return kept.read()
+
+    def of_labels(text: str) -> object:
+        return read_labels(written("x.lineseg.json", text), seed)
+
+    found = {f"lesson {number}": (lesson, of_lesson) for number, lesson in enumerate(lessons)}
+    reading = {"unit": "mm", "frames": "0:2", "range_max": 5.0}
+    labels = {"format": "lineseg labels", "version": 1, "recording": {"name": "x", "frames": 2}, "frames": {
+        "1": {"revision": 1, "beams": len(seed[1]), "tags": ["a"], "note": "n", "lines": [
+            {"first": 1, "last": 9, "start": [0.0, 0.0], "end": [1.0, 1.0]}]}}}  # fmt: skip
+    kept = Params().numbers()
+    return found | {
+        "recent files": (["/a/b.npz", {"path": "/a/c.csv", "reading": reading}], of_recent),
+        "about a pack": (json.loads(about) | {"labels": labels["frames"]["1"]}, of_pack),
+        "kept trials": ([kept, 0.5], of_trials),
+        "labels": (labels, of_labels),
+        "thresholds": ({"method": "region-growing", "params": kept}, read_params),
+    }
+
+
 MESSAGES = [
     {"type": "hello", "session": None, "view": {"recording": "sample:hallway", "frame": 1, "mode": "learn"}, "rev": 1},
     {"type": "view", "rev": 3, "patch": {"frame": 1, "params": {"epsilon": 0.02}, "selected": 3, "topic": "/scan"}},
@@ -242,9 +324,27 @@ def cases(folder: Path) -> list[Callable[[random.Random], tuple[str, Callable[[]
 
         return make
 
+    def of_tree(name: str, tree: Any, read: Callable[[str], object]):
+        def make(chance: random.Random):
+            changed = tree
+            for _ in range(chance.choice([1, 1, 3])):
+                changed = warped(changed, chance)
+            text = json.dumps(changed, ensure_ascii=chance.random() < 0.5)
+            return name, lambda: read(text), None
+
+        return make
+
+    def of_warped_message(message: dict):
+        def make(chance: random.Random):
+            text = json.dumps(warped(message, chance))
+            return f"message {message['type']}", lambda: hear(text), None
+
+        return make
+
     made = [of_recording(name, content) for name, content in recordings(folder).items()]
     made += [of_text(name, content, read) for name, (content, read) in texts().items()]
-    return made + [of_message(message) for message in MESSAGES]
+    made += [of_tree(name, tree, read) for name, (tree, read) in trees(folder).items()]
+    return made + [make(message) for message in MESSAGES for make in (of_message, of_warped_message)]
 
 
 def run(seed: int, number: int, seconds: float = float("inf"), tell: Callable[[str], None] = print) -> Counter[str]:

@@ -1,5 +1,6 @@
 """Files appear when they are complete; killed processes and full disks leave nothing that counts."""
 
+import json
 import os
 import subprocess
 import time
@@ -176,3 +177,14 @@ def test_the_list_of_recent_files_is_whole_whatever_the_disk_says(tiny, tmp_path
     os.utime(left, (0, 0))
     Recent(tiny).add(tmp_path / "two.npz")
     assert not left.exists()
+
+
+def test_the_list_of_recent_files_may_say_anything(tmp_path):
+    paths = ["x" * 5000, "\ud800", "\0", "", 5, {"path": "x.npz", "reading": {"unit": []}}, {"path": []}, None]
+    (tmp_path / "recent.json").write_text(json.dumps(paths))
+    with serving(Settings(data_folder=tmp_path)) as server, page_of(server) as page:
+        page.hello()
+        recent = [entry for entry in page.welcome["recordings"] if entry["group"] == "Recent"]
+        assert [entry["missing"] for entry in recent] == [True, True]
+        assert "cannot be read: File name too long" in page.refused(recording=recent[0]["id"])["message"]
+        assert page.change(frame=1)["frame"] == 1

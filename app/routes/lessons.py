@@ -65,6 +65,7 @@ def add_lessons(app: FastAPI, library: Library, sessions: Sessions) -> None:
 
 def _add_shelf(app: FastAPI, shelf: LessonShelf, slow: SlowWork) -> None:
     """The lessons that are there, and their files."""
+    opening = SlowWork("lessons that are opened", 4, 60.0)
 
     @app.get("/api/lessons")
     def lessons() -> Lessons:
@@ -102,9 +103,9 @@ def _add_shelf(app: FastAPI, shelf: LessonShelf, slow: SlowWork) -> None:
             return {"folder": await shelf.receive(name, announced_size(request), request.stream(), into)}
 
     @app.post("/api/lessons/open")
-    def open_dropped(folder: str = "") -> list[NamedLesson]:
+    async def open_dropped(folder: str = "") -> list[NamedLesson]:
         try:
-            return shelf.open_dropped(folder)
+            return await opening.run(shelf.open_dropped, folder)
         except ValueError as error:
             raise HTTPException(400, str(error)) from None
 

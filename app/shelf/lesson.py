@@ -7,6 +7,7 @@ from typing import Annotated, Any, Literal
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, model_validator
 
 from lineseg.extractors import EXTRACTORS
+from lineseg.params import Params
 
 from ..bounds import Name, Number, RecordingId
 from ..told.answers import ExplainedTerm
@@ -28,6 +29,9 @@ def _one_of(names: tuple[str, ...]) -> AfterValidator:
         return name
 
     return AfterValidator(known)
+
+
+Thresholds = Annotated[tuple[Annotated[str, _one_of(Params.names())], ...], Field(max_length=len(Params.names()))]
 
 
 class Part(BaseModel):
@@ -106,7 +110,7 @@ class Goal(Part):
     apart: tuple[Pair, ...] = ()
     inside: tuple[Beam, ...] = ()
     outside: tuple[Beam, ...] = ()
-    changed: tuple[Name, ...] = ()
+    changed: Thresholds = ()
     at: Find | None = None
     selected: tuple[Beam, ...] = ()
     count: tuple[Find, int, int] | None = None
@@ -172,8 +176,8 @@ class Lesson(Part):
     scan: Annotated[dict[str, Any], As("Record<string, unknown>")] = {}
     frame: Annotated[int, Field(ge=0)] = 0
     params: dict[Name, Number] = {}
-    knobs: tuple[Name, ...] = ()
-    decisions: dict[Name, Named] = {}
+    knobs: Thresholds = ()
+    decisions: Annotated[dict[Name, Named], Field(max_length=100)] = {}
     steps: Annotated[tuple[Step, ...], Field(min_length=1, max_length=30)]
     task: Task
 

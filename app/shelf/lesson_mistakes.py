@@ -70,9 +70,9 @@ def _complaint(error: ValidationError, model: type[BaseModel]) -> tuple[Place, s
     """The place and the sentence of the first thing that a validation found."""
     first = error.errors(include_url=False, include_context=False)[0]
     place, found = first["loc"], repr(first["input"])
-    where, name = _words(place[:-1]) or "a lesson", str(place[-1]) if place else ""
+    where, name = _words(place[:-1]) or "a lesson", _short(str(place[-1])) if place else ""
     if first["type"] == "extra_forbidden":
-        return place, f"{where} has no {name[:LONGEST]!r}; it may have {', '.join(_fields_at(model, place[:-1]))}"
+        return place, f"{where} has no {name!r}; it may have {', '.join(_fields_at(model, place[:-1]))}"
     if first["type"] == "missing":
         return place[:-1], f"{where} needs {name!r}, which is missing"
     why = first["msg"].removeprefix("Value error, ")
@@ -90,9 +90,15 @@ def _words(place: Place) -> str:
             continue
         number = place[k + 1] if k + 1 < len(place) else None
         many = part in ONE_OF and isinstance(number, int)
-        said = f"{ONE_OF[part]} {number + 1}" if many and isinstance(number, int) else part
+        said = f"{ONE_OF[part]} {number + 1}" if many and isinstance(number, int) else _short(part)
         words += f"{', ' if words.endswith(tuple('0123456789')) else '.' if words else ''}{said}"
     return words
+
+
+def _short(name: str) -> str:
+    """A name from the file on one line."""
+    name = " ".join(name.split())
+    return name if len(name) <= LONGEST else f"{name[:LONGEST]}…"
 
 
 def _fields_at(model: type[BaseModel], place: Place) -> list[str]:

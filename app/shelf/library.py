@@ -143,7 +143,7 @@ class Library:
         rows += [RecordingEntry(id=id, label=_title(self._samples[id]), group="Samples") for id in samples]
         rows += [RecordingEntry(id=id, label=_title(self._samples[id]), group="Lessons") for id in lessons]
         rows += [
-            RecordingEntry(id=id, label=self.label(id), group="Recent", missing=not path.exists())
+            RecordingEntry(id=id, label=self.label(id), group="Recent", missing=not os.path.exists(path))  # noqa: PTH110 - this one raises nothing
             for id, path in self._recent.items()
             if path not in opened
         ]
@@ -277,6 +277,8 @@ class Library:
             status = path.stat()
         except FileNotFoundError:
             raise ValueError(f"{shown(path.name)} is no longer in {shown(path.parent)}") from None
+        except OSError as error:
+            raise ValueError(f"{shown(path.name)} cannot be read: {error.strerror}") from None
         return _Key(path, reading, status.st_mtime_ns, status.st_size)
 
     def _finish(self, key: _Key, load: _Load) -> None:

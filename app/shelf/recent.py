@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -66,7 +67,11 @@ def _read(file: Path) -> dict[Path, Reading]:
 def _entry(said: Any) -> tuple[Path, Reading] | None:
     """A path, or a path with a Reading."""
     path, how = (said.get("path"), said.get("reading")) if isinstance(said, dict) else (said, None)
-    if not isinstance(path, str) or not path:
+    if not isinstance(path, str) or not path or "\0" in path:
+        return None
+    try:
+        os.fsencode(path)
+    except UnicodeEncodeError:
         return None
     try:
         return Path(path), Reading(**(how or {}))

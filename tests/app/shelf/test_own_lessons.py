@@ -87,6 +87,9 @@ def task(**kind: Any) -> dict[str, Any]:
             task(goal={"lines": [90, 99], "changed": ["epsilon", "delta"]}),
             "task.goal: no value of epsilon or delta alone does what is asked",
         ),
+        (task(goal={"changed": ["epsilonn"]}), "task.goal.changed is 'epsilonn': choose from epsilon, delta"),
+        (lesson(knobs=["epsilon"] * 99), "knobs is"),
+        (lesson(decisions={"a\n" + "b" * 200: {"kind": "x"}}), f"decisions.a {'b' * 58}….kind is 'x': choose from"),
         (task(number={"answer": "many"}), "task.number.answer: 'many' does not begin with a number, such as 45 mm"),
     ],
 )
