@@ -18,7 +18,8 @@ function chord(event) {
 export function keyboard(bindings) {
   const table = new Map(bindings.flatMap((binding) => binding.keys.map((key) => [key, binding])));
   return (event) => {
-    if (event.defaultPrevented || typing(event.target)) return false;
+    // A dialog whose focused button is disabled leaves the focus, and so its keys, to the page.
+    if (event.defaultPrevented || typing(event.target) || document.querySelector("dialog[open]")) return false;
     const pressed = chord(event);
     if (operates(event.target, pressed)) return false;
     const binding = table.get(pressed);

@@ -9,9 +9,13 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from lineseg_app.live.node_door import open_door
+from lineseg_app.live.running import Running
 from live import Address
 from robots import wall, watching
 from rosbridge_peer import RosBridgePeer, scan_message
+
+from lineseg import EXTRACTORS
 
 NODE = {"least_thresh": 0.04, "predict_distance": 0.1, "seed_line_points": 6, "min_line_points": 12}
 
@@ -52,7 +56,7 @@ def watched(robot: Driving, tmp_path: Path) -> Iterator[Address]:
         yield server
 
 
-def test_a_robot_is_watched_paused_and_given_its_parameters(robot: Driving, watched: Address, new_tab):
+def test_a_robot_is_watched_paused_and_given_its_parameters(robot: Driving, watched: Address, new_tab, tmp_path: Path):
     tab = new_tab(at=f"{watched.http}/")
     pill = tab.page.get_by_role("button", name="Live")
     begun = tab.until("s.live === true && s.frames > 3")
@@ -106,7 +110,23 @@ def test_a_robot_is_watched_paused_and_given_its_parameters(robot: Driving, watc
     tab.page.get_by_role("menuitem", name="Stop publishing segments").click()
     tab.eventually(lambda: "/walls" not in told.inner_text(), "publishing goes on")
 
-    # The thresholds reach the node, and what it refuses is shown as it says it.
+    # A node of lineseg is offered by itself, and runs what is sent.
+    runs, told_by_node = Running("ransac", EXTRACTORS["ransac"].params_type()), []
+    with open_door("ros2:/scan", runs, lambda method, params: None, told_by_node.append, tmp_path):
+        menu.click()
+        tab.page.get_by_role("menuitem", name="Send parameters to a robot…").click()
+        dialog = tab.page.get_by_role("dialog")
+        to = dialog.get_by_role("combobox", name="Send to").locator("option:checked")
+        assert to.inner_text() == "lineseg node on ros2:/scan"
+        dialog.get_by_role("button", name="Send").click()
+        dialog.get_by_text("The node runs region-growing with these").wait_for()
+        assert dialog.get_by_role("row", name="epsilon 0.02").is_visible()
+    method, params = runs.now
+    assert (method, params.numbers()["epsilon"]) == ("region-growing", 0.02)
+    assert told_by_node[-1].startswith("sent from the page: region-growing, epsilon 0.02")
+    tab.page.keyboard.press("Escape")
+
+    # The thresholds reach another node, and what it refuses is shown as it says it.
     menu.click()
     tab.page.get_by_role("menuitem", name="Send parameters to a robot…").click()
     dialog = tab.page.get_by_role("dialog")
