@@ -40,6 +40,9 @@ const OVERRULED = `
   body, body div { background-color: transparent !important; }
 `;
 const TAN = Math.tan(rad(PLAN_FOV_DEG / 2));
+// What a link says about viser's first camera holds against the server's, which may arrive at any time. This one does not
+// look from straight above, so wherever viser puts it, nobody takes it for a plan that a person has moved.
+const FIRST_CAMERA = "?initialCameraPosition=3,3,3&initialCameraLookAt=0,0,0&initialCameraUp=0,0,1&initialCameraFov=1";
 
 export class Stage extends PlanStage {
   hasFree = true;
@@ -55,8 +58,6 @@ export class Stage extends PlanStage {
   /** @type {any} */
   #locked = null;
   #source = "";
-  /** Whether a person may have moved the camera. */
-  #touched = false;
   #handlers;
   /** @param {HTMLElement} holder @param {typeof import("../text/page.js").pageText.stage} text @param {Handlers} handlers */
   constructor(holder, text, handlers) {
@@ -83,14 +84,9 @@ export class Stage extends PlanStage {
       true,
     );
     inner.document.documentElement.addEventListener("pointerleave", () => this.hover(null));
-    const touch = () => {
-      this.#touched = true;
-    };
-    for (const kind of ["pointerdown", "wheel"]) inner.addEventListener(kind, touch, true);
     onLongPress(inner, (left, top) => this.#held(left, top));
     this.#handlers.onFrame(inner);
     this.#locked = null;
-    this.#touched = false;
     this.#settle();
   }
 
@@ -134,8 +130,7 @@ export class Stage extends PlanStage {
     if (!found) return;
     if (this.#mode === "plan") {
       const now = planOf(found);
-      // viser resets its camera when the server's initial one arrives.
-      if (!now || (!this.#touched && this.#plan && isApart(now, this.#plan))) return this.#applyPlan();
+      if (!now) return this.#applyPlan();
       this.#plan = now;
       clip(found, now.height);
       bend(found, this.stretch, now.height);
@@ -194,7 +189,7 @@ export class Stage extends PlanStage {
     if (path === this.#source) return;
     this.#source = path;
     this.frame.classList.remove("ready");
-    this.frame.src = path;
+    this.frame.src = path + FIRST_CAMERA;
   }
 
   /** @type {PlanStage["showBox"]} */
@@ -255,9 +250,4 @@ export class Stage extends PlanStage {
     this.#apply();
     this.#resized();
   }
-}
-
-/** Whether the camera is not where it was set. @param {Plan} now @param {Plan} wanted */
-function isApart(now, wanted) {
-  return Math.hypot(now.x - wanted.x, now.y - wanted.y, now.height - wanted.height) > 1e-3 * now.height;
 }

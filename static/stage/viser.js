@@ -16,12 +16,12 @@ const WHEEL_SPEED = 1;
 // camera-controls' actions
 const ACTION = { ROTATE: 1, TRUCK: 2, DOLLY: 16, TOUCH_ROTATE: 64, TOUCH_TRUCK: 128, TOUCH_DOLLY_TRUCK: 4096 };
 
-/** viser's camera, once its scene is loaded. @param {HTMLIFrameElement} frame @returns {Found | null} */
+/** viser's camera, once viser has put it where it begins and tells where it is. @param {HTMLIFrameElement} frame @returns {Found | null} */
 export function cameraIn(frame) {
   const mutable = /** @type {any} */ (frame.contentWindow)?.__viserMutable;
   const control = mutable?.cameraControl;
   const camera = control?.camera ?? mutable?.camera;
-  return control && camera ? { control, camera, mutable } : null;
+  return control && camera && mutable.sendCamera ? { control, camera, mutable } : null;
 }
 
 /** Whether viser has heard what to draw; before, it shows axes on white. @param {HTMLIFrameElement} frame */

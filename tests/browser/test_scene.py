@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import pytest
+from browser.conftest import Profile, Tab
+from live import Address
 
 CAMERA = """() => {
     const { cameraControl: control, camera } = window.__viserMutable;
@@ -196,3 +198,24 @@ def test_in_the_world_the_points_of_a_frame_are_where_a_click_finds_them(tab):
     assert picked["explanation"]["at"] == pytest.approx(start, abs=0.3)
     tab.page.keyboard.press("g")
     assert tab.until("s.view.space === 'laser'")["world"] is None
+
+
+# A hand that is faster than viser: it presses as soon as viser's page is there, before the server's first camera is.
+PRESSED = """if (location.pathname.includes("/viser/"))
+    addEventListener("load", () => setTimeout(() => dispatchEvent(new PointerEvent("pointerdown"))));"""
+
+
+def test_a_press_before_the_scene_has_come_does_not_move_the_plan(profile: Profile, address: Address):
+    page = profile.context.new_page()
+    page.add_init_script(PRESSED)
+    tab = Tab(page, f"{address.http}/").open("#recording=sample:hallway")
+    tab.eventually(lambda: page.locator("iframe.scene.ready").count(), "no scene")
+    resting = camera_at_rest(tab)
+    assert looks_straight_down(resting)
+    from_above = """([x, , z]) => {
+        const [left, top] = lineseg.project(-z, -x);
+        return [left / stage.clientWidth, top / stage.clientHeight];
+    }"""
+    assert page.evaluate(from_above, resting["at"]) == pytest.approx([0.5, 0.5], abs=0.01)
+    assert "look=" not in page.url
+    page.close()
