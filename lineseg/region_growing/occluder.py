@@ -8,6 +8,9 @@ from ..kernel import kernel
 from ..total_least_squares import at
 from .limits import near
 
+# Points that are asked together whether a step is among them.
+AT_ONCE = 32
+
 
 @kernel
 def look_past(x, y, rho, beam, passed, steps, n, limits):
@@ -42,13 +45,26 @@ def look_past(x, y, rho, beam, passed, steps, n, limits):
 @kernel
 def find_steps(rho, steps, ahead):
     """Store the points that lie more than `ahead` nearer or farther than the previous one; returns their number."""
-    before, here = rho[:-1], rho[1:]
     count = np.uintp(0)
-    for k in range(len(here)):
-        # Always written, and kept only if it is a step: a branch would be mispredicted at most steps.
-        steps[count] = k + 1
-        count += np.uintp((here[k] < before[k] - ahead) | (here[k] > before[k] + ahead))
+    for first in range(0, len(rho) - 1, AT_ONCE):
+        last = min(first + AT_ONCE, len(rho) - 1)
+        before, here = rho[first:last], rho[first + 1 : last + 1]
+        # Most runs have no step, and several points at a time can be asked.
+        some = 0
+        for k in range(len(here)):
+            some += is_step(before[k], here[k], ahead)
+        if some == 0:
+            continue
+        for k in range(len(here)):
+            # Always written, and kept only if it is a step: a branch would be mispredicted at most steps.
+            steps[count] = first + k + 1
+            count += np.uintp(is_step(before[k], here[k], ahead))
     return count
+
+
+@kernel
+def is_step(before, here, ahead):
+    return (here < before - ahead) | (here > before + ahead)
 
 
 @kernel
