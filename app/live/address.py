@@ -30,6 +30,8 @@ class Address:
 
     def __post_init__(self) -> None:
         named = NAMED.fullmatch(self.url)
+        if named is None and self.url.lower().startswith(("ros2:", "zenoh:")):
+            raise ValueError(f"{self.url[:80]!r} is not the address of a robot; {EXPECTED}")
         if named is None:
             url, _, topic = self.url.partition("#")
             check_address(url)

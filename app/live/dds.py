@@ -158,6 +158,7 @@ class Dds:
                 arrived = time.perf_counter()
                 samples = [each for each in reader.take(MOST_WAITING) if each.sample_info.valid_data]
                 hand_all(told, [partial(decode_cdr, sample.data) for sample in samples], arrived)
+                watch.said = ""
             now = time.monotonic()
             if now < watch.looks:
                 continue

@@ -34,7 +34,7 @@ def test_an_address_says_where_and_which_topic(url: str, topic: str | None, id: 
         ("ros2:/scan", "/rear", "name two topics"),
         ("ws://robot:9090#/scan", "/rear", "name two topics"),
         ("zenoh://robot:99999/scan", None, "is not the address of a Zenoh router"),
-        ("ros2:scan", None, "is not the address of a robot"),
+        ("ros2:scan", None, "is not the address of a robot; give one like ros2:/scan"),
     ],
 )
 def test_what_cannot_be_an_address_is_told(url: str, topic: str | None, words: str):
