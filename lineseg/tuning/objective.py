@@ -65,8 +65,7 @@ class Objective:
             )
         return (
             f"Maximises {harmonic} of TR and 1 − FR{times}, against lines that fit the noise of this laser instead of "
-            "true lines: those of region growing at the ε that is steadiest within that noise, and at 1.6 times more "
-            "and less."
+            "true lines: those of region growing at the ε that fits."
         )
 
     @property
