@@ -34,7 +34,7 @@ DEVIATIONS, NEAREST, FARTHEST, DOUBTFUL = 3.5, 0.02, 0.10, 1.25
 STEPPED = 0.15
 # Where a wall bends, its surface is at most this far from its line [m].
 BENT = 0.12
-# A curve that is shorter is a pillar or the like [m].
+# What bends or is rough and is shorter than this is a pillar, a person or the like [m].
 LONG = 1.0
 # Past the end of a wall, it is unknown for so long whether returns so near to its line belong to it [m].
 ONWARD, NEAR = 0.30, 0.02
@@ -166,12 +166,11 @@ def _profiles(
 class Known:
     """What is known of the pieces of walls, by which each return gets its piece.
 
-    straight, firm: (w,) whether a piece is straight, and even too; profiles: of the pieces; height, scatter: (s,) of
+    firm: (w,) whether a piece is straight and even; profiles: of the pieces; height, scatter: (s,) of
     their stretches [m]; by_range: how much points scatter, metre by metre of their range [m]; places: what was seen.
     """
 
     walls: Walls
-    straight: NDArray[np.bool_]
     firm: NDArray[np.bool_]
     profiles: Profiles
     height: Floats
@@ -184,7 +183,6 @@ class Known:
         cls, placed: NDArray[np.float32], scan: NDArray[np.int32], poses: Floats, views: NDArray[np.int64], walls: Walls
     ) -> Known:
         """From the points (n, 2) of many scans in the world and the scan (n,) of each."""
-        straight = is_straight(_profiles(placed, scan, poses, views, walls, FINE, BEND), walls)
         found, over = nearest_walls(placed, scan, poses, walls, BENT)
         near = np.flatnonzero(found >= 0)
         profiles = profiles_of(placed[near], found[near], over[near], views[scan[near]], walls)
@@ -194,8 +192,9 @@ class Known:
         away = np.hypot(*(placed[near] - poses[scan[near], :2]).T)
         off = np.abs(over[near] - height[stretch])
         by_range = scatter_by_range(off, away)
-        firm = straight & is_even(stretch, off, away, by_range, profiles)
-        return cls(walls, straight, firm, profiles, height, scatter, by_range, Places.of(placed, views[scan]))
+        fine = _profiles(placed, scan, poses, views, walls, FINE, BEND)
+        firm = is_straight(fine, walls) & is_even(stretch, off, away, by_range, profiles)
+        return cls(walls, firm, profiles, height, scatter, by_range, Places.of(placed, views[scan]))
 
     def labels(
         self, placed: NDArray[np.float32], scan: NDArray[np.int32], poses: Floats
@@ -203,8 +202,8 @@ class Known:
         """(n,) the piece of each return, −1 for none, UNKNOWN where fewer than LEAST_VIEWS views saw the place; and
         (n,) its height over the piece [m].
 
-        Returns that lie a little farther from their wall than others do are UNKNOWN, and so are long curves: whoever
-        finds lines there is neither right nor wrong. Rough surfaces, such as a hedge, are no walls.
+        Returns that lie a little farther from their wall than others do are UNKNOWN, and so are long surfaces that bend
+        or are rough, such as a hedge: whoever finds lines there is neither right nor wrong.
         """
         walls, profiles = self.walls, self.profiles
         found, height = nearest_walls(placed, scan, poses, walls, BENT)
@@ -220,7 +219,7 @@ class Known:
             wall[near[off < limit]] = own[off < limit]
             wall[near[good & (off >= limit)]] = UNKNOWN
             wall[near[good & ~self.firm[own]]] = -1
-            wall[near[(~self.straight & long)[own] & good]] = UNKNOWN
+            wall[near[(~self.firm & long)[own] & good]] = UNKNOWN
             wall[near[(profiles.views[stretch] < LEAST_VIEWS) & good]] = UNKNOWN
         elsewhere = wall == -1
         wall[elsewhere & on_the_way(placed, scan, poses, walls.only(self.firm))] = UNKNOWN

@@ -11,8 +11,8 @@ from .growing import Walls
 
 # Length of a stretch [m].
 STRETCH = 0.20
-# A wall whose middle stands out by more than this share of its length, and by more than this [m], is a curve.
-CURVED, LEAST_SAGITTA = 0.025, 0.015
+# A wall whose middle stands out by more than this share of its length is a curve; bounds of that height [m].
+CURVED, LEAST_SAGITTA, MOST_SAGITTA = 0.025, 0.015, 0.07
 # A surface that scatters by so many times what most do, and by more than this [m], is rough: a hedge, books, people.
 ROUGH, LEAST_SCATTER = 2.0, 0.025
 # Fewer points than this do not tell how the laser scatters at their range.
@@ -162,7 +162,7 @@ def is_straight(fine: Profiles, walls: Walls) -> NDArray[np.bool_]:
         inner = slice(first + 1, last - 1)
         if last - first >= 6:
             sagitta[one] = _bulge(at[inner], height[inner], points[inner])
-    return np.abs(sagitta) < np.maximum(CURVED * 2 * half, LEAST_SAGITTA)
+    return np.abs(sagitta) < np.clip(CURVED * 2 * half, LEAST_SAGITTA, MOST_SAGITTA)
 
 
 def _bulge(at: Floats, height: Floats, weights: Floats) -> float:

@@ -1,10 +1,11 @@
 """How well the suspicion follows the truth: python tests/benchmarks/suspicion.py [FILE…]
 
 For the samples, the simulated worlds, these worlds with other lasers and seeds, the real rooms beside LINESEG_DATA and
-further files with truth, at the default thresholds: rank correlation, frame by frame, with the faults (lines missed or
-false by the truth), and the share of the faults of the 15 truly worst frames that the 15 most suspicious hold. `before`
-is the suspicion of the scores alone, with the weights that it had without a committee. Last, how many of the failures
-that tests/planted.py plants are among the 15 worst, on average over the seeds 1 to 6.
+further files, with the truth by many views where they have no other, at the default thresholds: rank correlation, frame
+by frame, with the faults (lines missed or false by the truth), and the share of the faults of the 15 truly worst frames
+that the 15 most suspicious hold. `before` is the suspicion of the scores alone, with the weights that it had without a
+committee. Last, how many of the failures that tests/planted.py plants are among the 15 worst, on average over the seeds
+1 to 6.
 """
 
 from __future__ import annotations
@@ -94,6 +95,8 @@ def main(files: list[str]) -> None:
     for recording in more_recordings(files):
         table.append(row(recording))
         print(f"{recording.name:24}{table[-1][0]:8.2f}" + "".join(f"{value:9.2f}" for value in table[-1][1:]))
+        if recording.wall_source:
+            print(f"    truth by many views: {recording.wall_source}")
     for name, over in (("mean", np.mean), ("least", np.min)):
         print(f"{name:24}{'':8}" + "".join(f"{over(column):9.2f}" for column in list(zip(*table, strict=True))[1:]))
     for name in ("hallway", "laboratory"):
