@@ -112,7 +112,7 @@ def _returns(recording: Recording) -> tuple[int, list[float]]:
 def _noise(found: Proposal, longest: list[float]) -> str:
     noise = found.noise
     if not noise.known:
-        return "unknown, because no straight wall was found"
+        return "unknown, because too few points lie on straight walls"
     near, far = noise.at(1.0), noise.at(np.median(longest))
     if near < LEAST_NOISE and far < LEAST_NOISE:
         return "cannot be told: ranges differ by less than 0.5 mm from smooth walls, as in computed or constant scans"

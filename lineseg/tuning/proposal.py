@@ -49,6 +49,8 @@ SHARE, SHARE_AT, POWER = 0.32, 0.05, 0.15
 WORTH = 0.25
 # Walls deviate from straight by no more than this [m]: lines that scatter more have taken in something else.
 BEND = 0.025
+# If lines at the proposed ε deviate by this many times as much, and as many times the noise, they lie on curves.
+CURVED = 2.0
 # Multiples of what is proposed whose lines judge it and the present values. Values that differ by more are told.
 MUCH = 1.25
 BESIDE = (1 / MUCH, MUCH)
@@ -158,9 +160,9 @@ class _Search:
         if len(self._scans) < LEAST_FRAMES:
             few = len(self._scans)
             have = "has" if few == 1 else "have"
-            return f"Estimating noise needs at least {LEAST_FRAMES} scans with a return; {few} {have} one."
+            return f"Proposing thresholds needs at least {LEAST_FRAMES} scans with a return; {few} {have} one."
         if not self._white > 0:
-            return "No straight wall was found, so the noise of the laser is unknown."
+            return "Too few points lie on straight walls, so the noise of the laser is unknown."
         return ""
 
     def fitting(self, scale: float, present: T) -> T:
@@ -193,10 +195,16 @@ class _Search:
         best = self._worth(suits, np.array([_scatter(each) for each in lines[: STEPS + 1]]), steady)
         proposed = self.fitting(MORE * tried[best], self.present)
         found, present = self._extracted(proposed), self._extracted(self.present)
+        bend = self._bend(found)
+        if bend > CURVED * max(BEND, self._white):
+            off, by_noise = 1e3 * math.hypot(self._white, bend), 1e3 * self._white
+            return self.nothing(
+                f"Nothing here is straight enough for lines: points lie {off:.0f} mm from them, and the noise of the "
+                f"laser explains {by_noise:.0f} mm."
+            )
         around = [self._extracted(rescaled(proposed, factor)) for factor in BESIDE]
         lacking = np.mean([_agreement(found, other) - _agreement(present, other) for other in around])
         pieces, lost = _pieces(present, found)
-        bend = self._bend(found)
         self.scatter = math.hypot(self._white, bend)
         answer = replace(self.nothing(""), fitting=proposed, bend=bend, pieces=pieces, tried=tried, steady=steady)
         if lacking <= AS_GOOD:
@@ -272,7 +280,9 @@ class _Search:
         told = f"Points scatter by {1e3 * self.scatter:.0f} mm here. {fits} fit{'s' if len(values) == 1 else ''}"
         higher = self._reach(proposed) / self._reach(self.present)
         broken = [f"a wall breaks into {pieces:.1f} pieces on average"] if pieces >= 1.1 else []
-        broken += [f"{lost:.0%} of the walls are not found"] if lost >= 0.1 else []
+        broken += (
+            [f"{lost:.0%} of the walls are not found" if lost < 0.995 else "no wall is found"] if lost >= 0.1 else []
+        )
         if higher > 1 and broken:
             return f"{told}; at {now}{' ' if pieces >= 1.1 else ', '}{', and '.join(broken)}."
         if not 1 / MUCH <= higher <= MUCH:

@@ -124,10 +124,15 @@ def scans_of(*ranges):
     [
         pytest.param(scans_of(), "scans with a return; 0 have one", id="no scan"),
         pytest.param(scans_of(np.full(400, 2.0)), "scans with a return; 1 has one", id="one frame"),
-        pytest.param(scans_of(*[np.full(10, 2.0)] * 9), "No straight wall", id="ten beams"),
+        pytest.param(scans_of(*[np.full(10, 2.0)] * 9), "Too few points lie on straight walls", id="ten beams"),
         pytest.param(scans_of(*[np.full(400, np.inf)] * 9), "scans with a return; 0 have one", id="nothing returns"),
         pytest.param(world("flat", 0.5, RPLIDAR_A2), "mm here. That is too much", id="noise above every slider"),
-        pytest.param(scans_of(*np.random.default_rng(1).uniform(0.5, 20, (40, 400))), "No straight wall", id="no wall"),
+        pytest.param(scans_of(*3 + np.random.default_rng(1).normal(0, 0.01, (20, 600))), "straight enough", id="round"),
+        pytest.param(
+            scans_of(*np.random.default_rng(1).uniform(0.5, 20, (40, 400))),
+            "Too few points lie on straight walls",
+            id="no wall",
+        ),
     ],
 )
 def test_a_sentence_says_why_nothing_can_be_proposed(recording, why):

@@ -148,7 +148,7 @@ def test_scores_without_truth_are_those_of_all_judges_together(hallway: Recordin
 def test_a_recording_without_walls_cannot_be_judged_without_truth():
     nothing = [Scan.regular(np.full(60, np.inf), 0.0, 0.01)] * 6
     with pytest.raises(
-        ValueError, match=r"blank cannot be judged without truth. Estimating noise needs at least 4 scans"
+        ValueError, match=r"blank cannot be judged without truth. Proposing thresholds needs at least 4 scans"
     ):
         judges(Recording.from_scans(nothing, "blank"))
 
