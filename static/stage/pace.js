@@ -15,8 +15,10 @@ const POLL_MS = 4;
 export function paceFrames(scene) {
   const ask = scene.requestAnimationFrame.bind(scene);
   const cancel = scene.cancelAnimationFrame.bind(scene);
-  /** The present request of each that was asked for. @type {Map<number, number>} */
+  /** The present request of each that was asked for, none while it waits for the end of a rest. @type {Map<number, number | null>} */
   const asked = new Map();
+  /** What waits. @type {Map<number, FrameRequestCallback>} */
+  const waiting = new Map();
   let number = 0;
   let resting = false;
   /** The picture of the screen that is being drawn [ms]. */
@@ -35,26 +37,39 @@ export function paceFrames(scene) {
       const done = pen.isContextLost() || pen.getSyncParameter(fence, pen.SYNC_STATUS) === pen.SIGNALED;
       if (!done && took < PATIENCE_MS) return setTimeout(look, POLL_MS);
       pen.deleteSync(fence);
-      return setTimeout(() => (resting = false), took > LIGHT_MS ? Math.min(REST * took, LONGEST_REST_MS) : 0);
+      return setTimeout(goOn, took > LIGHT_MS ? Math.min(REST * took, LONGEST_REST_MS) : 0);
     };
     setTimeout(look, 0);
+  }
+
+  /** To ask for each frame of a rest would have the page laid out and painted for each. @param {number} own @param {FrameRequestCallback} tried */
+  function askOrWait(own, tried) {
+    asked.set(own, resting ? null : ask(tried));
+    if (resting) waiting.set(own, tried);
+  }
+
+  function goOn() {
+    resting = false;
+    for (const [own, tried] of waiting) asked.set(own, ask(tried));
+    waiting.clear();
   }
 
   scene.requestAnimationFrame = (/** @type {FrameRequestCallback} */ draw) => {
     const own = --number;
     const tried = (/** @type {number} */ now) => {
-      if (resting && now !== drawing) return asked.set(own, ask(tried));
+      if (resting && now !== drawing) return askOrWait(own, tried);
       drawing = now;
       asked.delete(own);
       draw(now);
       if (!resting) rest();
-      return undefined;
     };
-    asked.set(own, ask(tried));
+    askOrWait(own, tried);
     return own;
   };
   scene.cancelAnimationFrame = (/** @type {number} */ id) => {
-    cancel(asked.get(id) ?? id);
+    const present = asked.get(id);
+    if (present !== null) cancel(present ?? id);
     asked.delete(id);
+    waiting.delete(id);
   };
 }

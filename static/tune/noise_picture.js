@@ -25,11 +25,15 @@ export function reachOf({ edges, sigma }) {
 /** @param {typeof import("../text/tuning.js").tuningText.fit} text */
 export function createNoisePicture(text) {
   const element = svg("svg", { class: "noise-picture", role: "img", viewBox: `0 0 ${WIDTH} ${HEIGHT}` });
+  let shown = "";
 
   return {
     element,
     /** @param {Drawn} drawn @param {string} label */
     set(drawn, label) {
+      const wanted = JSON.stringify([label, drawn]);
+      if (wanted === shown) return;
+      shown = wanted;
       element.setAttribute("aria-label", label);
       element.replaceChildren(...shapes(drawn, text));
     },
