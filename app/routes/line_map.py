@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import base64
 import math
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from fastapi import FastAPI
 from fastapi.responses import StreamingResponse
 from starlette.exceptions import HTTPException
 
 from lineseg import Survey
-from lineseg.line_map import LineMap, line_map
 from lineseg.readers import Progress
 from lineseg.writers.line_maps import MAP_WRITERS, drawings
 
@@ -22,6 +21,9 @@ from ..shelf.library import Library
 from ..told.answers import MapLines
 from .progress import told_work
 from .slow import SlowWork
+
+if TYPE_CHECKING:
+    from lineseg.line_map import LineMap
 
 AT_ONCE = 2
 MISSING = 501
@@ -62,6 +64,8 @@ def _made(
     view, recording = shown.view, shown.recording
 
     def work(advance: Progress) -> dict[str, Any]:
+        from lineseg.line_map import line_map  # takes a while to import, and few want a map
+
         found = known if known is not None else line_map(recording, view.params, lines, progress=advance)
         content = MAP_WRITERS[to](found, f"{label}, line map", about_of(recording, view.method, view.params))
         suffix = f"metres.{to}" if to == "geojson" else to

@@ -6,14 +6,13 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
 
 from lineseg import Recording, Scan, Segment, Survey, difference
-from lineseg.line_map import LineMap
 from lineseg.survey.difference import KEPT
 from lineseg.survey.remark import Ghost
 
@@ -26,6 +25,9 @@ from .palette import DARK, LIGHT, Colours, Theme
 from .replay import State, decision_geometry, foot_between, state_at
 from .shapes import Lines, Points, dashed, joined, lines_between, points_at
 from .world import Pose, World
+
+if TYPE_CHECKING:
+    from lineseg.line_map import LineMap
 
 DASH = 0.10
 FALSE_DASH = 0.04

@@ -4,17 +4,20 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from lineseg import Recording, Survey
-from lineseg.line_map import LineMap
 from lineseg.poses import in_world
 
 from ..frame.geometry import Bounds
 from .palette import Theme
 from .shapes import Lines, Points, lines_between, points_at
+
+if TYPE_CHECKING:
+    from lineseg.line_map import LineMap
 
 Pose = tuple[float, float, float]
 

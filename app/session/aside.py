@@ -5,14 +5,16 @@ from __future__ import annotations
 import logging
 import time
 from collections.abc import Callable
-from typing import Generic, NamedTuple, Protocol, TypeVar
+from typing import TYPE_CHECKING, Generic, NamedTuple, Protocol, TypeVar
 
 from lineseg import Recording, Survey
-from lineseg.line_map import LineMap, line_map
 from lineseg.readers import Cancelled, Progress
 
 from ..newest import Newest
 from ..view import View
+
+if TYPE_CHECKING:
+    from lineseg.line_map import LineMap
 
 log = logging.getLogger(__name__)
 # Shortest time between two pictures that show the progress [s].
@@ -117,6 +119,8 @@ def map_work(name: str, tell: Callable[[], None]) -> Aside[FoundLines, LineMap]:
 
 
 def _map_of(subject: FoundLines, progress: Progress) -> LineMap:
+    from lineseg.line_map import line_map  # takes a while to import, and few look at a map
+
     return line_map(subject.recording, found=subject.lines, progress=progress)
 
 

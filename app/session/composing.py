@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from typing import TYPE_CHECKING
 
 from lineseg import Recording, Survey
-from lineseg.line_map import LineMap
 from lineseg.survey.disputes import lines_missed
 
 from ..frame.clock import Clock
@@ -26,6 +26,9 @@ from ..told.drawn import Scene
 from ..told.drawn import World as WorldState
 from ..told.messages import Times
 from ..view import View
+
+if TYPE_CHECKING:
+    from lineseg.line_map import LineMap
 
 FRAMES_KEPT = 32
 
@@ -61,7 +64,7 @@ class Around:
 
     @property
     def line_map(self) -> LineMap | None:
-        return self.mapped if isinstance(self.mapped, LineMap) else None
+        return None if isinstance(self.mapped, str) else self.mapped
 
     def told(self, view: View, world: World, frame: int) -> WorldState:
         """What the page says of the world at a frame."""

@@ -7,13 +7,12 @@ import threading
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from pydantic import BaseModel
 
 from lineseg import Recording, Survey
 from lineseg.failing import mistake
-from lineseg.line_map import LineMap
 from lineseg.readers import Cancelled
 
 from ..frame.geometry import beam_near
@@ -38,6 +37,9 @@ from .strip import Strip, key_of
 from .surroundings import Surroundings
 from .turns import Rounds
 from .warm_up import WarmUp
+
+if TYPE_CHECKING:
+    from lineseg.line_map import LineMap
 
 log = logging.getLogger(__name__)
 # Shortest time between redraws of a live recording [s]; no scan is lost.

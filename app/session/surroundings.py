@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
+from typing import TYPE_CHECKING
 
 from lineseg import Recording, Survey
 from lineseg.knobs import Thresholds
-from lineseg.line_map import LineMap
 
 from ..scene.beside import OtherLaser
 from ..shelf.library import Library
@@ -16,6 +16,9 @@ from .aside import FoundLines, map_work, shows_map
 from .composing import Around
 from .other_lasers import Robot, lasers_work, others_in, shows_lasers
 from .shown import Shown
+
+if TYPE_CHECKING:
+    from lineseg.line_map import LineMap
 
 
 class Surroundings:
@@ -59,7 +62,7 @@ class Surroundings:
     def line_map(self, recording: Recording) -> LineMap | None:
         """The map that was made last of a recording."""
         found = self._map.of(recording)
-        return found if isinstance(found, LineMap) else None
+        return None if isinstance(found, str) else found
 
     def known(self, recording: Recording, params: Thresholds) -> tuple[Survey | None, LineMap | None]:
         """The lines of all frames with these thresholds, and their map, where they are there already."""
@@ -67,7 +70,7 @@ class Surroundings:
         if lines is None or lines.recording is not recording or lines.lines.params != params:
             return None, None
         found = self._map.made_of(lines)
-        return lines.lines, found if isinstance(found, LineMap) else None
+        return lines.lines, None if isinstance(found, str) else found
 
     def close(self) -> None:
         self._map.close()
