@@ -14,6 +14,8 @@ from urllib.parse import urlsplit
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
+from lineseg.unfinished import is_old
+
 from ..bounds import Name, Values
 
 FOLDER, PATH = "nodes", "/api/node"
@@ -68,10 +70,11 @@ def running_nodes(folder: Path) -> list[Offer]:
             try:
                 offer = Offer.model_validate_json(file.read_text(encoding="utf-8"))
             except (ValidationError, UnicodeDecodeError):
-                continue
-            if is_node(offer.address) and _answers(offer.address):
+                offer = None
+            if offer is not None and is_node(offer.address) and _answers(offer.address):
                 found.append(offer)
-            else:
+            elif offer is not None or is_old(file):
+                # A new file may just be written.
                 file.unlink()
     return found
 

@@ -9,7 +9,8 @@ import tempfile
 from pathlib import Path
 from typing import IO
 
-from lineseg.unfinished import FOLDERS, held_folder, is_old, remove_left
+from lineseg.truth.label_file import LABELS
+from lineseg.unfinished import FILES, FOLDERS, held_folder, is_old, remove_left
 
 OPENERS = re.compile(r"open-\w+\.html")
 
@@ -39,8 +40,10 @@ class Scratch:
 
 
 def remove_leftovers(user_folder: Path) -> None:
-    """Remove what killed processes of this user left: temporary folders, and pages that open the browser."""
+    """Remove what killed processes of this user left: temporary folders, parts of files, pages to open the browser."""
     remove_left(Path(tempfile.gettempdir()), f"{FOLDERS}*")
+    for folder in (user_folder, user_folder / LABELS):
+        remove_left(folder, FILES)
     with contextlib.suppress(OSError):
         for page in user_folder.iterdir():
             if OPENERS.fullmatch(page.name) and is_old(page):

@@ -90,9 +90,12 @@ class KeptKernel:
         path = self._path(signature, compiled.codegen)
         unfinished = path.with_suffix(f".{uuid.uuid4().hex}")
         with contextlib.suppress(OSError):
-            path.parent.mkdir(parents=True, exist_ok=True)
-            unfinished.write_bytes(dumps(compiled._reduce()))
-            unfinished.replace(path)
+            try:
+                path.parent.mkdir(parents=True, exist_ok=True)
+                unfinished.write_bytes(dumps(compiled._reduce()))
+                unfinished.replace(path)
+            finally:
+                unfinished.unlink(missing_ok=True)
             forget_the_unused(path.parent)
         self._let_others(path)
 

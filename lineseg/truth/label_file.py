@@ -3,11 +3,9 @@
 from __future__ import annotations
 
 import errno
-import glob
 import hashlib
 import json
 import os
-import tempfile
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
@@ -17,12 +15,15 @@ from typing import Any
 
 from ..failing import named, plain
 from ..scan import Recording
+from ..unfinished import whole_file
 from .labels import FrameLabels, Labels, TrueLine, check_labels
 
 FORMAT, VERSION = "lineseg labels", 1
 SUFFIX = ".lineseg.json"
+# In the user's folder.
+LABELS = "labels"
 MOST_BYTES = 256 << 20
-# File systems allow 255 bytes; an unfinished file has a longer name.
+# File systems allow 255 bytes.
 LONGEST_NAME = 235
 # Labels and the number of beams, by frame of the file.
 Entries = dict[int, tuple[FrameLabels, int]]
@@ -59,7 +60,7 @@ def users_label_file(name: str, identity: str, user_folder: Path | None = None) 
         user_folder = Path(platformdirs.user_data_dir("lineseg", appauthor=False))
     digest = hashlib.sha256(os.fsencode(identity)).hexdigest()[:12]
     short = os.fsencode(name)[: LONGEST_NAME // 2].decode(errors="ignore")
-    return user_folder / "labels" / f"{short}.{digest}{SUFFIX}"
+    return user_folder / LABELS / f"{short}.{digest}{SUFFIX}"
 
 
 def read_labels(path: str | Path, recording: Recording) -> Labels:
@@ -152,25 +153,11 @@ def _alone_in(folder: Path) -> Iterator[None]:
 
 
 def _replace(path: Path, text: str) -> None:
-    # Nobody else writes here now, so what is unfinished was left by a killed process. Windows has no such lock.
-    if os.name == "posix":
-        for left in path.parent.glob(f".{glob.escape(path.name)}.*.part"):
-            left.unlink(missing_ok=True)
-    handle, unfinished = tempfile.mkstemp(prefix=f".{path.name}.", suffix=".part", dir=path.parent)
-    try:
-        with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as file:
-            file.write(text)
-            file.flush()
-            os.fsync(file.fileno())
-        # mkstemp creates files that only the owner can read.
-        Path(unfinished).chmod(path.stat().st_mode if path.exists() else 0o644)
-        os.replace(unfinished, path)  # noqa: PTH105
-    except BaseException as error:
-        Path(unfinished).unlink(missing_ok=True)
-        if isinstance(error, OSError) and error.errno is not None:
-            # A full disk names no file, and nobody knows the unfinished one.
-            raise OSError(error.errno, error.strerror, str(path)) from None
-        raise
+    """Write the file; its content is on the disk before its name is."""
+    with whole_file(path) as part, part.open("w", encoding="utf-8", newline="\n") as file:
+        file.write(text)
+        file.flush()
+        os.fsync(file.fileno())
     with suppress(OSError):
         folder = os.open(path.parent, os.O_RDONLY)
         try:

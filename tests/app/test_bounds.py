@@ -32,7 +32,7 @@ from starlette.exceptions import HTTPException
 
 from lineseg import open_recording
 from lineseg.readers import Progress
-from lineseg.unfinished import FOLDERS, LOCK
+from lineseg.unfinished import FILES, FOLDERS, LOCK
 
 
 async def nothing() -> AsyncIterator[bytes]:
@@ -212,9 +212,14 @@ def test_folders_of_killed_processes_are_removed_at_the_next_start(tmp_path: Pat
     foreign = tmp_path / "lineseg-other"
     foreign.mkdir()
     (tmp_path / "open-abc.html").touch()
-    for path in (ours.folder, left, foreign, tmp_path / "open-abc.html"):
+    (tmp_path / "labels").mkdir()
+    parts = [folder / FILES.replace("*", "left") for folder in (tmp_path, tmp_path / "labels")]
+    for part in parts:
+        part.touch()
+    for path in (ours.folder, left, foreign, tmp_path / "open-abc.html", *parts):
         os.utime(path, (0, 0))
     remove_leftovers(tmp_path)
+    (tmp_path / "labels").rmdir()
     assert set(tmp_path.iterdir()) == {ours.folder, foreign}
     shutil.rmtree(ours.folder)
     assert ours.folder.is_dir()

@@ -2,6 +2,7 @@
 
 import os
 import re
+import subprocess
 import time
 from pathlib import Path
 
@@ -102,3 +103,15 @@ def test_kernels_not_loaded_for_months_are_deleted(tmp_path):
     forget_the_unused(tmp_path)
     assert used.exists()
     assert not unused.exists()
+
+
+def test_a_full_disk_leaves_no_part_of_a_kernel(programs: Path):
+    disk = programs / "kept"
+    disk.mkdir()
+    if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=8k", "tmpfs", disk], capture_output=True).returncode:
+        pytest.skip("mounting a small disk needs root")
+    try:
+        assert run(programs) == "2 1.5 0 loaded 2 compiled"
+        assert not [path for path in disk.rglob("*") if path.is_file() and path.suffix not in (".lock", ".kernel")]
+    finally:
+        subprocess.run(["umount", "-l", disk], check=True)

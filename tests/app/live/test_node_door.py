@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -108,13 +109,17 @@ def test_a_killed_node_is_forgotten_and_one_of_another_machine_is_named(
     left = tmp_path / FOLDER / "left.json"
     left.parent.mkdir()
     left.write_text(json.dumps({"address": "http://127.0.0.1:1", "token": "x", "source": "ros2:/scan"}))
+    begun, half = left.with_name("begun.json"), left.with_name("half.json")
+    begun.touch()
+    half.write_text("{")
+    os.utime(half, (0, 0))
     monkeypatch.setenv(TOKEN, "wrong")
     with serving(Settings(data_folder=tmp_path, may_send=(here.offer.address,))) as server:
         assert server.get("/api/robot").json() == {
             "addresses": [],
             "nodes": [{"address": here.offer.address, "source": ""}],
         }
-        assert not left.exists()
+        assert list(left.parent.iterdir()) == [begun]
         asked = {"address": here.offer.address, "params": {}}
         assert TOKEN in server.post("/api/robot/node", json=asked).json()["message"]
         monkeypatch.setenv(TOKEN, here.offer.token)
