@@ -95,24 +95,28 @@ class Foxglove:
             self._choose(topic, told)
 
     def _choose(self, topic: str | None, told: Told) -> None:
+        troubles: list[str] = []
         for id, channel in self._channels.items():
             if topic in (None, channel["topic"]) and _is_laser(channel):
                 try:
                     self._decode = _decoder(channel)
                 except ValueError as error:
-                    told.waits(f"{_shown(channel)}: {error}")
+                    troubles.append(f"{_shown(channel)}: {error}")
                     continue
                 self._chosen = id
                 told.topic_is(channel["topic"])
                 told.waits(f"subscribed to {channel['topic']}; waiting for its first scan")
                 self._send(op="subscribe", subscriptions=[{"id": SUBSCRIPTION, "channelId": id}])
                 return
-        told.waits(self._why_none(topic))
+        told.waits(next(iter(troubles), "") or self._why_none(topic))
 
     def _why_none(self, topic: str | None) -> str:
         named = [channel for channel in self._channels.values() if channel["topic"] == topic]
         if named:
             return f"{_shown(named[0])}; choose a sensor_msgs/LaserScan or foxglove.LaserScan as {', '.join(ENCODINGS)}"
+        lasers = [channel for channel in self._channels.values() if topic is None and is_laser(channel["schemaName"])]
+        if lasers:
+            return f"{_shown(lasers[0])}, which cannot be read; publish it as {', '.join(ENCODINGS)}"
         there = ", ".join(_shown(channel) for channel in list(self._channels.values())[:8])
         missing = f"has no topic {topic}" if topic else "has no sensor_msgs/LaserScan topic"
         return f"the robot {missing} yet; it has {there or 'no topic at all'}"

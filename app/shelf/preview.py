@@ -22,7 +22,7 @@ MOST_LINES, LONGEST_LINE = 5, 160
 HEAD_BYTES = 1 << 14
 # Of a longer text only this much is read, so that a field can be tried out while typing.
 MOST_TEXT = 1 << 20
-FLAG = re.compile(r"(?<![\w`-])(flag )?--([a-z][a-z-]+)")
+FLAG = re.compile(r"(?<![\w`-])(flag )?--([a-z][a-z-]+)(?:=(\S*\w))?")
 # Not the arguments of a call, as in numpy.savez(…, angle_min=0).
 NAMED = re.compile(r"--([a-z][a-z-]+)|\b([a-z]+(?:_[a-z]+)+)\b(?!=)")
 
@@ -63,7 +63,9 @@ def for_the_page(sentence: str) -> str:
 
     def field(found: re.Match[str]) -> str:
         declared = Reading.declared().get(found[2].replace("-", "_"))
-        return found[0] if declared is None else f"{'' if found[1] else 'the '}field “{declared.label}”"
+        if declared is None:
+            return found[0]
+        return f"{'' if found[1] else 'the '}field “{declared.label}”{f': {found[3]}' if found[3] else ''}"
 
     return FLAG.sub(field, sentence)
 

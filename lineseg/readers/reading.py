@@ -59,7 +59,7 @@ class Span(NamedTuple):
     high: float
 
 
-TEXT_FORMATS = ("text", "JSON", "XML", "MATLAB", "NPY", "NPZ")
+TEXT_FORMATS = ("text", "JSON", "YAML", "XML", "MATLAB", "NPY", "NPZ")
 BAG_FORMATS = ("ROS 1 bag", "ROS 2 bag", "MCAP")
 
 

@@ -136,7 +136,7 @@ function metadataOf(parts, about, bags) {
 
 /** Whether a file that may be parameters has scans: a list, ranges, or many numbers. @param {string} text */
 export function hasScans(text) {
-  return /^\s*\[/.test(text) || /\branges\b/.test(text) || (text.match(/\d+(\.\d+)?/g) ?? []).length > MOST_PARAMETERS;
+  return /^\s*\[/.test(text) || /(?:^ *(?:- +)+[-+.\d]\S*\s*\n){30}/m.test(text) || /\branges\b/.test(text) || (text.match(/\d+(\.\d+)?/g) ?? []).length > MOST_PARAMETERS;
 }
 
 /** The name of a recording of several files: what their names have in common. @param {File[]} files */

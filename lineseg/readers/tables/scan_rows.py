@@ -78,6 +78,10 @@ def scans_of(
     if leading is None and reading.skip_columns is None and (pairs := _pairs(values)):
         source.notes.notice("pairs", f"Of each row, every second number was left out, as {pairs} intensities would be.")
         values = [row[::2] for row in values]
+    if leading is None and _are_transforms(values):
+        raise ValueError(
+            f"{source.name} has poses, a matrix in each row as in those of KITTI, and no scans; open its scans instead."
+        )
     geometry = None
     if len(values) > 1:
         numbered = _numbers_columns(values)
@@ -121,6 +125,14 @@ def _in_columns(reading: Reading, values: list[Floats]) -> Floats | None:
         return None
     table = np.array(values, np.float64)
     return table.T if alike(table) else None
+
+
+def _are_transforms(values: list[Floats]) -> bool:
+    """Whether each row is a rotation and a position: a matrix (3, 4), or (4, 4)."""
+    if len(values) < 2 or {len(row) for row in values} not in ({12}, {16}):
+        return False
+    turns = np.array([row[:12] for row in values], np.float64).reshape(-1, 3, 4)[:, :, :3]
+    return bool(np.allclose(turns @ turns.swapaxes(1, 2), np.eye(3), rtol=0, atol=0.01))
 
 
 def _pairs(values: list[Floats]) -> int:

@@ -56,7 +56,7 @@ class Robot:
         self.url = f"ws://127.0.0.1:{self.server.port}"
 
     def channel(self, topic: str, encoding: str, schema: str = SCAN) -> Channel:
-        kind = {"cdr": "ros2msg", "ros1": "ros1msg", "json": "jsonschema"}[encoding]
+        kind = {"ros1": "ros1msg", "json": "jsonschema"}.get(encoding, "ros2msg")
         text = b'{"type": "object", "properties": {"ranges": {"type": "array"}}}' if encoding == "json" else b""
         described = Schema(name=schema, encoding=kind, data=text)
         return Channel(topic, schema=described, message_encoding=encoding, context=self.context)
@@ -167,6 +167,20 @@ def test_a_topic_of_another_type_is_named(robots: list[Robot], tmp_path: Path):
         page.say(type="hello")
         waiting = page.heard("loading", lambda m: "choose a" in m["note"])
         assert "/scan is std_msgs/msg/String as cdr; choose a sensor_msgs/LaserScan" in waiting["note"]
+
+
+def test_a_channel_in_an_encoding_that_nobody_reads_is_named_and_hides_no_other(robots: list[Robot], tmp_path: Path):
+    robots.append(robot := Robot())
+    robot.channel("/scan", "cbor")
+    with watching(robot.url, tmp_path) as server, page_of(server) as page:
+        page.say(type="hello")
+        waiting = page.heard("loading", lambda m: "cbor" in m["note"])
+        assert f"/scan is {SCAN} as cbor; choose a sensor_msgs/LaserScan" in waiting["note"]
+        robot.channel("/imu", "cbor", "sensor_msgs/msg/Imu")
+        channel = robot.channel("/scan", "json")
+        assert robot.listener.subscribed.get(timeout=60) == "/scan"
+        channel.log(encoded("json", scan_message(wall(3.0))))
+        assert page.hear_a("drawn")["state"]["topic"] == "/scan"
 
 
 def test_segments_for_a_server_that_takes_no_messages_are_refused(robots: list[Robot], tmp_path: Path):
