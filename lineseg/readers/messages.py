@@ -24,7 +24,9 @@ from .tables.scan_rows import scans_of
 MOST_DEPTH = 6
 # A shorter list of numbers is no scan; what lists of ranges are called where they have no usual name.
 LONG_LIST = 30
-OF_SCANS = re.compile(r"scan|laser|lidar|rang|dist|depth|reading|measure|value|data|frame|sweep|turn|^\d*$")
+OF_SCANS = re.compile(
+    r"scan|laser|lidar|rang|dist|depth|reading|measure|value|data|frame|sweep|turn|front|rear|back|^\d*$"
+)
 LIST_KEYS = ("ranges", "distances", "range", "distance")
 LEAST_BEAMS = 8
 STAMP_NAMES = NAMES["stamp"]

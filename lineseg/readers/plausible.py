@@ -13,6 +13,7 @@ from .guessing import UNIT_NAMES, middle_of, rising, sampled_at, unit_of
 from .reading import Reading
 
 MOST_RANGE, LEAST_MEDIAN = 500.0, 0.05
+MANY_BELOW = 10
 RECURS = 0.1
 # A laser has no such narrow view of so many beams.
 MANY_BEAMS, NARROW = 30, 12.0
@@ -29,6 +30,7 @@ def noticed(recording: Recording, reading: Reading, recorded: bool, odd: Oddness
     """
     yield from _about_angles(recording, reading)
     ranges, inside = _sample(recording)
+    yield from _below_zero(ranges)
     size = list(_about_size(rising(ranges), reading))
     yield from size
     if not any("unit" in notice.change for notice in size):
@@ -82,6 +84,14 @@ def _in_degrees(recording: Recording, reading: Reading, view: float) -> dict[str
     if recording.bearings is None and first and abs(abs(first) - half) < 0.1 * half:
         return {"angle_increment": round(float(np.deg2rad(step)), 8)}
     return {"angle_unit": "deg"}
+
+
+def _below_zero(ranges: Floats) -> Iterator[Notice]:
+    """Distances are never below 0; codes for "no return" that are have few values."""
+    below = ranges[(ranges < 0) & (ranges > -np.inf)]
+    if len(below) > RECURS * len(ranges) and len(np.unique(below)) > MANY_BELOW:
+        share = f"{len(below) / len(ranges):.0%}"
+        yield Notice("below zero", f"{share} of all ranges are below 0, as no distance is. Are these coordinates?")
 
 
 def _about_size(ranges: Floats, reading: Reading) -> Iterator[Notice]:

@@ -12,6 +12,8 @@ const NUMBER_OF_PART = /(_\d+)?\.(db3|mcap)(\.zstd)?$/i;
 const LARGEST_PARAMETERS = 1_000_000;
 // Files with more numbers are no parameter files.
 const MOST_PARAMETERS = 300;
+// Thirty numbers in brackets, or in lines that begin with dashes.
+const LONG_LIST = /\[(?:\s*[-+.\w]+\s*,){29}|(?:^ *(?:- +)+[-+.\d]\S*\s*\n){30}/m;
 
 /** The folders that files were dropped in. @type {WeakMap<File, string>} */
 const folders = new WeakMap();
@@ -134,9 +136,14 @@ function metadataOf(parts, about, bags) {
   return beside.length === 1 && (bags === 1 || folders.has(parts[0])) ? beside : [];
 }
 
-/** Whether a file that may be parameters has scans: a list, ranges, or many numbers. @param {string} text */
+/** Whether a file that may be parameters has scans: a long list, ranges, or many numbers. @param {string} text */
 export function hasScans(text) {
-  return /^\s*\[/.test(text) || /(?:^ *(?:- +)+[-+.\d]\S*\s*\n){30}/m.test(text) || /\branges\b/.test(text) || (text.match(/\d+(\.\d+)?/g) ?? []).length > MOST_PARAMETERS;
+  return (
+    /^\s*\[/.test(text) ||
+    LONG_LIST.test(text) ||
+    /\branges\b/.test(text) ||
+    (text.match(/\d+(\.\d+)?/g) ?? []).length > MOST_PARAMETERS
+  );
 }
 
 /** The name of a recording of several files: what their names have in common. @param {File[]} files */

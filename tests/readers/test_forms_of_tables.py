@@ -57,6 +57,12 @@ FORMS = {
                               for laser in (0, 1)),
     "lists in cells": "stamp,angle_min,angle_increment,ranges\n"
     + "".join(f"{at},{-np.pi / 2},{np.pi / 180},{row(each, ';')}\n" for at, each in enumerate(SCANS)),
+    "ranges and intensities": "".join(f"{row(each)},{row(np.full(181, 120 + at))}\n" for at, each in enumerate(SCANS)),
+    "two models in turn": "".join(f"{row(each)}\n{row(np.ones(300))}\n" for each in SCANS for _ in range(2)),
+    "numbers beside angles": "".join(f"{beam} {angle:g} {each:g} 47\n" for ranges in SCANS for beam, angle, each in
+                                     zip(range(181), DEGREES, ranges, strict=True)),
+    "yaw": "frame,yaw,pitch,range\n" + lines(np.repeat([0, 1], 181), np.tile(BEARINGS, 2), np.zeros(362), SCANS.ravel(),
+                                             form="{:.5f}"),
     "words between": "".join(f"Scan {at} at {at}.5 s\n{row(each, ' ')}\n" for at, each in enumerate(SCANS)),
     "box": "+---+---+---+\n| scan | angle | range |\n+===+===+===+\n"
     + "".join(f"│ {line.replace(',', ' ┆ ')} │\n" for line in
@@ -79,10 +85,23 @@ FORMS = {
 @pytest.mark.parametrize("form", FORMS)
 def test_every_layout_gives_the_scans(tmp_path: Path, form: str):
     recording = read(tmp_path, FORMS[form])
-    assert (len(recording), recording.beams) == (2, (181, 181))
-    for scan, ranges in zip(recording, SCANS, strict=True):
+    each = 2 if form == "two models in turn" else 1
+    assert (len(recording), recording.beams) == (2 * each, (181, 181))
+    for scan, ranges in zip(list(recording)[::each], SCANS, strict=True):
         assert np.rad2deg(scan.bearings) == pytest.approx(DEGREES, abs=0.02)
         assert scan.ranges == pytest.approx(ranges, abs=2e-3)
+
+
+def test_a_column_below_words_is_one_scan_in_the_unit_that_they_say(tmp_path: Path):
+    for head in ("range [cm]\n", "Measured in the lab\nrange_cm\n"):
+        recording = read(tmp_path, head + lines(100 * NEAR))
+        assert recording[0].ranges == pytest.approx(NEAR, abs=1e-4)
+
+
+def test_coordinates_that_are_read_as_ranges_are_noticed(tmp_path: Path):
+    recording = read(tmp_path, f"{row(NEAR * X)}\n{row(NEAR * Y)}\n" * 3)
+    assert recording.account is not None
+    assert any("below 0, as no distance is" in notice.text for notice in recording.account.notices)
 
 
 def test_columns_called_after_two_lasers_are_not_mixed(tmp_path: Path):

@@ -423,7 +423,9 @@ def columns_of_beam(table: NDArray[np.float64]) -> tuple[float, Roles]:
     if len(columns) >= 2:
         possible.append(Roles(False, columns[0], columns[1]))
     found = [(regularity(bearings_of(table, roles)), roles) for roles in possible]
-    return min(found, key=lambda each: each[0], default=(math.inf, Roles(True, 0, 1)))
+    # The number of a beam counts as evenly as its angle, which is nearer to the distance.
+    order = lambda each: (round(each[0], 2), abs(each[1].first - each[1].second))  # noqa: E731
+    return min(found, key=order, default=(math.inf, Roles(True, 0, 1)))
 
 
 def bearings_of(table: NDArray[np.float64], roles: Roles) -> Floats:
@@ -437,11 +439,20 @@ def _distance_beside(table: NDArray[np.float64], columns: list[int], angle: int)
     order = sorted((at for at in columns if at != angle), key=lambda at: (at < angle, abs(at - angle)))
     # A code for "no return" may be negative; distances are not.
     order = [at for at in order if len(np.unique(table[table[:, at] < 0, at])) <= FEW_CODES]
+    if len(order) > 1:
+        order = [at for at in order if not _counts(table[:, at])] or order
     if len(order) < 2:
         return order[0] if order else None
     found = (np.unique(table[np.isfinite(table[:, at]), at]) for at in order)
     varied = (at for at, values in zip(order, found, strict=True) if len(values) > min(3, len(table) - 1))
     return next(varied, order[0])
+
+
+def _counts(column: Floats) -> bool:
+    """Whether nearly all steps of a column are equal, as those of numbers and angles are."""
+    steps = np.diff(column[np.isfinite(column)])
+    usual = middle_of(np.sort(steps))
+    return usual != 0 and len(steps) >= FEW_ROWS and bool((np.abs(steps - usual) <= EVEN * abs(usual)).mean() > 0.9)
 
 
 def _radians(angles: Floats) -> Floats:

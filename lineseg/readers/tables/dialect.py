@@ -61,7 +61,7 @@ TIME = re.compile(
 # Marks between thousands: of English, of German, and of Swiss or French numbers.
 ENGLISH = re.compile(rb"[-+]?[1-9]\d{0,2}(?:,\d{3})+(?:\.\d*)?")
 GERMAN = re.compile(rb"[-+]?[1-9]\d{0,2}(?:\.\d{3})+(?:,\d*)?")
-SPACED = re.compile("[-+]?[1-9]\\d{0,2}(?:['’\u00a0\u202f ]\\d{3})+(?:[.,]\\d*)?".encode())
+SPACED = re.compile("[-+]?[1-9]\\d{0,2}(?:(?:'|’|\u00a0|\u202f| )\\d{3})+(?:[.,]\\d*)?".encode())
 HUNDREDS = re.compile(rb"[-+]?[1-9]\d\d")
 MANY_CELLS = 10
 EASTERN = re.compile("角度|方位|距離|距离")

@@ -18,6 +18,8 @@ DISTANCES = (
     "distanz", "abstand", "entfernung", "länge", "laenge", "length",
     "distancia", "distanza", "距離", "距离", "거리", "расстояние",
 )  # fmt: skip
+# What turns a laser that looks one way; the angle of a robot, in a table with x and y.
+SERVOS = ("yaw", "pan", "servo")
 # What a column beside them holds if its name has one of these words, such as range_min or angle_increment.
 BESIDE = {
     "min", "max", "minimum", "maximum", "limit", "increment", "resolution", "start", "end", "std", "stddev", "sigma",
@@ -194,12 +196,15 @@ def array_columns(names: list[Name]) -> list[int]:
 
 
 def units_as_names(names: list[Name]) -> list[Name]:
-    """The names of an angle and a distance for a header that has only their units, such as "deg,mm"."""
-    if any(map(is_angle, names)) or any(map(is_distance, names)):
+    """The names, "angle" and "distance" for those that are only units, such as "deg,mm", or name a servo."""
+    turns = [at for at, name in enumerate(names) if name.element < 0 and name.plain in (*TURNS, *SERVOS)]
+    lengths = [at for at, name in enumerate(names) if name.element < 0 and name.plain in LENGTHS and not name.unit]
+    found: dict[int, str] = {}
+    if len(turns) == 1 and not any(map(is_angle, names)):
+        found[turns[0]] = "angle"
+    if len(lengths) == 1 and not any(map(is_distance, names)):
+        found[lengths[0]] = "distance"
+    if not (found.keys() & {*turns} or any(map(is_angle, names))) or any(name.plain in ("x", "y") for name in names):
         return names
-    turns = [at for at, name in enumerate(names) if name.plain in TURNS and not name.unit]
-    lengths = [at for at, name in enumerate(names) if name.plain in LENGTHS and not name.unit]
-    if len(turns) != 1 or len(lengths) != 1:
-        return names
-    found = {turns[0]: "angle", lengths[0]: "distance"}
-    return [Name(found[at], name.plain) if at in found else name for at, name in enumerate(names)]
+    return [Name(found[at], name.unit or (name.plain if name.plain in UNITS else ""), -1, name.scale) if at in found
+            else name for at, name in enumerate(names)]  # fmt: skip

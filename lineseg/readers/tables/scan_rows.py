@@ -7,12 +7,14 @@ import re
 from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass
+from itertools import compress, pairwise
 
 import numpy as np
 
 from ...scan import Floats, Recording, Topic
 from ..account import Notes
 from ..guessing import angle_unit_of
+from ..lasers import choose_laser, need_laser
 from ..plausible import unwrapped, wrap_of
 from ..reading import RADIANS, Reading
 from ..source import Source, Sweeps
@@ -41,6 +43,8 @@ MOST_SETTINGS = 32
 # More columns than a turn has degrees are no angles.
 MOST_DEGREES = 361
 MOST_LASERS = 4
+# So many rows of each length are not two that broke off.
+LEAST_ALTERNATE = 3
 # Rows may vary by this share; those that differ more are broken.
 VARIES = 0.1
 LEAST_BEAMS = 10
@@ -78,6 +82,9 @@ def scans_of(
     if leading is None and reading.skip_columns is None and (pairs := _pairs(values)):
         source.notes.notice("pairs", f"Of each row, every second number was left out, as {pairs} intensities would be.")
         values = [row[::2] for row in values]
+    elif leading is None and reading.skip_columns is None and (beams := _halves(values)):
+        source.notes.notice("halves", f"The second half of each row was left out, as {beams} intensities would be.")
+        values = [row[:beams] for row in values]
     if leading is None and _are_transforms(values):
         raise ValueError(
             f"{source.name} has poses, a matrix in each row as in those of KITTI, and no scans; open its scans instead."
@@ -93,6 +100,7 @@ def scans_of(
             # The row may be there again before each scan.
             others = [at for at, row in enumerate(values) if not np.array_equal(row, values[0], equal_nan=True)]
             numbers, values = [numbers[at] for at in others], [values[at] for at in others]
+    numbers, values, laser = _of_one_length(source, numbers, values)
     numbers, values = _whole(source, numbers, values)
     skip = _skipped(source, reading, values, leading, geometry, double)
     if min(map(len, values)) <= skip:
@@ -100,7 +108,7 @@ def scans_of(
     beams = Counter(len(row) - skip for row in values).most_common(1)[0][0]
     angle_min, increment = _angles(source, reading, beams, geometry)
     stamps = _stamps(source, values, skip, leading)
-    lasers = _lasers(values, skip) if leading is None else [""] * len(values)
+    lasers = _lasers(values, skip) if leading is None and not laser else [laser] * len(values)
     sweeps = Sweeps()
     for row, stamp, laser in zip(values, stamps.tolist(), lasers, strict=True):
         sweeps.add(row[skip:], angle_min, increment, stamp=stamp, frame_id=laser)
@@ -144,6 +152,25 @@ def _pairs(values: list[Floats]) -> int:
     apart = float(np.nanmedian(np.abs(ranges - others)))
     steps = [float(np.nanmedian(np.abs(np.diff(each)))) for each in (ranges, others)]
     return beams if apart > FAR_APART * max(*steps, 1e-9) else 0
+
+
+def _halves(values: list[Floats]) -> int:
+    """The number of ranges in a row if as many of another quantity follow, such as intensities; 0 if none do."""
+    size = len(values[0])
+    if size % 2 or any(len(row) != size for row in values) or usual_angles(size) or not usual_angles(size // 2):
+        return 0
+    half = size // 2
+    # The leap is in the middle of every row.
+    return half if all(_leaps_at(row, half) for row in values) else 0
+
+
+def _leaps_at(row: Floats, half: int) -> bool:
+    first, second = row[:half], row[half:]
+    usual = float(np.nanmedian(first))
+    apart = abs(usual - float(np.nanmedian(second)))
+    steps = [float(np.nanmedian(np.abs(np.diff(each)))) for each in (first, second)]
+    ends = abs(float(np.nanmedian(first[-3:])) - float(np.nanmedian(second[:3])))
+    return apart > max(FAR_APART * max(*steps, 1e-9), usual) and ends > apart / 2
 
 
 def parsed(source: Source, rows: Iterable[Row], dialect: Dialect) -> tuple[list[int], list[Floats], int]:
@@ -257,6 +284,23 @@ def _settings_row(values: list[Floats]) -> Geometry | None:
                 if 0 < step * turn < 0.2 and abs(low + step * (beams - 1) - high) < 2 * step:
                     return Geometry(float(low) * turn, float(step) * turn, beams, "the first row")
     return None
+
+
+def _of_one_length(
+    source: Source, numbers: list[int], values: list[Floats]
+) -> tuple[list[int], list[Floats], str]:  # fmt: skip
+    """The rows of one laser, and what it is called, if those of two alternate, which differ in length; or all rows."""
+    sizes = Counter(map(len, values))
+    changes = sum(len(one) != len(other) for one, other in pairwise(values))
+    small, large = min(sizes), max(sizes)
+    if len(sizes) != 2 or min(sizes.values()) < LEAST_ALTERNATE or 2 * changes < len(values) or large < 1.2 * small:
+        return numbers, values, ""
+    counts = {f"{size} numbers": count for size, count in sizes.items()}
+    if source.reading.frame_id is not None:
+        need_laser(source.name, source.reading.frame_id, list(counts))
+    taken = choose_laser(counts, "rows", "the file", source.reading.frame_id, source.notes)
+    these = [f"{len(row)} numbers" == taken for row in values]
+    return list(compress(numbers, these)), list(compress(values, these)), taken
 
 
 def _whole(source: Source, numbers: list[int], values: list[Floats]) -> tuple[list[int], list[Floats]]:

@@ -218,6 +218,9 @@ def _read(source: Source, reading: Reading, head: list[Row], rows: Iterable[Row]
         head[0] = head[0]._replace(text=row)
         rows = chain(head[:1], islice(rows, 1, None))
         return _read_numbers(source, reading, head, rows, dialect, None)
+    if (below := _of_column(dialect, head)) > 0:
+        _take_unit(source, reading, name_of(text_of(head[below - 1].text)))
+        return _read_numbers(source, reading, head[below:], islice(rows, below, None), dialect, None)
     if _is_header(dialect, cells):
         names = _names(dialect, head, cells)
         above = 1
@@ -233,6 +236,19 @@ def _is_header(dialect: Dialect, cells: list[bytes]) -> bool:
     """Whether a line has names: its first cell is no number, or is empty and followed by names."""
     cells = [cell for cell in cells if cell]
     return bool(cells) and dialect.number(cells[0]) is None
+
+
+def _of_column(dialect: Dialect, head: list[Row]) -> int:
+    """The number of lines of words above a column of numbers; 0 if there are none, or what follows is no column."""
+    words = next((at for at, row in enumerate(head) if begins_with_number(row.text)), 0)
+    below = head[words:]
+    alone = all(dialect.width(row.text) == 1 and begins_with_number(row.text) for row in below)
+    return words if len(below) >= FEW_ROWS and alone else 0
+
+
+def _take_unit(source: Source, reading: Reading, name: Name) -> None:
+    if (unit := LENGTHS.get(name.unit)) and reading.unit is None:
+        source.notes.found["unit"] = unit
 
 
 def _angles_in_names(source: Source, dialect: Dialect, cells: list[bytes]) -> bytes | None:

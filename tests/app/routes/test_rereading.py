@@ -47,9 +47,10 @@ def test_fields_that_a_sentence_names_are_found():
 
 
 def test_fields_are_called_as_the_page_calls_them():
-    said = "give --skip-columns 1. The flag --unit says more; `ros2 topic echo --csv` is none."
+    said = "give --skip-columns 1 or --columns=-,x,y. The flag --unit says more; `ros2 topic echo --csv` is none."
     assert for_the_page(said) == (
-        "give the field “columns to skip” 1. The field “unit of ranges” says more; `ros2 topic echo --csv` is none."
+        "give the field “columns to skip” 1 or the field “columns”: -,x,y. The field “unit of ranges” says more; "
+        "`ros2 topic echo --csv` is none."
     )
 
 
