@@ -28,6 +28,7 @@ class Obeying:
         self.where = {"router_ip": LOOPBACK, "router_port": port}
         self.received: dict[str, list[Any]] = defaultdict(list)
         self.ends: dict[str, Any] = {}
+        self.attached: dict[str, list[bytes]] = defaultdict(list)
 
     def publisher(self, topic: str, type: str = "sensor_msgs/msg/LaserScan", hash: str | None = None) -> None:
         from zenoh_ros2_sdk import ROS2Publisher
@@ -38,6 +39,7 @@ class Obeying:
         from zenoh_ros2_sdk import ROS2Subscriber
 
         self.ends[topic] = ROS2Subscriber(topic, type, self.received[topic].append, **defined(type, hash), **self.where)
+        self.router.declare_subscriber(f"0{topic}/**", lambda s: self.attached[topic].append(s.attachment.to_bytes()))
 
     def scan(self, topic: str, ranges: list[float], second: int = 0, losing: int = 0) -> None:
         """losing: messages before it that seem to be lost."""
@@ -54,6 +56,10 @@ class Obeying:
     def take(self, topic: str) -> list[Any]:
         taken, self.received[topic][:] = self.received[topic][:], []
         return [plain(each) for each in taken]
+
+    def numbers(self, topic: str) -> list[list[Any]]:
+        """The number of each message and the id of its writer, as rmw_zenoh attaches them."""
+        return [[int.from_bytes(each[:8], "little"), each[17:].hex()] for each in self.attached[topic]]
 
     def close(self, topic: str) -> None:
         self.ends.pop(topic).close()

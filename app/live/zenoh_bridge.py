@@ -61,6 +61,14 @@ class Arrived(NamedTuple):
     attached: bytes
 
 
+class _Writer(NamedTuple):
+    """Receivers tell by its id and the numbers of its messages whether one is lost."""
+
+    publisher: zenoh.Publisher
+    id: bytes
+    numbers: Iterator[int]
+
+
 @contextmanager
 def open_zenoh(router: str, domain: int) -> Iterator[Zenoh]:
     """Connect to a router. Raises OSError if there is none."""
@@ -91,10 +99,8 @@ class Zenoh:
 
     def __init__(self, session: zenoh.Session, domain: int) -> None:
         self._session, self._domain = session, domain
-        self._gid = os.urandom(16)
         self._ids = itertools.count(1)
-        self._numbers = itertools.count(1)
-        self._publishers: dict[str, zenoh.Publisher] = {}
+        self._writers: dict[str, _Writer] = {}
         self._announced: dict[str, type[Message]] = {}
         self._offers: dict[str, ZenohOffer] = {}
         self._hashless = False
@@ -120,7 +126,7 @@ class Zenoh:
         told.topic_is(chosen)
         self._hashless = any(each.hash == HASHLESS for each in self.offers() if each.topic == chosen)
         for to, message in self._announced.items():
-            self._publisher(to, message)
+            self._writer(to, message)
         told.waits(f"subscribed to {chosen}; waiting for its first scan")
         key = f"{self._domain}{chosen}/{dds_type(LASER_SCAN)}"
         subscriber = self._session.declare_subscriber(f"{key}/*", self._keep)
@@ -136,24 +142,25 @@ class Zenoh:
         self._announced[topic] = message
 
     def publish(self, topic: str, message: Message) -> None:
-        attached = STATE.pack(next(self._numbers), time.time_ns(), len(self._gid)) + self._gid
-        publisher = self._publisher(topic, type(message))
+        writer = self._writer(topic, type(message))
+        attached = STATE.pack(next(writer.numbers), time.time_ns(), len(writer.id)) + writer.id
         try:
-            publisher.put(message.cdr(), attachment=attached)
+            writer.publisher.put(message.cdr(), attachment=attached)
         except zenoh.ZError as error:
             raise ValueError(f"nothing can be published to {topic}: {error}") from None
 
-    def _publisher(self, topic: str, message: type[Message]) -> zenoh.Publisher:
-        if topic not in self._publishers:
+    def _writer(self, topic: str, message: type[Message]) -> _Writer:
+        if topic not in self._writers:
             type = full_type(message.type)
             key = f"{self._domain}{topic}/{dds_type(type)}/{self._hash(type)}"
             try:
-                self._publishers[topic] = self._session.declare_publisher(key, encoding=zenoh.Encoding.APPLICATION_CDR)
+                publisher = self._session.declare_publisher(key, encoding=zenoh.Encoding.APPLICATION_CDR)
                 token = self._token(next(self._ids), PUBLISHER, topic, type)
                 self._declared.append(self._session.liveliness().declare_token(token))
             except zenoh.ZError as error:
                 raise ValueError(f"nothing can be published to {topic}: {error}") from None
-        return self._publishers[topic]
+            self._writers[topic] = _Writer(publisher, os.urandom(16), itertools.count(1))
+        return self._writers[topic]
 
     # --- in threads of Zenoh ------------------------------------------------------------------------------------------
 

@@ -85,6 +85,19 @@ def test_markers_and_cloud_have_the_segments_the_stamp_and_the_frame_of_their_sc
     assert np.frombuffer(bytes(cloud["data"]), "<f4", 2).tolist() == np.float32(segment.start).tolist()
 
 
+def test_each_topic_numbers_its_messages_without_gaps(peer: Obedient, port: int, topic: str):
+    with running(address(port, topic), topic):
+        opened(peer, topic)
+        for second in range(3):
+            cloud_back(peer, topic, 2.0, second)
+    both = [peer.ask("numbers", topic=f"{topic}/{kind}") for kind in ("markers", "cloud")]
+    ids = [{id for _, id in each} for each in both]
+    assert [len(each) for each in ids] == [1, 1] and ids[0] != ids[1]
+    for each in both:
+        first = each[0][0]
+        assert [number for number, _ in each] == list(range(first, first + len(each)))
+
+
 def test_a_robot_with_humble_whose_types_have_no_hash_hears_the_segments(peer: Obedient, port: int, topic: str):
     with running(address(port, topic), topic):
         opened(peer, topic, hash="TypeHashNotSupported")
