@@ -166,12 +166,14 @@ def _profiles(
 class Known:
     """What is known of the pieces of walls, by which each return gets its piece.
 
-    firm: (w,) whether a piece is straight and even; profiles: of the pieces; height, scatter: (s,) of
+    firm: (w,) whether a piece is straight and even; smooth: (w,) whether it is even in single scans, so that only its
+    bends or the poses blur it; profiles: of the pieces; height, scatter: (s,) of
     their stretches [m]; by_range: how much points scatter, metre by metre of their range [m]; places: what was seen.
     """
 
     walls: Walls
     firm: NDArray[np.bool_]
+    smooth: NDArray[np.bool_]
     profiles: Profiles
     height: Floats
     scatter: Floats
@@ -194,7 +196,10 @@ class Known:
         by_range = scatter_by_range(off, away)
         fine = _profiles(placed, scan, poses, views, walls, FINE, BEND)
         firm = is_straight(fine, walls) & is_even(stretch, off, away, by_range, profiles)
-        return cls(walls, firm, profiles, height, scatter, by_range, Places.of(placed, views[scan]))
+        both = np.flatnonzero((np.diff(found[near]) == 0) & (np.diff(scan[near]) == 0))
+        step = np.abs(np.diff(over[near])[both]) / np.sqrt(2)
+        smooth = is_even(stretch[both], step, away[both], by_range, profiles)
+        return cls(walls, firm, smooth, profiles, height, scatter, by_range, Places.of(placed, views[scan]))
 
     def labels(
         self, placed: NDArray[np.float32], scan: NDArray[np.int32], poses: Floats
@@ -203,7 +208,8 @@ class Known:
         (n,) its height over the piece [m].
 
         Returns that lie a little farther from their wall than others do are UNKNOWN, and so are long surfaces that bend
-        or are rough, such as a hedge: whoever finds lines there is neither right nor wrong.
+        or that the poses blur: whoever finds lines there is neither right nor wrong. Surfaces that are rough in single
+        scans, such as a hedge, are no walls.
         """
         walls, profiles = self.walls, self.profiles
         found, height = nearest_walls(placed, scan, poses, walls, BENT)
@@ -219,7 +225,7 @@ class Known:
             wall[near[off < limit]] = own[off < limit]
             wall[near[good & (off >= limit)]] = UNKNOWN
             wall[near[good & ~self.firm[own]]] = -1
-            wall[near[(~self.firm & long)[own] & good]] = UNKNOWN
+            wall[near[(~self.firm & self.smooth & long)[own] & good]] = UNKNOWN
             wall[near[(profiles.views[stretch] < LEAST_VIEWS) & good]] = UNKNOWN
         elsewhere = wall == -1
         wall[elsewhere & on_the_way(placed, scan, poses, walls.only(self.firm))] = UNKNOWN

@@ -11,7 +11,7 @@ from lineseg.many_views import truth_by_many_views
 from lineseg.many_views.checks import trust
 from lineseg.many_views.returns import Returns
 from lineseg.poses import PoseSource, Track, in_world
-from lineseg.simulate import PAINT, PLASTER, UTM_30LX, box, circle, door, room
+from lineseg.simulate import PAINT, PLASTER, ROUGH, UTM_30LX, box, circle, door, polyline, room
 from lineseg.truth import UNKNOWN, true_lines
 
 WORLD = room([(0, 0), (7, 0), (7, 5), (0, 5)]) + box((3.4, 4.7), 1.2, 0.5) + circle((5.4, 3.4), 0.2)
@@ -78,6 +78,21 @@ def test_walls_that_the_laser_sees_from_far_are_walls_though_it_scatters_more_th
     far = room([(0, 0), (11, 0), (11, 10), (0, 10)])
     found = truth_by_many_views(driven(drive().poses, far, replace(LASER, sigma=0.006, far=4.0, sigma_far=0.04)))
     assert found.explained > 0.9
+
+
+def test_a_hedge_is_no_wall():
+    rough = polyline([(1.5, 4.4), (5.5, 4.4)], ROUGH)
+    hedge = truth_by_many_views(driven(drive().poses, room([(0, 0), (7, 0), (7, 5), (0, 5)]) + rough)).recording
+    assert hedge.poses is not None
+    poses = np.asarray(hedge.poses)
+    spots = [in_world(scan.xy, pose) for scan, pose in zip(hedge, poses, strict=True)]
+    there = np.concatenate(
+        [
+            walls_in(scan)[scan.valid & (abs(at - (3.5, 4.4)) < (1.5, 0.1)).all(axis=1)]
+            for scan, at in zip(hedge, spots, strict=True)
+        ]
+    )
+    assert (there == -1).mean() > 0.8
 
 
 def test_walls_end_where_their_returns_do():
