@@ -55,8 +55,9 @@ def survey(
     ]
     for helper in helpers:
         helper.start()
+    told = 0
     try:
-        job.work(progress or (lambda done, total: None))
+        told = job.work(progress or (lambda done, total: None))
     finally:
         # If the calling thread was stopped, the others can stop too.
         job.waiting.clear()
@@ -64,6 +65,9 @@ def survey(
             helper.join()
     if job.error is not None:
         raise job.error
+    if progress is not None and told < len(recording) and not flag[0]:
+        # The others have done the rest, or all of it.
+        progress(len(recording), len(recording))
     result = None if flag[0] else job.result(len(helpers) + 1)
     if result is None or flag[0]:
         raise Cancelled(f"the survey of {recording.name or 'a recording'} was stopped")
@@ -96,14 +100,14 @@ class _Job:
             self.error = error
             self.waiting.clear()
 
-    def work(self, progress: Callable[[int, int], None]) -> None:
-        """Work on chunks until the queue is empty."""
-        memory = Workspace(self.recording.beams[1])
+    def work(self, progress: Callable[[int, int], None]) -> int:
+        """Work on chunks until the queue is empty; return the number of frames that progress was last told of."""
+        memory, told = Workspace(self.recording.beams[1]), 0
         while not self.cancelled[0]:
             try:
                 start, stop = self.waiting.popleft()
             except IndexError:
-                return
+                break
             where = memory, self.cancelled, self.counts, self.scores
             if isinstance(self.params, Params):
                 stretch = Stretch(self.recording, self.flat, start, stop, compared=self.scores is not None)
@@ -112,7 +116,9 @@ class _Job:
                 self.segments[start] = survey_stretch(self.recording, start, stop, self.params, *where)
             with self.lock:
                 self.done += stop - start
-            progress(self.done, len(self.counts))
+                told = self.done
+            progress(told, len(self.counts))
+        return told
 
     def result(self, threads: int) -> Survey:
         parts = [self.segments[start] for start in sorted(self.segments)]

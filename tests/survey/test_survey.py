@@ -198,9 +198,10 @@ def test_an_exception_in_progress_is_passed_on():
     assert threading.active_count() == before
 
 
-def test_progress_ends_with_all_frames():
+@pytest.mark.parametrize("threads", [1, 4])
+def test_progress_ends_with_all_frames(threads):
     seen = []
-    survey(long_recording(3000), progress=lambda done, total: seen.append((done, total)), threads=1)
+    survey(long_recording(3000), progress=lambda done, total: seen.append((done, total)), threads=threads)
     assert seen[-1] == (3000, 3000)
     assert seen == sorted(seen)
 
