@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from lineseg.noise import noise
+from lineseg.proposal import propose
 from lineseg.scan import Recording, Scan
 from lineseg.simulate.laser import UTM_30LX, drive, record
 from lineseg.simulate.world import World, box, chair, circle, room
 from lineseg.simulate.worlds import WORLDS
-from lineseg.tuning.proposal import propose
 
 FRAMES = 24
 

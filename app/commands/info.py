@@ -9,8 +9,8 @@ import numpy as np
 from tyro.conf import OmitArgPrefixes, Positional
 
 from lineseg.poses import said_of
+from lineseg.proposal import Proposal, propose
 from lineseg.scan import Recording, are_valid
-from lineseg.tuning.proposal import Proposal, propose
 
 from .flag_types import Files
 from .progress import open_with_progress

@@ -66,7 +66,7 @@ class Choice:
 
 def suggested(recording: Recording, present: Thresholds, method: str) -> Thresholds:
     """Thresholds that fit the recording; prints them, or why there are none, on stderr."""
-    from lineseg.tuning.proposal import propose
+    from lineseg.proposal import propose
 
     found = propose(recording, present, method)
     print(found.text or "The present thresholds fit this recording.", file=sys.stderr)

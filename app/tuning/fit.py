@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from lineseg import Recording, Thresholds
 from lineseg.noise import RangeNoise, noise
-from lineseg.tuning.proposal import Proposal, propose
+from lineseg.proposal import Proposal, propose
 
 from ..told.answers import Fitted, Noise
 from .kept import Kept

@@ -13,10 +13,10 @@ from numpy.typing import NDArray
 from ..extractors import EXTRACTORS, Extractor
 from ..knobs import Thresholds
 from ..params import Params
+from ..proposal import propose, scaled
 from ..scan import Recording
 from ..truth import Agreement
 from ..tuning.objective import Objective
-from ..tuning.proposal import propose, scaled
 from .halves import Halves, Judge, halves
 from .search import WISHES, search, tunable
 from .timing import Timed, times_of

@@ -27,10 +27,10 @@ from ..doubt.scores import COLUMN
 from ..doubt.visible import shows_enough
 from ..kernel import entry_kernel, kernel
 from ..params import Params
+from ..proposal import propose, rescaled
 from ..scan import Recording
 from ..total_least_squares import Scatter, line_through, signed_distance
 from ..truth import demands_of
-from ..tuning.proposal import propose, rescaled
 from .difference import length_of, shared_beams
 from .geometry import geometry_of
 from .result import Survey

@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 from ..extractors import EXTRACTORS, extract, method_of
 from ..knobs import Thresholds
 from ..params import Params
+from ..proposal import scaled
 from ..scan import Recording, Scan
 from ..truth import demands_of
-from ..tuning.proposal import scaled
 from .committee import CONFIRMING, Committee, judges_of, known_committee
 from .difference import length_of, shared_beams
 from .remark import Ghost, Remark

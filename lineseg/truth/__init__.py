@@ -1,7 +1,7 @@
 """Scores against the truth."""
 
 from .lines import UNKNOWN, demands_of, near_lines, true_ends, true_lines
-from .matching import Agreement, Matching, agreement, agreements, match
+from .matching import Agreement, Matching, agreement, agreements, match, quality
 
 __all__ = [
     "UNKNOWN",
@@ -12,6 +12,7 @@ __all__ = [
     "demands_of",
     "match",
     "near_lines",
+    "quality",
     "true_ends",
     "true_lines",
 ]

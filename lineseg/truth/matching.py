@@ -233,3 +233,19 @@ def _end_errors(found: NDArray[np.float64], true: NDArray[np.float64]) -> NDArra
     """(2,) distances of the two ends in the better pairing, because labels may be drawn from either end."""
     pairings = [np.hypot(*(ends - true).T) for ends in (found, found[::-1])]
     return min(pairings, key=np.sum)
+
+
+def quality(found: float, false: float, completeness: float, recall: float = 1.0, power: float = 1.0) -> float:
+    """One number in [0, 1] from TR, FR and completeness, higher is better; NaN if undefined.
+
+    The mean F_β of TR and 1 − FR, where β is `recall`, times completeness to this power.
+    """
+    right = 1.0 - false
+    if not np.isfinite(right):
+        # Without segments nothing is found and nothing is false.
+        return 0.0 if np.isfinite(found) else np.nan
+    if found == 0.0 or right == 0.0:
+        return 0.0
+    beta = recall**2
+    harmonic = (1 + beta) * found * right / (beta * right + found)
+    return harmonic * completeness**power

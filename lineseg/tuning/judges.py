@@ -10,9 +10,9 @@ from __future__ import annotations
 
 from ..knobs import Thresholds
 from ..params import Params
+from ..proposal import propose
 from ..scan import Recording
 from ..truth import demands_of
-from .proposal import propose
 
 
 def judges(recording: Recording, demands: Thresholds | None = None) -> tuple[Params, ...]:

@@ -5,9 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-import numpy as np
-
 from ..sweep.totals import Totals
+from ..truth import quality
 
 
 @dataclass(frozen=True)
@@ -36,15 +35,7 @@ class Objective:
 
     def of_rates(self, found: float, false: float, completeness: float) -> float:
         """The objective from TR, FR and completeness."""
-        right = 1.0 - false
-        if not np.isfinite(right):
-            # Without segments nothing is found and nothing is false.
-            return 0.0 if np.isfinite(found) else np.nan
-        if found == 0.0 or right == 0.0:
-            return 0.0
-        beta = self.recall**2
-        harmonic = (1 + beta) * found * right / (beta * right + found)
-        return harmonic * completeness**self.completeness
+        return quality(found, false, completeness, self.recall, self.completeness)
 
     @property
     def thresholds(self) -> tuple[str, ...]:

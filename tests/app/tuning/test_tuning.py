@@ -17,9 +17,9 @@ from live import SECONDS, Address, Page, page_of, serving
 from websockets.sync.client import connect
 
 from lineseg import Params, open_recording
+from lineseg.proposal import propose
 from lineseg.readers import save_npz
 from lineseg.sweep import Batch, slider_values
-from lineseg.tuning.proposal import propose
 
 FRAMES = 60
 

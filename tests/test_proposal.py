@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 
 from lineseg import EXTRACTORS, Cancelled, Params, extract, open_recording
+from lineseg.proposal import propose
 from lineseg.scan import Recording, Scan
 from lineseg.simulate.laser import LMS_200, RPLIDAR_A2, UTM_30LX
 from lineseg.simulate.worlds import WORLDS
 from lineseg.truth import Agreement, agreement, true_lines
 from lineseg.tuning import Objective
-from lineseg.tuning.proposal import propose
 
 FRAMES = 20
 EPSILONS = np.geomspace(0.008, 0.5, 19)

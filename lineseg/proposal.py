@@ -20,18 +20,16 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from ..extractors import EXTRACTORS
-from ..knobs import Knob, Thresholds
-from ..noise import RangeNoise, noise
-from ..params import Params
-from ..readers import Cancelled
-from ..scan import Floats, Recording, Scan
-from ..segment import Extraction
-from ..truth import Agreement, demands_of, match
-from .objective import Objective
+from .extractors import EXTRACTORS
+from .knobs import Knob, Thresholds
+from .noise import RangeNoise, noise
+from .params import Params
+from .readers import Cancelled
+from .scan import Floats, Recording, Scan
+from .segment import Extraction
+from .truth import Agreement, demands_of, match, quality
 
 T = TypeVar("T", bound=Thresholds)
-TRUTH = Objective("truth")
 GROWING = EXTRACTORS["region-growing"]
 FRAMES = 24
 LEAST_FRAMES = 4
@@ -333,7 +331,7 @@ def _leading(params: Thresholds) -> tuple[str, Knob]:
 def _agreement(found: list[Extraction], judges: list[Extraction]) -> float:
     """Agreement of lines with other lines as the truth: the harmonic mean of TR and 1 − FR, times completeness."""
     total = Agreement.of_all(match(one, other.labels).agreement for one, other in zip(found, judges, strict=True))
-    score = TRUTH.of_rates(total.true_rate, total.false_rate, total.completeness)
+    score = quality(total.true_rate, total.false_rate, total.completeness)
     return score if math.isfinite(score) else 0.0
 
 
