@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import logging
 import socket
 from collections.abc import Callable
 
@@ -28,6 +29,10 @@ class Server(uvicorn.Server):
             self._ready()
 
 
+# uvicorn calls it an error when a handshake is refused with an answer.
+REFUSED = "ASGI callable returned without completing handshake."
+
+
 def server_of(app: ASGIApp, ready: Callable[[], None] = lambda: None) -> Server:
     config = uvicorn.Config(
         app,
@@ -40,7 +45,12 @@ def server_of(app: ASGIApp, ready: Callable[[], None] = lambda: None) -> Server:
         proxy_headers=False,
         timeout_graceful_shutdown=SHUTDOWN_SECONDS,
     )
+    logging.getLogger("uvicorn.error").addFilter(_is_news)
     return Server(config, ready)
+
+
+def _is_news(record: logging.LogRecord) -> bool:
+    return record.msg != REFUSED
 
 
 def listen(host: str, port: int) -> socket.socket:

@@ -31,6 +31,7 @@ log = logging.getLogger(__name__)
 PORT = 9876
 PROBE_SECONDS = 0.5
 START_SECONDS = 20.0
+CLOSE_SECONDS = 2.0
 
 
 class LiveRerun:
@@ -77,8 +78,10 @@ class LiveRerun:
                 last = shown or last
                 if last is not None and self._stream is not None and (shown is not None or returned):
                     self._send(*last)
-            except Exception:
-                log.exception("streaming to rerun failed")
+            except Exception as error:
+                # Until it hangs up: each attempt would leave a thread that waits for it.
+                log.warning("rerun's viewer on port %d does not take what it is sent: %s", self._port, error)
+                self._end_stream()
         self._hang_up()
 
     def _connected(self) -> bool:
@@ -96,12 +99,20 @@ class LiveRerun:
         return True
 
     def _hang_up(self) -> None:
-        if self._stream is not None:
-            # Closing may wait for a viewer that is gone.
-            threading.Thread(target=self._stream.disconnect, daemon=True).start()
+        self._end_stream()
         if self._line is not None:
             self._line.close()
-        self._line = self._stream = self._announced = None
+        self._line = None
+
+    def _end_stream(self) -> None:
+        stream, self._stream, self._announced = self._stream, None, None
+        if stream is not None:
+            # Closing waits for a viewer that is gone or hangs, also at the end of the process.
+            closing = threading.Thread(target=stream.disconnect, daemon=True)
+            closing.start()
+            closing.join(CLOSE_SECONDS)
+            if closing.is_alive():
+                rr.unregister_shutdown()
 
     def _send(self, view: View, recording: Recording, label: str, found: Findings) -> None:
         stream, scan = self._stream, found.scan

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import logging
 from pathlib import Path
 
 import httpx
@@ -31,8 +32,11 @@ def listening() -> set[int]:
 
 
 @pytest.mark.skipif(not Path("/proc/self/net/tcp").exists(), reason="only Linux lists the ports of a process")
-def test_no_port_of_the_process_answers_without_the_token_or_to_another_page(tmp_path: Path):
-    before = listening()
+def test_no_port_of_the_process_answers_without_the_token_or_to_another_page(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    before, said = listening(), []
+    monkeypatch.setattr(logging.getLogger("uvicorn.error"), "callHandlers", said.append)
     with serving(Settings(token="sesame", data_folder=tmp_path)) as server:
         key = {"Authorization": "Bearer sesame"}
         with page_of(server, additional_headers=key) as page:
@@ -51,6 +55,8 @@ def test_no_port_of_the_process_answers_without_the_token_or_to_another_page(tmp
                             assert there.get("/", headers=headers).status_code == 403, (port, headers)
                         with pytest.raises((InvalidStatus, InvalidHandshake, EOFError)):
                             connect(there.ws + scene, additional_headers=headers, **options).close()  # pyright: ignore
+    # What is refused fills no log.
+    assert said == []
 
 
 def test_the_viewer_of_rerun_is_read_from_the_installed_program_without_running_it(tmp_path, monkeypatch):

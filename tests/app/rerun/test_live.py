@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import contextlib
+import os
+import re
 import socket
 import subprocess
+import sys
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -14,6 +17,7 @@ from lineseg_app.frame.findings import findings
 from lineseg_app.rerun.live import LiveRerun, answers
 from lineseg_app.rerun.viewer import executable, quiet_environment
 from lineseg_app.view import View
+from live import Address, page_of
 from rrd import rows_of
 from scenes import wall_ahead
 
@@ -85,3 +89,34 @@ def test_a_viewer_hears_frames_and_thresholds_as_they_change_and_one_that_return
     found = [len(row["strips"] or []) for row in rows_of(tmp_path / "first.rrd", "/laser/segments") if "frame" in row]
     assert found == [1, 1, 0]
     assert rows_of(tmp_path / "second.rrd", "/__properties/lineseg")
+
+
+SILENT = """
+import socket, sys
+from lineseg_app.__main__ import main
+from lineseg_app.rerun import live
+silent = socket.create_server(("127.0.0.1", 0))
+live.live_rerun.__wrapped__.__defaults__ = (silent.getsockname()[1],)
+sys.exit(main(["view", "--no-browser", "--port", "0", "--rerun"]))
+"""
+
+
+def test_a_viewer_that_never_answers_is_told_once_and_does_not_hold_up_the_end(tmp_path: Path):
+    silent, environment = subprocess.PIPE, os.environ | {"XDG_DATA_HOME": str(tmp_path), "TMPDIR": str(tmp_path)}
+    server = subprocess.Popen([sys.executable, "-c", SILENT], stdout=silent, stderr=silent, text=True, env=environment)
+    assert server.stdout is not None
+    address = next(line for line in server.stdout if "http://" in line)
+    port = int(re.search(r":(\d+)/", address)[1])  # type: ignore[index]
+    try:
+        with page_of(Address(port)) as page:
+            page.hello()
+            for frame in range(1, 4):
+                page.change(frame=frame)
+                time.sleep(1.0)
+        server.terminate()
+        _, said = server.communicate(timeout=30)
+    finally:
+        server.kill()
+    assert server.returncode == 0
+    assert said.count("does not take what it is sent") == 1
+    assert "Traceback" not in said
