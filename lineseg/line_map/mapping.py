@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 
 from ..arguments import need_recording
 from ..knobs import Thresholds
-from ..many_views.growing import Walls
-from ..many_views.labelling import nearest_walls
-from ..many_views.returns import Returns
 from ..noise import noise
+from ..posed.nearest import nearest_walls
+from ..posed.returns import Returns
+from ..posed.walls import Walls
 from ..poses import Poses
 from ..scan import Recording
 from ..survey import Survey, survey

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..covariance import covariances_of_points
-from ..many_views.returns import views_of
 from ..noise import RangeNoise
+from ..posed.returns import views_of
 from ..poses import Poses, in_world
 from ..scan import Recording, are_valid
 from ..survey import Survey

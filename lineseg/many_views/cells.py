@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..kernel import entry_kernel, kernel
+from ..posed.nearest import first_from
 
 # Side of a square [m], and how far around it points tell the direction of the surface [squares].
 SIDE = 0.04
@@ -79,19 +80,6 @@ def cells_of(placed: NDArray[np.floating], scan: NDArray[np.integer], poses: Flo
         key,
         origin,
     )
-
-
-@kernel
-def first_from(keys, wanted):
-    """The first position whose key is at least `wanted`."""
-    low, high = 0, len(keys)
-    while low < high:
-        middle = (low + high) // 2
-        if keys[middle] < wanted:
-            low = middle + 1
-        else:
-            high = middle
-    return low
 
 
 @entry_kernel

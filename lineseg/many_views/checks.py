@@ -7,10 +7,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..posed.returns import views_of
 from ..poses import Poses
 from ..scan import Recording
 from .refining import MOST_SHIFT, MOST_TURN
-from .returns import views_of
 
 # A drive passes through so many views or more.
 LEAST_VIEWS = 6

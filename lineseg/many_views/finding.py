@@ -9,18 +9,19 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ..posed.nearest import nearest_walls
+from ..posed.returns import Returns, views_of
+from ..posed.walls import Walls
 from ..poses import Track
 from ..scan import Recording
 from ..truth import UNKNOWN
 from .cells import cells_of
 from .checks import check, trust
-from .growing import BEND, Walls, grown_walls
-from .labelling import nearest_walls
+from .growing import BEND, grown_walls
 from .merging import merged_walls, pieces_of, without_shadows
 from .openings import divided_at_openings
 from .profiles import Profiles, calmed, is_even, is_straight, profiles_of, scatter_by_range, stretches_of
 from .refining import refined
-from .returns import Returns, views_of
 from .steps import FINE, divided_at_steps
 
 # A wall and a place without one are known if so many views, or more, saw them.

@@ -8,7 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..kernel import entry_kernel, kernel
-from .cells import MOST_VIEWS, QUARTERS, ROW, SIDE, Cells, across_and_along, first_from
+from ..posed.nearest import first_from
+from ..posed.walls import Walls
+from .cells import MOST_VIEWS, QUARTERS, ROW, SIDE, Cells, across_and_along
 
 # Length of the stretches into which a wall is divided [m].
 BIN = 0.05
@@ -21,39 +23,6 @@ BEND = 0.08
 TURNED = 0.80
 LEAST_LENGTH = 0.30
 LONGEST = 60.0
-
-
-class Walls(NamedTuple):
-    """normal: (w, 2), towards the side it was seen from; offset: (w,), normal · p of its points; low, high: (w,) its
-    ends, along (−normal_y, normal_x); rms: (w,) [m].
-    """
-
-    normal: NDArray[np.float64]
-    offset: NDArray[np.float64]
-    low: NDArray[np.float64]
-    high: NDArray[np.float64]
-    rms: NDArray[np.float64]
-
-    @classmethod
-    def of(cls, rows: NDArray[np.float64]) -> Walls:
-        """From rows (w, 6) of normal, offset, low, high and rms."""
-        return cls(np.ascontiguousarray(rows[:, :2]), *(rows[:, k].copy() for k in range(2, 6)))
-
-    def __len__(self) -> int:
-        return len(self.offset)
-
-    @property
-    def along(self) -> NDArray[np.float64]:
-        return np.column_stack((-self.normal[:, 1], self.normal[:, 0]))
-
-    @property
-    def ends(self) -> NDArray[np.float64]:
-        """(w, 4) x1, y1, x2, y2 [m]."""
-        foot = self.normal * self.offset[:, None]
-        return np.hstack((foot + self.along * self.low[:, None], foot + self.along * self.high[:, None]))
-
-    def only(self, kept: NDArray) -> Walls:
-        return Walls(*(field[kept] for field in self))
 
 
 def grown_walls(cells: Cells, band: float) -> tuple[Walls, NDArray[np.int32]]:

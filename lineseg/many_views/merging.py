@@ -6,8 +6,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from ..posed.walls import Walls
 from .cells import MOST_VIEWS, Cells
-from .growing import BEND, Walls
+from .growing import BEND
 
 # Pieces turned by more than this against each other are different walls [cosine].
 ALIKE = 0.97

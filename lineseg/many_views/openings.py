@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..kernel import entry_kernel
-from .growing import Walls
+from ..posed.walls import Walls
 
 # Of all beams, so many are looked at.
 MOST_RAYS = 400_000

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .growing import Walls
+from ..posed.walls import Walls
 
 # Length of a stretch [m].
 STRETCH = 0.20

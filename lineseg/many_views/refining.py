@@ -6,9 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..kernel import entry_kernel
-from .growing import Walls
-from .labelling import nearest, rows_of, table_of
-from .returns import Returns
+from ..posed.nearest import nearest, rows_of, table_of
+from ..posed.returns import Returns
+from ..posed.walls import Walls
 
 # Standard deviations of the given poses [m, rad], and bounds of their correction.
 SHIFT, TURN = 0.05, np.radians(0.7)

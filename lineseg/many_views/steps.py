@@ -8,7 +8,7 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
-from .growing import Walls
+from ..posed.walls import Walls
 from .profiles import MAD, Profiles
 
 # Length of the stretches in which steps are looked for [m], and how many of them are compared on each side.

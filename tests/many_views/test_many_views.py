@@ -9,7 +9,7 @@ import pytest
 from lineseg import Recording, Scan, simulate
 from lineseg.many_views import truth_by_many_views
 from lineseg.many_views.checks import trust
-from lineseg.many_views.returns import Returns
+from lineseg.posed.returns import Returns
 from lineseg.poses import PoseSource, Track, in_world
 from lineseg.simulate import PAINT, PLASTER, ROUGH, UTM_30LX, box, circle, door, polyline, room
 from lineseg.truth import UNKNOWN, true_lines
@@ -158,7 +158,7 @@ def test_of_a_long_recording_places_seen_briefly_keep_their_returns():
 
 
 def test_parts_together_are_all_returns(monkeypatch):
-    monkeypatch.setattr("lineseg.many_views.returns.PART", 1000)
+    monkeypatch.setattr("lineseg.posed.returns.PART", 1000)
     recording = drive()
     poses = np.asarray(recording.poses)
     returns = Returns.of(recording, poses)

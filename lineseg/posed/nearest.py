@@ -1,4 +1,4 @@
-"""Which wall each beam hit."""
+"""The wall nearest to each return."""
 
 from __future__ import annotations
 
@@ -8,8 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..kernel import entry_kernel, kernel
-from .cells import first_from
-from .growing import Walls
+from .walls import Walls
 
 # Side of a square of the table in which the walls near a point are looked up [m].
 SQUARE = 0.25
@@ -93,3 +92,16 @@ def square_of(x, y, keys, origin):
     key = int(np.floor((x - origin[0]) / SQUARE)) * (1 << 32) + int(np.floor((y - origin[1]) / SQUARE))
     k = first_from(keys, key)
     return k if k < len(keys) and keys[k] == key else -1
+
+
+@kernel
+def first_from(keys, wanted):
+    """The first position whose key is at least `wanted`."""
+    low, high = 0, len(keys)
+    while low < high:
+        middle = (low + high) // 2
+        if keys[middle] < wanted:
+            low = middle + 1
+        else:
+            high = middle
+    return low

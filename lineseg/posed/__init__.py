@@ -1,0 +1,1 @@
+"""Scans and walls in the world: the returns of scans with poses, and the wall nearest to each."""
