@@ -6,7 +6,7 @@ A new format is one small class in one file, and one line in READERS.
 from __future__ import annotations
 
 from collections.abc import Callable
-from contextlib import ExitStack, suppress
+from contextlib import ExitStack
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -70,8 +70,8 @@ def open_recording(
 
     reading: how to read it, where the file does not say it or says it wrongly.
     progress: called with (done, total) while reading; may raise `Cancelled`, which is passed on.
-    so_far: called now and then, while a long bag or MCAP file is read, with a `partial` Recording of its first scans,
-    which share the memory of the whole.
+    so_far: called now and then, while a long bag, MCAP file or CARMEN log is read, with a `partial` Recording of its
+    first scans, which share the memory of the whole.
     given: fields of the Reading, as in open_recording("scan.csv", unit="mm").
     Raises ValueError or OSError, with one sentence, if the file cannot be read.
     """
@@ -97,11 +97,9 @@ def _parts(source: Source, so_far: Callable[[Recording], None] | None) -> Parts 
         return None
 
     def show(part: Recording, notes: Notes) -> None:
-        # What is wrong with the Reading is told in the end, about the whole.
-        with suppress(ValueError, OSError):
-            shown = applied(part, source.reading, notes, source.named or source.path, source.progress)
-            if shown.ranges.size:
-                so_far(shown)
+        shown = applied(part, source.reading, notes, source.named or source.path, source.progress)
+        if shown.ranges.size:
+            so_far(shown)
 
     return Parts(show)
 

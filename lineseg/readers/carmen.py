@@ -31,6 +31,8 @@ LASERS = {name.encode(): name for name in WITHOUT_ANGLES}
 LASERS |= {f"{name}{n}".encode(): f"{name}{n}" for name in ("ROBOTLASER", "RAWLASER") for n in (1, 2, 3, 4)}
 MOST_LINES = 100
 MAXIMA = {"FLASER": b"robot_front_laser_max", "RLASER": b"robot_rear_laser_max"}
+# Room for so many times as many lines as if all were as long as the first; a part is shown after as many lines.
+ROOM, PART = 1.25, 64
 # Lasers with these numbers of beams look over half a turn, as the format assumes of all.
 HALF_TURN = (180, 181, 360, 361)
 
@@ -65,7 +67,7 @@ class CarmenLog(Reader):
 
     @staticmethod
     def read(source: Source) -> Recording:
-        lasers: dict[str, list[Line]] = {}
+        lasers: dict[str, Laser] = {}
         settings: dict[bytes, bytes] = {}
         with source.path.open("rb") as file:
             behind = any(map(BEHIND.match, islice(file, MOST_LINES)))
@@ -81,7 +83,12 @@ class CarmenLog(Reader):
                 except ValueError as error:
                     source.notes.skip(f"{source.name}:{number}", str(error))
                 else:
-                    lasers.setdefault(laser, []).append(line)
+                    found = lasers.setdefault(laser, Laser())
+                    found.add(line, laser)
+                    if len(found.poses) == 1:
+                        found.sweeps.ranges.reserve_for(int(ROOM * source.path.stat().st_size / len(text)))
+                    if len(found.poses) % PART == 0 and not laser.startswith("RAW"):
+                        source.offer(len(found.poses), partial(_recording, lasers, settings, part=True))
             elif word == [b"PARAM"]:
                 _, key, value, *_ = (*text.split(), b"", b"")
                 settings[key] = value
@@ -90,26 +97,39 @@ class CarmenLog(Reader):
             first = next((line.strip() for _, line in source.lines() if line.strip()), b"")
             begins = f"it begins with {first[:40].decode('utf-8', 'replace')!r}; " if first else ""
             raise ValueError(f"{source.name} has no laser line; {begins}a CARMEN log has {CarmenLog.expects}.")
-        # What CARMEN's drivers publish raw, it publishes again with the robot's pose.
-        names = sorted(lasers, key=lambda name: name.startswith("RAW"))
-        topics = [Topic(name, len(lasers[name])) for name in names]
-        topic = source.choose(topics, "message")
-        lines = lasers[topic]
-        if topic in WITHOUT_ANGLES:
-            lines = _with_view(source, lines, settings, topic)
-        source.notes.stamps = "the log"
-        return _recording(source, lines, topic, tuple(topics), _number(settings.get(MAXIMA.get(topic, b""))))
+        return _recording(lasers, settings, source)
+
+
+class Laser:
+    """The lines of one laser, joined as they come."""
+
+    def __init__(self) -> None:
+        self.sweeps = Sweeps()
+        self.poses: list[list[bytes]] = []
+        self.announced = 0.0
+
+    def add(self, line: Line, topic: str) -> None:
+        self.sweeps.add(line.ranges, line.angle_min, line.angle_increment, stamp=line.stamp, frame_id=topic.lower())
+        self.poses.append(line.pose)
+        self.announced = max(self.announced, line.range_max or 0.0)
 
 
 def _recording(
-    source: Source, lines: list[Line], topic: str, topics: tuple[Topic, ...], setting: float | None
+    lasers: dict[str, Laser], settings: dict[bytes, bytes], source: Source, *, part: bool = False
 ) -> Recording:
-    sweeps = Sweeps()
-    for line in lines:
-        sweeps.add(line.ranges, line.angle_min, line.angle_increment, stamp=line.stamp, frame_id=topic.lower())
-    track = Track(partial(_found, [line.pose for line in lines], topic))
-    recording = sweeps.recording(source, topic=topic, topics=topics, format=CarmenLog.format, track=track)
-    announced = max((line.range_max for line in lines if line.range_max), default=setting)
+    """The scans of the chosen laser, or those so far."""
+    # What CARMEN's drivers publish raw, it publishes again with the robot's pose.
+    names = sorted(lasers, key=lambda name: name.startswith("RAW"))
+    topics = tuple(Topic(name, len(lasers[name].poses)) for name in names)
+    topic = source.choose(list(topics), "message")
+    laser = lasers[topic]
+    source.notes.stamps = "the log"
+    track = Track(partial(_found, list(laser.poses), topic))
+    given = {"topic": topic, "topics": topics, "format": CarmenLog.format, "track": track}
+    recording = laser.sweeps.recording(source, partial=part, **given)
+    if topic in WITHOUT_ANGLES and (view := _view(source, int(recording.offsets[1]), settings, topic)) is not None:
+        recording.angle_min[:], recording.angle_increment[:] = view
+    announced = laser.announced or _number(settings.get(MAXIMA.get(topic, b"")))
     recording.range_max[:] = longest_return(recording.ranges, announced)
     return recording
 
@@ -124,11 +144,13 @@ def _found(words: list[list[bytes]], topic: str) -> Found:
     return Found(poses, PoseSource(f"{topic} lines", missing=missing))
 
 
-def _with_view(source: Source, lines: list[Line], settings: dict[bytes, bytes], topic: str) -> list[Line]:
-    """The lines with the field of view of the laser; if their number of beams is not that of half a turn, a guess."""
-    beams = len(lines[0].ranges)
+def _view(source: Source, beams: int, settings: dict[bytes, bytes], topic: str) -> tuple[float, float] | None:
+    """The first angle of a laser with so many beams and the step between them [rad], a guess if no line says them.
+
+    None for the numbers of beams of half a turn.
+    """
     if beams in HALF_TURN or beams < 2:
-        return lines
+        return None
     side = b"rear" if topic == "RLASER" else b"front"
     stated = (value for key, value in settings.items() if side in key and key.endswith(b"fov"))
     view = next((number for value in stated if (number := _number(value)) and 0 < number <= 360), None)
@@ -145,8 +167,7 @@ def _with_view(source: Source, lines: list[Line], settings: dict[bytes, bytes], 
     other = 270.0 if view is None and usual is None else 180.0
     change = {"angle_min": -other / 2, "angle_increment": other / (beams - 1)}
     source.notes.guess("angle_min", text, why, **{name: round(math.radians(each), 8) for name, each in change.items()})
-    low, step = np.deg2rad(low), np.deg2rad(step)
-    return [line._replace(angle_min=low, angle_increment=step) for line in lines]
+    return float(np.deg2rad(low)), float(np.deg2rad(step))
 
 
 def _decode_flaser(text: bytes, tail: int) -> Line:

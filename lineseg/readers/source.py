@@ -50,7 +50,9 @@ class Source:
         """
         if self.parts is not None and self.parts.due(scans):
             so_far = replace(self, notes=self.notes.so_far())
-            self.parts.show(part(so_far), so_far.notes)
+            # What is wrong with the Reading is told in the end, about the whole.
+            with suppress(ValueError, OSError):
+                self.parts.show(part(so_far), so_far.notes)
 
     @property
     def name(self) -> str:
