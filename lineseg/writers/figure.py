@@ -87,11 +87,11 @@ def document(title: str, *parts: str) -> str:
 
 
 def figure_title(recording: Recording, frame: int, method: str) -> str:
-    """ "corridor.bag, frame 17 of 300, Region growing", with frames counted from 0."""
+    """ "corridor.bag, frame 17 of 0–299, Region growing", as the page counts frames."""
     if recording.pack is not None:
         return f"{recording.pack.recording}, frame {recording.pack.frame}, {method}"
-    frames = recording.whole or len(recording)
-    return f"{recording.name}, frame {recording.number(frame)} of {frames}, {method}"
+    first, last = recording.number(0), recording.number(len(recording) - 1)
+    return f"{recording.name}, frame {recording.number(frame)} of {first:,}–{last:,}, {method}"
 
 
 class Place:

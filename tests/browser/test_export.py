@@ -40,7 +40,7 @@ def test_the_frame_is_taken_along_as_a_picture_and_all_segments_as_files(new_tab
     svg = saved(tab, "Picture (SVG)", tmp_path)
     assert svg.name == "Hallway_simulated__17.svg"
     assert svg.read_text().count('class="segment"') == len(found)
-    assert "frame 17 of 300" in svg.read_text()
+    assert "frame 17 of 0–299" in svg.read_text(encoding="utf-8")
     png = saved(tab, "Picture (PNG)", tmp_path).read_bytes()
     width, height = np.frombuffer(png[16:24], ">u4")
     assert (png[:8], width, height) == (b"\x89PNG\r\n\x1a\n", 1920, 1440)

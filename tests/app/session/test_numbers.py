@@ -53,7 +53,7 @@ def test_exports_and_labels_have_the_number_of_the_file(own: Address, page: Page
     session = {"session": page.welcome["session"]}
     svg = own.get("/api/figure", params=session)
     assert "walls_4.svg" in svg.headers["content-disposition"].replace(".npz", "")
-    assert "frame 4 of 5" in svg.text
+    assert "frame 4 of 0–4" in svg.text
     rows = [json.loads(line) for line in own.get("/api/segments", params=session).text.splitlines()]
     assert [row["frame"] for row in rows if "frame" in row] == [0, 2, 4]
     assert set(own.get("/api/why", params={**session, "frames": "0,1,4"}).json()["found"]) == {"0", "4"}
