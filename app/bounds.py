@@ -25,10 +25,12 @@ class Message(BaseModel):
 
 def sentence(error: ValidationError) -> str:
     """The first complaint of a validation, with its place and what was found."""
-    first = error.errors(include_url=False, include_context=False)[0]
-    place = ".".join(_shown(" ".join(str(part).split())) for part in first["loc"]) or "the message"
+    first, *others = error.errors(include_url=False, include_context=False)
+    whole_or_not = any((*other["loc"][:-1], "int") == first["loc"] and other["loc"][-1] == "float" for other in others)
+    loc = first["loc"][:-1] if whole_or_not else first["loc"]
+    place = ".".join(_shown(" ".join(str(part).split())) for part in loc) or "the message"
     # pydantic quotes what it was sent, line ends and all.
-    why = _shown(" ".join(first["msg"].split()), LONGEST_REASON)
+    why = "it must be a number" if whole_or_not else _shown(" ".join(first["msg"].split()), LONGEST_REASON)
     return f"{place} is {_shown(repr(first['input']))}: {why[:1].lower()}{why[1:]}"
 
 

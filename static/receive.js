@@ -44,6 +44,7 @@ export function createReceiver(page, { address, notices, work, following, panel,
     if (refused) page.tell("setRefused", refused, message);
     notices.setLoaded();
     notices.setEmpty();
+    document.body.classList.toggle("vacant", !drawn);
     const way = { note: text.stage.linkKept(linked.name), label: text.top.openFile, run: opening.choose };
     const about = gone && linked.name && !message.includes(linked.name) ? `${linked.name}: ${message}` : message;
     const note = drawn ? text.stage.kept : "";
@@ -56,6 +57,7 @@ export function createReceiver(page, { address, notices, work, following, panel,
     const { pack, recording } = state;
     const unpacked = pack && recording !== before?.recording && !linked.names(recording) && !following.active;
     page.drawn = Object.freeze({ ...state, marks: state.marks ?? before?.marks ?? {} });
+    document.body.classList.remove("vacant");
     if (page.settled()) page.adoptDrawn();
     if (!work.busy && !state.growing) notices.setLoaded();
     page.tell("setState", page.drawn, origin);

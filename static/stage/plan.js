@@ -7,7 +7,7 @@ import { stretched } from "./viser.js";
 /** @typedef {[number, number]} Point */
 /** @typedef {{width: number, height: number}} Size of a stage [px] */
 /** @typedef {Size & {left: number, top: number}} Part of a stage [px] */
-/** What lies over the upper left corner of a stage: how far it reaches [px]. @typedef {{right: number, bottom: number}} Cover */
+/** What lies over the upper edge of a stage [px]. @typedef {{left: number, right: number, bottom: number}} Cover */
 /** The plan on a stage: its middle [m], its scale, and the size of the stage [px].
  * @typedef {{x: number, y: number, pxPerMetre: number, width: number, height: number, stretch: Stretch | null}} Sight */
 
@@ -25,15 +25,21 @@ const LEAST_ROOM_PX = 90;
 
 /**
  * Where to look to see all of a box, beside what covers the stage: the middle of the stage and its height [m].
- * @param {Box} box @param {Size} size @param {{margin: number, least: number}} room @param {Cover | null} cover
+ * @param {Box} box @param {Size} size @param {{margin: number, least: number}} room @param {Cover[]} covers
  */
-export function around(box, size, room, cover = null) {
-  const whole = within(box, size, { left: 0, top: 0, ...size }, room);
-  const sight = { ...whole, pxPerMetre: size.height / whole.span, ...size, stretch: null };
-  if (!cover || !hides(cover, sight, box)) return whole;
-  return roomsBeside(cover, size)
-    .map((part) => within(box, size, part, room))
-    .reduce((best, each) => (best === whole || each.span < best.span ? each : best), whole);
+export function around(box, size, room, covers = []) {
+  const [whole, ...others] = roomsBeside(covers, size).map((part) => within(box, size, part, room));
+  return (
+    [whole, ...others]
+      .filter(
+        ({ span, ...middle }) =>
+          !hidden(covers, { ...middle, pxPerMetre: size.height / span, ...size, stretch: null }, box),
+      )
+      .reduce(
+        (best, each) => (best && best.span <= each.span ? best : each),
+        /** @type {typeof whole | null} */ (null),
+      ) ?? whole
+  );
 }
 
 /** The same in a part of the stage. @param {Box} box @param {Size} size @param {Part} part @param {{margin: number, least: number}} room */
@@ -52,18 +58,21 @@ function seenIn({ left, top, width, height }, size, [x, y], scale) {
   };
 }
 
-/** Below and to the right of what covers the upper left corner. @param {Cover} cover @param {Size} size */
-function roomsBeside({ right, bottom }, { width, height }) {
-  return [
-    { left: 0, top: bottom, width, height: height - bottom },
-    { left: right, top: 0, width: width - right, height },
-  ].filter((part) => Math.min(part.width, part.height) >= LEAST_ROOM_PX);
+/** The whole stage, and its parts below and beside what covers it. @param {Cover[]} covers @param {Size} size @returns {Part[]} */
+function roomsBeside(covers, { width, height }) {
+  const onTheLeft = (/** @type {Cover} */ { left, right }) => left + right < width;
+  const lefts = [0, ...covers.filter(onTheLeft).map(({ right }) => right)];
+  const rights = [width, ...covers.filter((cover) => !onTheLeft(cover)).map(({ left }) => left)];
+  const [whole, ...parts] = [0, ...covers.map(({ bottom }) => bottom)].flatMap((top) =>
+    lefts.flatMap((left) => rights.map((right) => ({ left, top, width: right - left, height: height - top }))),
+  );
+  return [whole, ...parts.filter((part) => Math.min(part.width, part.height) >= LEAST_ROOM_PX)];
 }
 
-/** Whether a part of a box, all of which is on the stage, is covered. @param {Cover | null} cover @param {Sight} sight @param {Box} box */
-function hides(cover, sight, [xmin, , , ymax]) {
-  const [left, top] = project(sight, xmin, ymax);
-  return cover !== null && left < cover.right && top < cover.bottom;
+/** Whether a part of a box, all of which is on the stage, is covered. @param {Cover[]} covers @param {Sight} sight @param {Box} box */
+function hidden(covers, sight, [xmin, , xmax, ymax]) {
+  const [[first, top], [last]] = [project(sight, xmin, ymax), project(sight, xmax, ymax)];
+  return covers.some(({ left, right, bottom }) => first < right && last > left && top < bottom);
 }
 
 /** Where a point of the plan is [px]. @param {Sight} sight @param {number} x @param {number} y @returns {Point} */
@@ -80,8 +89,8 @@ export function unproject(sight, left, top) {
   return stretched(sight.stretch, drawn, true);
 }
 
-/** Where to look to see a box well, from nearer by if it is too small; null if it can be seen well. @param {Sight | null} sight @param {Size} size @param {Box} box @param {Cover | null} cover */
-export function towards(sight, size, box, cover = null) {
+/** Where to look to see a box well, from nearer by if it is too small; null if it can be seen well. @param {Sight | null} sight @param {Size} size @param {Box} box @param {Cover[]} covers */
+export function towards(sight, size, box, covers = []) {
   const { width, height } = size;
   const [xmin, ymin, xmax, ymax] = box;
   const [wide, high] = [xmax - xmin, ymax - ymin];
@@ -92,11 +101,13 @@ export function towards(sight, size, box, cover = null) {
     [project(sight, xmin, ymin), project(sight, xmax, ymax)].every((at) =>
       at.every((place, k) => place > EDGE_PX && place < [width, height][k] - EDGE_PX),
     );
-  if (large && inside && !hides(cover, sight, box)) return null;
+  if (large && inside && !hidden(covers, sight, box)) return null;
   const near = Math.max(high, (wide * height) / Math.max(1, width), 0.5) / SHARE;
   const span = large ? height / scale : near;
   const middle = /** @type {Point} */ ([(xmin + xmax) / 2, (ymin + ymax) / 2]);
-  const there = { x: middle[0], y: middle[1], pxPerMetre: height / span, ...size, stretch: null };
-  const [part] = cover && hides(cover, there, box) ? roomsBeside(cover, size) : [];
-  return seenIn(part ?? { left: 0, top: 0, ...size }, size, middle, span / Math.max(1, height));
+  const looks = roomsBeside(covers, size).map((part) => seenIn(part, size, middle, span / Math.max(1, height)));
+  const clear = looks.find(
+    ({ x, y }) => !hidden(covers, { x, y, pxPerMetre: height / span, ...size, stretch: null }, box),
+  );
+  return clear ?? looks[0];
 }

@@ -11,7 +11,7 @@ import { createScale } from "./scale.js";
 /** @typedef {[number, number]} Point */
 
 // Between a card and the nearest part of the plan.
-const BESIDE_PX = 20;
+const BESIDE_PX = 12;
 
 export class PlanStage {
   element;
@@ -29,7 +29,7 @@ export class PlanStage {
   #moveListeners = [];
   /** @type {((at: Point | null) => void)[]} */
   #hoverListeners = [];
-  /** What may lie over the upper left of the scene. @type {HTMLElement[]} */
+  /** What may lie over the upper part of the scene. @type {HTMLElement[]} */
   #covers = [];
   #scaleMark;
   #grid;
@@ -70,27 +70,29 @@ export class PlanStage {
     this.away = room === WHOLE;
   }
 
-  /** Fits keep clear of these cards, which lie over the upper left of the scene. @param {HTMLElement[]} cards */
+  /** Fits keep clear of these, too, which lie over the upper part of the scene. @param {HTMLElement[]} cards */
   keepClearOf(cards) {
-    this.#covers = cards;
+    this.#covers.push(...cards);
     const observer = new ResizeObserver(() => this.refit());
     for (const card of cards) observer.observe(card);
   }
 
-  /** How far they reach, if one is there. @returns {import("./plan.js").Cover | null} */
-  get #cover() {
-    const { left, top } = this.element.getBoundingClientRect();
-    const cards = this.#covers.map((card) => card.getBoundingClientRect()).filter(({ height }) => height > 0);
-    if (!cards.length) return null;
-    return {
-      right: Math.max(...cards.map((card) => card.right)) - left + BESIDE_PX,
-      bottom: Math.max(...cards.map((card) => card.bottom)) - top + BESIDE_PX,
-    };
+  /** The places of those that are there. @returns {import("./plan.js").Cover[]} */
+  get #covered() {
+    const stage = this.element.getBoundingClientRect();
+    return this.#covers
+      .map((card) => card.getBoundingClientRect())
+      .filter(({ height }) => height > 0)
+      .map(({ left, right, bottom }) => ({
+        left: left - stage.left - BESIDE_PX,
+        right: right - stage.left + BESIDE_PX,
+        bottom: bottom - stage.top + BESIDE_PX,
+      }));
   }
 
   /** Where to look to see all of a box. @param {Box} box @param {typeof WHOLE} room */
   around(box, room) {
-    return around(box, this.size, room, room === WHOLE ? this.#cover : null);
+    return around(box, this.size, room, room === WHOLE ? this.#covered : []);
   }
 
   /** Fits again what was fitted, unless a person has moved the camera since. */
@@ -125,7 +127,7 @@ export class PlanStage {
   /** Moves the plan so that the box of the laser can be seen well, and zooms in if it is too small. @param {Box} box */
   goTo = (box) => {
     const there = placedBox(this.#world, box);
-    const look = there && towards(this.sight, this.size, there, this.#cover);
+    const look = there && towards(this.sight, this.size, there, this.#covered);
     if (look) this.lookAt(look);
   };
 

@@ -74,6 +74,7 @@ export function mountScene(
   notices.add(key.element);
   notices.add(lasers.element);
   holder.append(tools, world.list, layers.list, explanation.element);
+  stage.keepClearOf([tools]);
   holder.setAttribute("aria-label", text.stage.label);
   return {
     parts: [

@@ -210,7 +210,7 @@ export const learnText = {
   charts: {
     distance: { title: "Distance to the line, by beam", y: "ε" },
     predicted: { title: "|ρ − ρ′|, by beam", y: "δ" },
-    growth: { title: "Length and points of the growing line", y: "min" },
+    growth: { title: "Growing line: length, points", y: "min" },
     nothing: "Step to a decision to see its numbers.",
     noLine: "No line was fitted: there is too wide a gap.",
     noGrowth: "No line is growing at this step.",

@@ -18,8 +18,22 @@ export function fillWords(element, words, pointing) {
   const key = JSON.stringify(words);
   if (element.dataset.words === key) return;
   element.dataset.words = key;
-  const parts = words.map((part) => (typeof part === "string" ? part : link(part, pointing)));
-  replaceNamed(element, parts, pointing);
+  replaceNamed(element, unbroken(words, pointing), pointing);
+}
+
+/** The parts of a sentence; a comma or a full stop never begins a line after a word that can be pointed at. @param {Words} words @param {Pointing} pointing */
+function unbroken(words, pointing) {
+  /** @type {(Node | string)[]} */
+  const parts = [];
+  for (const part of words) {
+    const [stop] = (typeof part === "string" && part.match(/^[,.;:)]+/)) || [""];
+    const word = stop && parts.at(-1);
+    if (word instanceof HTMLElement) parts.splice(-1, 1, h("span", { class: "unbroken" }, word, stop));
+    parts.push(
+      typeof part === "string" ? (word instanceof HTMLElement ? part.slice(stop.length) : part) : link(part, pointing),
+    );
+  }
+  return parts;
 }
 
 /** Replaces what an element holds, some of which may be pointed at: what is removed never tells that the pointer has left it. @param {HTMLElement} element @param {(Node | string)[]} parts @param {Pick<Pointing, "at">} pointing */

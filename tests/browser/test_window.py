@@ -56,8 +56,14 @@ def test_the_panel_is_dragged_to_a_width_that_a_new_page_has_too(new_tab: Callab
 
 
 def test_at_every_width_nothing_is_cut_off_and_the_view_fits(new_tab: Callable[..., Tab]):
-    tab = new_tab("#recording=sample:hallway")
+    tab = new_tab("#recording=sample:laboratory")
     x1, y1, x2, y2 = tab.state["bounds"]
+    clear = f"""() => {{
+        const tools = document.querySelector(".stage-tools").getBoundingClientRect();
+        const {{ left, top }} = stage.getBoundingClientRect();
+        const [[first, high], [last]] = [lineseg.project({x1}, {y2}), lineseg.project({x2}, {y2})];
+        return top + high >= tools.bottom || left + last <= tools.left || left + first >= tools.right;
+    }}"""
     inside = f"""() => [[{x1}, {y1}], [{x2}, {y2}]].every(([x, y]) => {{
         const at = lineseg.project(x, y);
         return at && at[0] > 0 && at[1] > 0 && at[0] < stage.clientWidth && at[1] < stage.clientHeight;
@@ -69,6 +75,7 @@ def test_at_every_width_nothing_is_cut_off_and_the_view_fits(new_tab: Callable[.
             f"cut off at {wide} px: {tab.page.evaluate(CUT_OFF, PARTS)}",
         )
         tab.eventually(lambda: tab.page.evaluate(inside), f"the view does not fit at {wide} px")
+        tab.eventually(lambda: tab.page.evaluate(clear), f"the tools cover a part of the plan at {wide} px")
     assert tab.page.evaluate("() => stage.getBoundingClientRect().bottom <= panel.getBoundingClientRect().top + 1")
 
 
