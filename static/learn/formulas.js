@@ -1,6 +1,6 @@
 // @ts-check
 // The formulas behind a decision, with its numbers put in. Terms carry the name of their geometry (shapes.js).
-import { h } from "../widgets/dom.js";
+import { h, scrollInPanel } from "../widgets/dom.js";
 import { fit, lengthOf } from "./geometry.js";
 import { fraction, math, num, power, root, row, signed, term, words } from "./mathml.js";
 
@@ -43,7 +43,7 @@ export function createFormulas(text, onTerm) {
     /** Highlights a term, as if the pointer were on it. @param {string | null} name */
     light(name) {
       light(name);
-      if (name) body.querySelector(`[data-term="${name}"]`)?.scrollIntoView({ block: "nearest" });
+      if (name) scrollInPanel(body.querySelector(`[data-term="${name}"]`));
     },
     /** @param {Event | null} event @param {Trace | null} trace @param {import("../wire.js").Params} params @param {Knob[]} knobs */
     set(event, trace, params, knobs) {

@@ -1,6 +1,6 @@
 // @ts-check
 // The pseudocode; the line of the current decision is highlighted (listing.json says which).
-import { h, setText } from "../widgets/dom.js";
+import { h, scrollInPanel, setText } from "../widgets/dom.js";
 import { tooltip } from "../widgets/tooltip.js";
 import { symbols } from "../widgets/symbols.js";
 import { eventName } from "./trace.js";
@@ -104,7 +104,7 @@ export class Listing {
     this.#lit.classList.add("lit");
     this.#lit.setAttribute("aria-current", "step");
     // Scrolling forces a layout, so it is not done at every step.
-    if (follow && this.#lit !== before) this.#lit.scrollIntoView({ block: "nearest" });
+    if (follow && this.#lit !== before) scrollInPanel(this.#lit);
     setText(/** @type {Element} */ (this.#lit.querySelector(".code-value")), compared);
   }
 }

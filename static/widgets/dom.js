@@ -43,3 +43,13 @@ export function setText(element, value) {
 export function sentenceCase(words) {
   return words.charAt(0).toUpperCase() + words.slice(1);
 }
+
+/** Scrolls the part of a panel that holds an element until it can be seen; the page around it stays where it is. @param {Element | null | undefined} element */
+export function scrollInPanel(element) {
+  const scrolls = (/** @type {Element} */ holder) => /auto|scroll/.test(getComputedStyle(holder).overflowY);
+  let holder = element?.parentElement;
+  while (holder && !scrolls(holder)) holder = holder.parentElement;
+  if (!element || !holder?.closest(".panel")) return;
+  const [part, room] = [element.getBoundingClientRect(), holder.getBoundingClientRect()];
+  holder.scrollTop += Math.min(0, part.top - room.top) + Math.max(0, part.bottom - room.bottom);
+}

@@ -198,3 +198,7 @@ def test_only_the_first_of_many_complaints_are_reported():
     _, complaint = View().salvaged({"params": {f"zoom{k}": 1 for k in range(9)}})
     assert complaint is not None
     assert complaint.endswith("; and 6 more")
+
+
+def test_a_threshold_that_is_no_number_is_told_in_words():
+    assert View().salvaged({"params": {"epsilon": "on"}})[1] == "params.epsilon is 'on': it must be a number"

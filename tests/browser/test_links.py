@@ -82,3 +82,16 @@ def test_a_new_field_needs_no_change_in_the_page(new_tab):
     assert told["linked"] == "recording=sample:hallway&zoom=3"
     assert told["seen"] == [[3, 3], [1, 1], [1, 30]]
     assert told["hash"] == "recording=sample:hallway"
+
+
+@pytest.mark.own_tab
+def test_a_link_to_a_missing_recording_shows_nothing_of_the_one_before(new_tab):
+    tab = new_tab("#recording=sample:hallway")
+    strip = tab.page.locator("#timeline canvas").first
+    tab.eventually(strip.is_visible, "no strip")
+    tab.page.goto("about:blank")
+    tab.page.goto(f"{tab.address}#recording=sample:gone&name=gone.bag")
+    tab.eventually(lambda: tab.page.locator(NOTICE).count(), "no notice")
+    tab.eventually(lambda: not strip.is_visible(), "the strip of the recording before is shown")
+    title, notice = (tab.page.locator(each).first.bounding_box() for each in (".empty > .empty-title", NOTICE))
+    assert title["y"] >= notice["y"] + notice["height"]
