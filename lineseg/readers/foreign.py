@@ -37,7 +37,7 @@ FOREIGN = (
      "open the bag that it was made of"),
     (rb"# Octomap OcTree", "a map of OctoMap", "open the scans that it was made of"),
     (rb"2D-Map\r?\n", "a map of ARIA or MobileEyes", "open the log of the scans that it was made of"),
-    (rb"(?![\s\S]*(?:FLASER|ROBOTLASER|RAWLASER))(?:#[^\n]*\n)*(?:VERTEX|EDGE)[\w:]*[ \t]",
+    (rb"(?:#[^\n]*\n)*(?:VERTEX|EDGE)[\w:]*[ \t](?![\s\S]*(?:FLASER|ROBOTLASER|RAWLASER))",
      "a pose graph (g2o or TORO)", "open the log of the scans that it was made of"),
     (rb"(?:[^\n]{0,80}\n){0,3}\s*Columns 1 (?:through|to|and) \d+",
      "what MATLAB shows in its window, with a few columns at a time",

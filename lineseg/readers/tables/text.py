@@ -103,8 +103,10 @@ class Text(Reader):
 def _without_headings(source: Source, head: list[Row], rest: Iterable[Row]) -> tuple[list[Row], Iterable[Row]]:
     """The rows without lines of the same words, such as "Scan 3 at 1.5 s", that stand above some of them."""
     words = _words(head[0].text)
+    if not re.search(rb"[A-Za-z]", words) or is_list(head[0].text):
+        return head, rest
     these = [_words(row.text) == words for row in head]
-    if not re.search(rb"[A-Za-z]", words) or is_list(head[0].text) or sum(these) < 2 or 2 * sum(these) > len(head):
+    if sum(these) < 2 or 2 * sum(these) > len(head):
         return head, rest
     below = [row.text for row, heading in zip(head[1:], these, strict=False) if heading]
     if not all(map(begins_with_number, below)):
@@ -241,7 +243,7 @@ def _is_header(dialect: Dialect, cells: list[bytes]) -> bool:
 def _of_column(dialect: Dialect, head: list[Row]) -> int:
     """The number of lines of words above a column of numbers; 0 if there are none, or what follows is no column."""
     words = next((at for at, row in enumerate(head) if begins_with_number(row.text)), 0)
-    below = head[words:]
+    below = head[words:] if words else []
     alone = all(dialect.width(row.text) == 1 and begins_with_number(row.text) for row in below)
     return words if len(below) >= FEW_ROWS and alone else 0
 
