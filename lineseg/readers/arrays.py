@@ -123,6 +123,15 @@ def _of_pairs(source: Source, pairs: NDArray, are_points: bool, format: str) -> 
     return beams_of(source, source.reading, numbered, names, format=format)
 
 
+def _of_two(source: Source, pair: list[tuple[Name, NDArray]], format: str) -> Recording:
+    """The scans of two arrays (scans, beams): angles and distances, or x and y."""
+    words = ("angle", "distance") if is_angle(pair[0][0]) else ("x", "y")
+    columns = [array.ravel().astype(np.float64) * name.scale for name, array in pair]
+    scans = np.repeat(np.arange(len(pair[0][1]), dtype=np.float64), pair[0][1].shape[1])
+    names = [Name("scan"), *(Name(word, name.unit) for word, (name, _) in zip(words, pair, strict=True))]
+    return beams_of(source, source.reading, np.column_stack([scans, *columns]), names, format=format)
+
+
 def recording_of_arrays(source: Source, arrays: Mapping[str, NDArray], format: str) -> Recording:
     """The scans of arrays of which one can be the ranges. Raises ValueError with the line of Python that helps."""
     if len(arrays) == 1:
@@ -132,6 +141,8 @@ def recording_of_arrays(source: Source, arrays: Mapping[str, NDArray], format: s
     if (joined := _joined(arrays)) is not None:
         return _of_pairs(source, joined, False, format)
     tables = {name: array for name, array in arrays.items() if _plain(array) and array.ndim == 2}
+    if (pair := _beam_columns(tables)) and len(tables[pair[0]]) > 1:
+        return _of_two(source, [(name_of(name), tables[name]) for name in pair], format)
     rows = {name: array for name, array in arrays.items() if _plain(array) and array.ndim == 1}
     plain = {name: name_of(name) for name in rows}
     angles = next((name for name in rows if name.lower().startswith(ANGLE_NAMES) or is_angle(plain[name])), None)
@@ -166,7 +177,8 @@ def recording_of_arrays(source: Source, arrays: Mapping[str, NDArray], format: s
 def _beam_columns(rows: Mapping[str, NDArray]) -> list[str]:
     """The names of two arrays that are an angle and a distance, or x and y, of each beam; [] without them."""
     names = {name: name_of(name) for name in rows}
-    points = [next((name for name in rows if names[name].plain.split("_")[-1] == axis), "") for axis in "xy"]
+    points = [next((name for name in rows if names[name].plain.split("_")[-1] in (axis, f"{axis}s")), "")
+              for axis in "xy"]  # fmt: skip
     angle = next((name for name in rows if is_angle(names[name])), "")
     distance = next((name for name in rows if is_distance(names[name])), "")
     pairs = ([angle, distance], points)

@@ -12,9 +12,9 @@ from .account import Notes
 from .reading import Reading
 from .source import Source
 from .tables.dialect import Dialect, Row, text_of
-from .tables.headers import LASERS, Name, column_of
+from .tables.headers import LASERS, LAYERS, Name, column_of
 
-MOST_LASERS = 8
+MOST_LASERS, MOST_LAYERS = 8, 128
 # Scans of one laser vary in length; those of two lasers differ by more than this.
 FEW_BEAMS, FEW_DEGREES = 0.2, 10.0
 # A geometry with fewer scans than these is a slip, not a laser; two that change over once are one laser, set anew.
@@ -62,14 +62,16 @@ def rows_of_one_laser(
 
     what: what a row has, in the plural.
     """
-    column = column_of(names, lambda name: name.plain in LASERS)
+    column, most = column_of(names, lambda name: name.plain in LASERS), MOST_LASERS
+    if column is None:
+        column, most = column_of(names, lambda name: name.element < 0 and name.plain in LAYERS), MOST_LAYERS
     if column is None:
         return rows, ""
     rows = list(rows)
     cells = [dialect.cells(row.text) for row in rows]
     lasers = [text_of(row[column]).strip() if len(row) > column else "" for row in cells]
     counts = Counter(filter(None, lasers))
-    if not counts or len(counts) > MOST_LASERS:
+    if not counts or len(counts) > most:
         return rows, ""
     if reading.frame_id is not None:
         need_laser(source.name, reading.frame_id, list(counts))

@@ -63,6 +63,13 @@ FORMS = {
                                      zip(range(181), DEGREES, ranges, strict=True)),
     "yaw": "frame,yaw,pitch,range\n" + lines(np.repeat([0, 1], 181), np.tile(BEARINGS, 2), np.zeros(362), SCANS.ravel(),
                                              form="{:.5f}"),
+    "lists in a column of another name": "t,x,y,theta,scan\n"
+    + "".join(f'{at},0,0,0,"[{row(each, " ")}]"\n' for at, each in enumerate(SCANS)),
+    "numbers of points": "scan_no,point_no,distance [mm]\n"
+    + lines(np.repeat([0, 1], 181), np.tile(range(181), 2), 1000 * SCANS.ravel()),
+    "layers": "scan,elevation,azimuth,range\n" + lines(
+        np.repeat([0, 1], 362), np.tile(np.repeat([0, 15], 181), 2), np.tile(DEGREES, 4),
+        np.concatenate((NEAR, NEAR * 2, FAR, FAR * 2))),
     "words between": "".join(f"Scan {at} at {at}.5 s\n{row(each, ' ')}\n" for at, each in enumerate(SCANS)),
     "box": "+---+---+---+\n| scan | angle | range |\n+===+===+===+\n"
     + "".join(f"│ {line.replace(',', ' ┆ ')} │\n" for line in
@@ -156,6 +163,20 @@ def test_points_of_numpy_are_scans_without_those_that_are_nowhere(tmp_path: Path
         recording = read(tmp_path, file.getvalue(), name)
         assert recording_size(recording) == [180, 181]
         assert recording[1].ranges == pytest.approx(FAR, abs=1e-5)
+
+
+def test_tables_of_x_and_y_are_scans_and_not_ranges(tmp_path: Path):
+    file = io.BytesIO()
+    np.savez(file, xs=SCANS * X, ys=SCANS * Y)
+    recording = read(tmp_path, file.getvalue(), "a.npz")
+    assert recording_size(recording) == [181, 181]
+    assert recording[1].ranges == pytest.approx(FAR, abs=1e-5)
+
+
+def test_seconds_and_nanoseconds_beside_each_other_are_one_stamp(tmp_path: Path):
+    head = "sec,nanosec," + ",".join(f"range_{beam}" for beam in range(181)) + "\n"
+    recording = read(tmp_path, head + "".join(f"1700000000,{at * 100_000_000},{row(NEAR)}\n" for at in range(3)))
+    assert recording.stamps - recording.stamps[0] == pytest.approx([0, 0.1, 0.2], abs=1e-6)
 
 
 def test_uneven_angles_of_json_are_kept(tmp_path: Path):

@@ -26,14 +26,31 @@ BESIDE = {
     "var", "variance", "err", "error", "noise", "rate", "valid", "quality", "type", "status", "time",
 }  # fmt: skip
 STAMPS = ("stamp", "timestamp", "time", "t", "secs", "sec", "seconds", "zeit", "rosbagtimestamp", "datetime")
-BEAMS = ("beam", "beam_id", "beam_index", "beam_number", "beam_no", "ray", "point_id", "index", "idx", "i", "step",
+BEAMS = (
+    "beam", "beam_id", "beam_index", "beam_idx", "beam_number", "beam_no", "beam_nr", "ray", "ray_id", "ray_index",
+    "point_id", "point_index", "point_idx", "point_number", "point_no", "point_nr", "index", "idx", "i", "step",
     "step_n", "step_no",
 )  # fmt: skip
-SCANS = ("scan", "scan_id", "scan_number", "frame", "sweep", "scan_index", "scan_no", "turn", "revolution", "rev")
+SCANS = (
+    "scan",
+    "scan_id",
+    "scan_number",
+    "frame",
+    "sweep",
+    "scan_index",
+    "scan_no",
+    "scan_nr",
+    "scan_idx",
+    "turn",
+    "revolution",
+    "rev",
+)
 LASERS = (
     "frame_id", "header_frame_id", "laser", "laser_id", "laser_name", "lidar", "lidar_id", "lidar_name", "sensor",
     "sensor_id", "sensor_name", "device", "device_id", "scanner", "scanner_id", "source", "topic",
 )  # fmt: skip
+# What tells the layers of a laser that sees several.
+LAYERS = ("ring", "layer", "layer_id", "channel", "elevation", "el", "vertical_angle", "pitch")
 # What SI puts before a unit, and what drivers count in, as a unit of the Reading and a factor.
 SCALED = {
     "dm": ("m", 0.1), "decimetre": ("m", 0.1), "decimeter": ("m", 0.1), "km": ("m", 1000.0),

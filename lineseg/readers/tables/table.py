@@ -24,8 +24,8 @@ BEFORE_RANGES = (
     "time_increment", "scan_time", "range_min", "range_max",
 )  # fmt: skip
 FIELDS = ("angle_min", "angle_max", "angle_increment", "range_min", "range_max")
-SECONDS = ("stamp_sec", "stamp_secs", "secs")
-NANOSECONDS = ("stamp_nanosec", "stamp_nsecs", "stamp_nsec", "stamp_nanosecs", "nsecs")
+SECONDS = ("stamp_sec", "stamp_secs", "secs", "sec")
+NANOSECONDS = ("stamp_nanosec", "stamp_nsecs", "stamp_nsec", "stamp_nanosecs", "nsecs", "nsec", "nanosec", "nanosecs")
 
 
 class Layout(NamedTuple):

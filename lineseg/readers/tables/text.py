@@ -47,6 +47,7 @@ from .headers import (
 )
 from .interleaved import interleaved, read_interleaved
 from .numbered import read_numbered
+from .numbers import all_numbers
 from .scan_columns import alike, named_columns, tell_columns
 from .scan_rows import parsed, read_scans, scans_of
 from .spanning import scans_over_lines
@@ -327,10 +328,10 @@ def _read_named(
         rows = list(rows)
         if len(rows) > len(names):
             return _read_columns_of_scans(source, reading, rows, dialect, names, *columns)
+    sample = list(islice(rows := iter(rows), FEW_ROWS))
+    rows, names = chain(sample, rows), _with_lists(dialect, sample, names)
     ranges = column_of(names, lambda name: name.element < 0 and name.ends("ranges"))
     if ranges is not None and any(map(is_angle, names)):
-        sample = list(islice(rows := iter(rows), FEW_ROWS))
-        rows = chain(sample, rows)
         cells = [dialect.cells(row.text)[ranges : ranges + 1] for row in sample]
         # One number in a cell is the range of one beam.
         ranges = None if all(dialect.number(cell) is not None for row in cells for cell in row) else ranges
@@ -344,6 +345,26 @@ def _read_named(
     rows, frame_id = rows_of_one_laser(source, reading, rows, dialect, names)
     recording = _read_beams(source, reading, rows, dialect, names)
     return replace(recording, frame_ids=(frame_id,) * len(recording))
+
+
+def _with_lists(dialect: Dialect, rows: list[Row], names: list[Name]) -> list[Name]:
+    """The names, "ranges" for the column whose cells hold lists of many numbers, if it is called otherwise."""
+    if column_of(names, lambda name: name.ends("ranges")) is not None:
+        return names
+    held = [dialect.cells(row.text) for row in rows]
+    lists = [at for at, name in enumerate(names) if not is_angle(name) and "intens" not in name.plain
+             and held and all(len(cells) > at and _is_long_list(cells[at]) for cells in held)]  # fmt: skip
+    if not lists:
+        return names
+    at = next((at for at in lists if is_distance(names[at])), lists[0])
+    return [*names[:at], names[at]._replace(plain="ranges"), *names[at + 1 :]]
+
+
+def _is_long_list(cell: bytes) -> bool:
+    if len(cell) < 2 * MANY_BEAMS:
+        return False
+    numbers = all_numbers(cell.strip(b" []()'\""))
+    return numbers is not None and len(numbers) > MANY_BEAMS
 
 
 def _read_open_ended(
