@@ -1,4 +1,4 @@
-"""Files import one another in one direction, also where a function imports."""
+"""Files import one another in one direction, also where a function imports, and functions are short."""
 
 from __future__ import annotations
 
@@ -89,3 +89,13 @@ def test_the_library_does_not_import_the_application():
         for name, imported in imports().items()
         if name.split(".")[0] == "lineseg" and any(other.startswith("lineseg_app") for other in imported)
     ] == []
+
+
+def test_no_function_has_more_than_sixty_lines():
+    long = {}
+    for name, path in files().items():
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
+                assert node.end_lineno is not None
+                long[f"{name}.{node.name}"] = node.end_lineno - node.lineno + 1
+    assert {name: lines for name, lines in long.items() if lines > 60} == {}

@@ -12,7 +12,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from tyro.conf import OmitArgPrefixes, Positional, arg
 
+from lineseg.covariance import Noise
 from lineseg.knobs import Thresholds
+from lineseg.scan import Scan
+from lineseg.segment import Extraction
 
 from .flag_types import Switch, Unset
 from .noise import noise_of
@@ -21,6 +24,7 @@ from .thresholds import Choice, Flags
 from .token import token_of
 
 if TYPE_CHECKING:
+    from ..live.address import Address
     from ..live.running import Running
 
 
@@ -68,33 +72,54 @@ def node(
     noise = noise_of(range_noise, bearing_noise)
 
     from ..live.node import OWNER, Node, warm_up
-    from ..live.node_door import open_door
     from ..live.source import Publishing
-    from ..places import user_folder
-    from ..routes.robot import ros_name
 
-    to = ros_name("--markers", markers), ros_name("--cloud", cloud)
-    if to[0] == to[1]:
-        raise ValueError(f"--markers and --cloud are both {to[0]}; messages of two types need two topics")
-    publishing = Publishing(OWNER, to[0], *running.now, to[1], noise)
-    publisher = Node(address, publishing, running, _tell, once)
+    to_markers, to_cloud = _topics(markers, cloud)
+    publisher = Node(address, Publishing(OWNER, to_markers, *running.now, to_cloud, noise), running, _tell, once)
 
     def prepare(method: str, params: Thresholds) -> None:
         warm_up(method, params, noise)
 
     def door() -> AbstractContextManager[None]:
-        if once:
-            return nullcontext()
-        laser = f"{address.place} {address.topic or ''}".strip()
-        return open_door(laser, running, prepare, _tell, user_folder(), host, port, token_of(None, token_file))
+        return nullcontext() if once else _door(address, running, prepare, host, port, token_file)
 
     prepare(*running.now)
     with _until_signal(publisher.stop), door():
         last = publisher.run()
     if once and last is not None:
-        from lineseg.writers import write_segments
+        _write(last.scan, last.extraction, noise)
 
-        write_segments(sys.stdout, "jsonl", [(0, last.scan, last.extraction)], noise)
+
+def _write(scan: Scan, extraction: Extraction, noise: Noise | None) -> None:
+    from lineseg.writers import write_segments
+
+    write_segments(sys.stdout, "jsonl", [(0, scan, extraction)], noise)
+
+
+def _topics(markers: str, cloud: str) -> tuple[str, str]:
+    """The names of both topics. Raises ValueError if they are the same, or no names of topics."""
+    from ..routes.robot import ros_name
+
+    to = ros_name("--markers", markers), ros_name("--cloud", cloud)
+    if to[0] == to[1]:
+        raise ValueError(f"--markers and --cloud are both {to[0]}; messages of two types need two topics")
+    return to
+
+
+def _door(
+    address: Address,
+    running: Running,
+    prepare: Callable[[str, Thresholds], None],
+    host: str,
+    port: int,
+    token_file: Path | None,
+) -> AbstractContextManager[None]:
+    """Where the page may send thresholds."""
+    from ..live.node_door import open_door
+    from ..places import user_folder
+
+    laser = f"{address.place} {address.topic or ''}".strip()
+    return open_door(laser, running, prepare, _tell, user_folder(), host, port, token_of(None, token_file))
 
 
 @contextmanager

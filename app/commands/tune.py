@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Literal
 
@@ -62,10 +63,7 @@ def tune(
     from lineseg.sweep import pool
     from lineseg.tuning import FileBlocks, Objective, Tuning
 
-    if trials < 0:
-        raise ValueError(f"--trials is {trials}; give 0 or more")
-    if out is not None and not out.absolute().parent.is_dir():
-        raise FileNotFoundError(f"{out}: the folder {out.parent} does not exist.")
+    _check(trials, out)
     base = Params() if params is None else read_file(params, Params)
     with pool(scheduler) as workers:
         blind = None if objective is None else objective == "label-free"
@@ -79,10 +77,24 @@ def tune(
             tell_by_views(blocks.by_views)
         _search(tuning, trials)
         verdict = tuning.verdict()
-    print(verdict.text, file=sys.stderr)
-    for name, share in tuning.importance().items():
+    _tell(verdict.text, tuning.importance())
+    _write(params_text(verdict.params, to, ", ".join(each.name for each in recordings)), out)
+
+
+def _check(trials: int, out: Path | None) -> None:
+    if trials < 0:
+        raise ValueError(f"--trials is {trials}; give 0 or more")
+    if out is not None and not out.absolute().parent.is_dir():
+        raise FileNotFoundError(f"{out}: the folder {out.parent} does not exist.")
+
+
+def _tell(verdict: str, importance: Mapping[str, float]) -> None:
+    print(verdict, file=sys.stderr)
+    for name, share in importance.items():
         print(f"  {name:<14}{share:4.0%} importance", file=sys.stderr)
-    text = params_text(verdict.params, to, ", ".join(each.name for each in recordings))
+
+
+def _write(text: str, out: Path | None) -> None:
     if out is None:
         sys.stdout.write(text)
     else:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 from tyro.conf import OmitArgPrefixes, Positional, arg
 
@@ -62,9 +62,6 @@ def view(
             page needs a token, these must be of the same site, or the browser keeps the token back.
         rerun: also stream the view to rerun's viewer on port 9876; starts the viewer if none is running.
     """
-    from ..guard import checked_origin
-    from ..server import Settings, serve
-
     how = reading_of(reading)
     robots = _robots(sources, how)
     if any(list_topics(laser) for laser in robots):
@@ -72,7 +69,8 @@ def view(
     files, how = _files(sources, how)
     _check(keep, robot)
     with _streaming(rerun) as watch:
-        settings = Settings(
+        _serve(
+            allow_embedding,
             files=files,
             reading=how,
             robots=robots,
@@ -82,11 +80,21 @@ def view(
             host=host,
             port=port,
             token=token_of(token, token_file),
-            embedders=tuple(checked_origin(origin) for origin in allow_embedding),
             open_browser=not no_browser,
             watch=watch,
         )
-        serve(settings, lambda address: print(f"lineseg is at {address} (Ctrl-C stops it)", flush=True))
+
+
+def _serve(embedders: Sequence[str], **settings: Any) -> None:
+    """Serve the page, also in frames of these sites."""
+    from ..guard import checked_origin
+    from ..server import Settings, serve
+
+    origins = tuple(checked_origin(origin) for origin in embedders)
+    serve(
+        Settings(embedders=origins, **settings),
+        lambda address: print(f"lineseg is at {address} (Ctrl-C stops it)", flush=True),
+    )
 
 
 def _check(keep: int, robot: Sequence[str]) -> None:
