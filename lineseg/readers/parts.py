@@ -9,7 +9,9 @@ from ..scan import Recording
 from .account import Notes
 from .reading import Reading
 
-# A part is shown after this time [s], and when there are so many times as many scans as in the part before.
+# Files that are read sooner [s] are shown as a whole.
+FIRST = 0.2
+# Another part is shown after this time [s], and when there are so many times as many scans as in the part before.
 EVERY, GROWTH = 0.4, 1.25
 # Where these are given, the frames of a part would be others than those of the whole file, or take long to make.
 OF_THE_WHOLE = ("frames", "seconds", "sector", "every_beam", "motion", "walls")
@@ -21,7 +23,7 @@ class Parts:
     def __init__(self, show: Callable[[Recording, Notes], None]) -> None:
         self.show = show
         self._shown = 0
-        self._next = 0.0
+        self._next = time.monotonic() + FIRST
 
     def due(self, scans: int) -> bool:
         """Whether so many scans are to be shown now."""

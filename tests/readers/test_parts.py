@@ -17,6 +17,7 @@ STAMPS = [100 + 0.025 * k for k in range(400)]
 @pytest.fixture(autouse=True)
 def at_once(monkeypatch):
     """A test need not wait between parts."""
+    monkeypatch.setattr(parts, "FIRST", 0.0)
     monkeypatch.setattr(parts, "EVERY", 0.0)
 
 

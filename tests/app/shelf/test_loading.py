@@ -18,7 +18,7 @@ from live import Address, Page, page_of, serving
 from websockets.exceptions import ConnectionClosed
 
 from lineseg import Recording
-from lineseg.readers import Cancelled, Progress, Reading, open_recording
+from lineseg.readers import Cancelled, Progress, Reading, open_recording, parts
 
 
 @pytest.fixture(scope="module")
@@ -138,6 +138,7 @@ def halfway(monkeypatch: pytest.MonkeyPatch) -> threading.Event:
 
         return open_recording(path, reading, progress=progress, so_far=show)
 
+    monkeypatch.setattr(parts, "FIRST", 0.0)
     monkeypatch.setattr(library, "open_recording", held)
     return go_on
 
