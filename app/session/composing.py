@@ -30,7 +30,8 @@ from ..view import View
 if TYPE_CHECKING:
     from lineseg.line_map import LineMap
 
-FRAMES_KEPT = 32
+# While a slider is dragged each picture is new, and what is kept of it takes up to 200 kB in each tab.
+FRAMES_KEPT = 8
 
 
 @dataclass(frozen=True, eq=False)

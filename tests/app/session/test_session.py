@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import gc
 import threading
 
 import pytest
+from lineseg_app.frame.findings import Findings
 from lineseg_app.server import Settings
 from lineseg_app.session.pace import QUICK_TURN
 from lineseg_app.session.session import Session
@@ -323,6 +325,15 @@ def test_of_what_arrives_during_a_picture_only_the_newest_is_drawn(page: Page, m
     while drawn[-1] < rev:
         drawn.append(page.hear_a("drawn")["rev"])
     assert not set(drawn) & set(range(held + 1, rev))
+
+
+def test_a_tab_keeps_the_findings_of_few_pictures(page: Page):
+    page.hello()
+    before = {id(thing) for thing in gc.get_objects() if isinstance(thing, Findings)}
+    for number in range(30):
+        page.change(params={"epsilon": 0.02 + number / 1000})
+    gc.collect()
+    assert len({id(thing) for thing in gc.get_objects() if isinstance(thing, Findings)} - before) <= 10
 
 
 def test_a_method_that_takes_long_waits_for_other_turns(page: Page):
