@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import json
+import os
 import re
 import signal
 import threading
@@ -172,6 +173,25 @@ def test_a_publisher_may_die_and_return(peer: Obedient, topic: str):
         said(told, f"{topic} is no longer published; waiting for it")
         opened(peer, topic)
         assert segments_back(peer, topic, ranges=wall(3.0))[1]["width"] == 1
+
+
+def test_a_robot_that_starts_later_is_found_without_multicast(
+    peer: Obedient, topic: str, monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
+    process = lineseg("node", f"ros2:{topic}", "--markers", f"{topic}/markers", "--cloud", f"{topic}/cloud")
+    assert process.stderr is not None
+    while "nobody publishes" not in process.stderr.readline():
+        assert process.poll() is None
+    # With multicast, Cyclone DDS would choose a port that nobody guesses; other implementations do not.
+    uri = os.environ["CYCLONEDDS_URI"].replace("<Discovery>", "<Discovery><ParticipantIndex>auto</ParticipantIndex>")
+    monkeypatch.setenv("CYCLONEDDS_URI", uri)
+    later = Obedient(dds_peer.start())
+    opened(later, topic)
+    assert segments_back(later, topic, ranges=wall(2.0))[1]["width"] == 1
+    later.close()
+    process.terminate()
+    process.communicate(timeout=SECONDS)
 
 
 def as_messages_have_it(recording: Recording, frame: int) -> Scan:
