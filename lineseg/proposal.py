@@ -275,14 +275,16 @@ class _Search:
         ]
         fits = " and ".join(f"{symbol} = {value:g}" for symbol, value, _ in values)
         now = " and ".join(f"{before:g}" for _, _, before in values)
-        told = f"Points scatter by {1e3 * self.scatter:.0f} mm here. {fits} fit{'s' if len(values) == 1 else ''}"
+        one = len(values) == 1
+        told = f"Points scatter by {1e3 * self.scatter:.0f} mm here. {fits} fit{'s' * one}"
         higher = self._reach(proposed) / self._reach(self.present)
-        broken = [f"a wall breaks into {pieces:.1f} pieces on average"] if pieces >= 1.1 else []
-        broken += (
-            [f"{lost:.0%} of the walls are not found" if lost < 0.995 else "no wall is found"] if lost >= 0.1 else []
-        )
-        if higher > 1 and broken:
-            return f"{told}; at {now}{' ' if pieces >= 1.1 else ', '}{', and '.join(broken)}."
+        # The page has room for four short lines.
+        if higher > 1 and lost >= 0.1 and not lost < 1 - 1 / pieces:
+            missed = f"miss{'es' * one} {lost:.0%} of the walls" if lost < 0.995 else f"find{'s' * one} no wall"
+            return f"{told}; {now} {missed}."
+        if higher > 1 and pieces >= 1.1:
+            broken = f"at {now} a wall breaks into {pieces:.1f} pieces on average"
+            return f"{told}; {broken if one else f'{now} break walls into {pieces:.1f} pieces'}."
         if not 1 / MUCH <= higher <= MUCH:
             return f"{told} better than {now}."
         *others, last = (f"{knob.symbol} to {value:g}" for knob, value in _changes(self.present, proposed))

@@ -98,7 +98,7 @@ def test_what_is_hidden_is_not_computed_until_it_is_opened(new_tab):
     assert tab.page.locator(".curves-note").text_content() == ""
     tab.page.get_by_role("tab", name="Thresholds").click()
     curves_of(tab)
-    tuner(tab, "fit", "s.text.includes('Points scatter by 11 mm here')")
+    tuner(tab, "fit", "s.text.includes('Points scatter by 10 mm here')")
 
 
 def test_a_click_on_the_map_sets_both_thresholds(tab):
@@ -203,7 +203,7 @@ def coarse(tmp_path_factory) -> Path:
 def test_what_fits_the_laser_is_offered_taken_over_and_undone(tab, coarse: Path):
     text = tab.page.locator(".fit-text")
     fit = tab.page.locator(".fit")
-    assert tuner(tab, "fit", "s.better && s.text.includes('Points scatter by 11 mm here')")["fits"]["epsilon"] < 0.05
+    assert tuner(tab, "fit", "s.better && s.text.includes('Points scatter by 10 mm here')")["fits"]["epsilon"] < 0.05
     assert tab.page.locator(".noise-picture").is_visible()
     height = fit.bounding_box()["height"]
 
