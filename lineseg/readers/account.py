@@ -132,6 +132,7 @@ class Notes:
     recorded: when a bag's recorder received each scan [s]. publishers: a number for each scan, None
     if there is one. kind: the name of the format for the line, if another.
     radians: whether bearings were converted to radians already. lasers: as in `Account`.
+    clockwise: why angles probably count clockwise, "" if nothing says so.
     """
 
     def __init__(self) -> None:
@@ -142,6 +143,7 @@ class Notes:
         self.recorded: Any = None
         self.publishers: Any = None
         self.radians = False
+        self.clockwise = ""
         self.lasers: dict[str, tuple[str, ...]] = {}
         self.guesses: list[Guess] = []
         self.notices: list[Notice] = []

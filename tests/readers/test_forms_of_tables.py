@@ -105,6 +105,19 @@ def test_a_column_below_words_is_one_scan_in_the_unit_that_they_say(tmp_path: Pa
         assert recording[0].ranges == pytest.approx(NEAR, abs=1e-4)
 
 
+def test_angles_of_an_rplidar_are_taken_for_clockwise_and_marked(tmp_path: Path):
+    beams = [(angle, each) for angle, each in zip(DEGREES % 360, 1000 * NEAR, strict=True)]
+    printed = "".join(f"   theta: {angle:05.2f} Dist: {each:08.2f} Q: 47 \n" for angle, each in beams)
+    grabbed = "#RPLIDAR SCAN DATA\n#Angule\tDistance\tQuality\n" + "".join(f"{a}\t{d}\t47\n" for a, d in beams)
+    for text in (printed, grabbed):
+        recording = read(tmp_path, text, "a.txt")
+        assert np.rad2deg(recording[0].bearings) == pytest.approx(-DEGREES, abs=0.01)
+        assert recording.account is not None
+        assert any(guess.value == "clockwise" for guess in recording.account.guesses)
+        turned = read(tmp_path, text, "a.txt", direction="counter-clockwise")
+        assert np.rad2deg(turned[0].bearings) == pytest.approx(DEGREES, abs=0.01)
+
+
 def test_coordinates_that_are_read_as_ranges_are_noticed(tmp_path: Path):
     recording = read(tmp_path, f"{row(NEAR * X)}\n{row(NEAR * Y)}\n" * 3)
     assert recording.account is not None

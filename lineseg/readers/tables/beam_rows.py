@@ -225,6 +225,9 @@ def with_roles(
             roles = Roles(False, *points, roles.scan, roles.stamp)
             return with_roles(source, reading, table, names, roles, guess_direction, format)
         notes.found["direction"] = sense
+    elif roles.polar and notes.clockwise and reading.direction is None:
+        notes.found["direction"] = "clockwise"
+        notes.guess("direction", "clockwise", notes.clockwise, direction="counter-clockwise")
     elif roles.polar and guess_direction and reading.direction is None:
         notes.guess(
             "direction", "counter-clockwise", "the file does not say in which sense its angles count",

@@ -56,6 +56,10 @@ from .table import echo_columns, read_table
 ECHO = re.compile(rb"%time[,;\t]field\.")  # the first line of `rostopic echo -p`
 SETTING = re.compile(rb"(\w+)\s*[=:]\s*([^\s,;]+)")
 TEXT_FORMS = "use one scan per row, or columns of angle and distance, or a table with a column named ranges."
+# What the programs of its maker write, and how its driver calls raw angles.
+OF_RPLIDAR = re.compile(
+    rb"rplidar|slamtec|^[S ]*theta: *[\d.]+ +Dist: *[\d.]+ +Q:|angle_z?_?q\d", re.IGNORECASE | re.MULTILINE
+)
 # An angle as the name of a column, such as -134.5°.
 ANGLE = re.compile("([A-Za-z][A-Za-z_ ]*[@_ ])?([-+]?\\d+(?:[.,]\\d+)?)([\\s_]*(?:deg|rad|°)?)".encode(), re.IGNORECASE)
 MARK = re.compile(rb"[,;\t]")
@@ -88,17 +92,20 @@ class Text(Reader):
     def read(source: Source) -> Recording:
         rows = (row for row in rows_of(source) if row.text)
         said: dict[str, str] = {}
-        comment, first = b"", next(rows, None)
+        comments, first = [b""], next(rows, None)
         while first is not None and first.text.startswith(COMMENTS) and not ECHO.match(first.text):
             said.update((key.decode(), value.decode("utf-8", "replace")) for key, value in SETTING.findall(first.text))
-            comment, first = first.text, next(rows, None)
+            comments.append(first.text)
+            first = next(rows, None)
         if first is None:
             raise ValueError(f"{source.name} has no line of numbers; {TEXT_FORMS}")
         reading = _with_comments(source, said)
+        if OF_RPLIDAR.search(b"\n".join([*comments, first.text])):
+            source.notes.clockwise = "an RPLIDAR counts its angles so"
         rest = (row for row in rows if not row.text.startswith(COMMENTS))
         head, rest = _without_headings(source, [first, *islice(rest, SAMPLE)], rest)
         head = _below_titles(source, head)
-        return _read(source, reading, head, chain(head, rest), comment)
+        return _read(source, reading, head, chain(head, rest), comments[-1])
 
 
 def _without_headings(source: Source, head: list[Row], rest: Iterable[Row]) -> tuple[list[Row], Iterable[Row]]:
