@@ -19,6 +19,7 @@ from .stamping import in_seconds
 from .tables.beam_rows import beams_of, read_beams
 from .tables.dialect import LEFT_OUT, Dialect, Row
 from .tables.headers import SCANS, STAMPS, is_angle, is_distance, name_of
+from .tables.numbers import all_numbers
 from .tables.scan_rows import scans_of
 
 MOST_DEPTH = 6
@@ -278,14 +279,16 @@ def _documents(source: Source) -> Iterator[tuple[int, dict[str, Any]]]:
     began, key, flow = 1, "", list[str]()
     for number, line in chain(source.lines(), [(0, b"---")]):
         text = line.decode("utf-8", "replace").strip()
-        if text.startswith("---") or ("ranges" in message and BLOCK.match(line)):
+        ends = text.startswith("---") or ("ranges" in message and BLOCK.match(line))
+        if ends or ("ranges" in message and text.partition(":")[0].rstrip() in message.keys() - {"ranges"}):
             if "ranges" in message and not (number == 0 and _is_cut(message)):
                 stamp = {name: header[name] for name in STAMP_KEYS if name in header}
                 yield began, message | {"header": {"stamp": stamp, "frame_id": header.get("frame_id", "")}}
             elif "ranges" in message:
                 source.notes.skip(f"{source.name}:{began}", f"it breaks off after {len(message['ranges'])} ranges")
             message, header, began, key, flow = {}, {}, number + 1, "", []
-            continue
+            if ends:
+                continue
         if flow:
             flow.append(text)
         elif text.startswith("- ") and key == "ranges":
@@ -295,6 +298,9 @@ def _documents(source: Source) -> Iterator[tuple[int, dict[str, Any]]]:
             key, value = SAME_FIELDS.get(match[1], match[1]), match[2]
             if key == "ranges" and NO_ARRAY.match(value):
                 raise ValueError(f"{source.name}:{number}: {NOT_PRINTED}.")
+            if key == "ranges" and (many := all_numbers(value.encode())) is not None and len(many) > 1:
+                message["ranges"] = many.tolist()
+                continue
             if key == "ranges" and value and not value.startswith("["):
                 message.setdefault("ranges", []).append(_scalar(value, source, number))
                 continue

@@ -70,6 +70,12 @@ FORMS = {
     "layers": "scan,elevation,azimuth,range\n" + lines(
         np.repeat([0, 1], 362), np.tile(np.repeat([0, 15], 181), 2), np.tile(DEGREES, 4),
         np.concatenate((NEAR, NEAR * 2, FAR, FAR * 2))),
+    "fields": "".join(f"time: {at}.5\nscan: {row(each, ' ')}\npose: 1 2 0\n" for at, each in enumerate(SCANS)),
+    "fields with angles": "".join(
+        f"angle_min: {-np.pi / 2}\nangle_increment: {np.pi / 180}\nranges: {row(each, mark)}\n"
+        for each, mark in zip(SCANS, (" ", ", "), strict=True)),
+    "points in fields": "version: 2\n"
+    + "".join(f"time: {at}\nrobot: 0 0 0\nsick1: {row(points(1000 * each), ' ')}\n" for at, each in enumerate(SCANS)),
     "words between": "".join(f"Scan {at} at {at}.5 s\n{row(each, ' ')}\n" for at, each in enumerate(SCANS)),
     "box": "+---+---+---+\n| scan | angle | range |\n+===+===+===+\n"
     + "".join(f"│ {line.replace(',', ' ┆ ')} │\n" for line in

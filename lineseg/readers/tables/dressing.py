@@ -23,6 +23,10 @@ RECEIVED = re.compile(
 LABEL = re.compile(
     rb"\s*[A-Za-z_][\w ]{0,40}(?:\([\w\xc2\xb0]+\))?\s*[:=]\s*(?=(?:[-+.]?(?:\d|nan|inf)[^\s,;]*[\s,;]+){10})"
 )
+FIELD, RANGES = (
+    re.compile(rb"\s*[A-Za-z_][\w ]{0,40}\s*[:=]"),
+    re.compile(rb"rang|dist|scan|laser|lidar", re.IGNORECASE),
+)
 QUOTES = re.compile(rb'\s*"([^"]*[,;\t][^"]*)"\s*[,;]?\s*')
 DASH = re.compile(rb"\s*-\s+(?=[-+]?\.?(?:\d|nan|inf)\S*\s*$)", re.IGNORECASE)
 ROW_END = re.compile(rb"\\\\(?:\[[^\]]*\])?\s*(?:\\\w+\s*)*$|\\(?:tabularnewline|cr)\b.*$")
@@ -113,4 +117,14 @@ def _undressing(lines: list[bytes]) -> Callable[[bytes], bytes] | None:
     lines = lines[-ENOUGH:]
     worn = (dress for dress in DRESSES if 2 * sum(map(bool, map(dress.fits, lines))) > len(lines))
     dress = next(worn, None)
-    return None if dress is None else dress.off
+    return _of_one_field(lines) if dress is None else dress.off
+
+
+def _of_one_field(lines: list[bytes]) -> Callable[[bytes], bytes] | None:
+    """What leaves only the long list of each message, such as "ranges: 1.5 1.6 …", if each line has one field of it."""
+    found = [LABEL.match(line) for line in lines]
+    names = dict.fromkeys(each[0].strip() for each in found if each)
+    if not names or not all(FIELD.match(line) for line in lines):
+        return None
+    usual = next((name for name in names if RANGES.search(name)), next(iter(names)))
+    return lambda line: LABEL.sub(b"", line) if (match := LABEL.match(line)) and match[0].strip() == usual else b""
