@@ -58,6 +58,14 @@ export function createExplanation(text, stage, pointing, { onClose, onChange }) 
     replaceNamed(changes, [h("span", { class: "muted" }, words), ...buttons], pointing);
   }
 
+  /** Shows the offers or not. The card, which grows with them, may come to lie over its point. @param {boolean} known */
+  function showChanges(known) {
+    const hovered = element.matches(":hover");
+    changes.hidden = !known;
+    const spot = shown?.at && !hovered ? stage.project(...shown.at) : null;
+    if (spot && isUnder(element, ...spot)) element.classList.add("out-of-the-way");
+  }
+
   return {
     element,
     /** @param {import("../wire.js").Method[]} next */
@@ -82,16 +90,15 @@ export function createExplanation(text, stage, pointing, { onClose, onChange }) 
     setChanges(found) {
       const offers = offersOf(found);
       offer(offers, offers.length ? text.changes : text.noChange);
-      changes.hidden = !found.length;
+      showChanges(found.length > 0);
     },
     /** Why both selected beams are in one line, or in two. @param {import("../wire.js").Apart | null} apart null: not known yet, or not asked */
     setApart(apart) {
       if (!apart && !versus.element.hidden) return;
       fillWords(sentence, apart?.words ?? [text.pending], pointing);
-      changes.hidden = !apart;
-      if (!apart) return;
-      const kind = apart.together ? "part" : "join";
-      offer(apart.changes.map(offerOf), apart.changes.length ? text[kind] : text.nothing[kind]);
+      const kind = apart?.together ? "part" : "join";
+      if (apart) offer(apart.changes.map(offerOf), apart.changes.length ? text[kind] : text.nothing[kind]);
+      showChanges(apart !== null);
     },
   };
 }

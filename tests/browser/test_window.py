@@ -79,6 +79,32 @@ def test_at_every_width_nothing_is_cut_off_and_the_view_fits(new_tab: Callable[.
     assert tab.page.evaluate("() => stage.getBoundingClientRect().bottom <= panel.getBoundingClientRect().top + 1")
 
 
+def test_the_card_of_why_does_not_lie_over_its_point(new_tab: Callable[..., Tab]):
+    tab = new_tab("#recording=sample:laboratory&frame=5")
+    tab.page.set_viewport_size(ViewportSize(width=820, height=1180))
+    tab.eventually(lambda: tab.page.locator("iframe.scene.ready").count(), "no scene")
+    for x, y in sorted((segment["start"] for segment in tab.state["segments"]), key=lambda at: at[1])[:4]:
+        at = tab.page.evaluate(
+            """([x, y]) => {
+            const { left, top } = stage.getBoundingClientRect();
+            const [across, down] = lineseg.project(x, y);
+            return [left + across, top + down];
+        }""",
+            [x, y],
+        )
+        tab.page.keyboard.press("Escape")
+        tab.until("s.selected === null")
+        tab.page.mouse.click(*at)
+        selected = tab.until("s.selected !== null")["selected"]
+        tab.eventually(
+            lambda: tab.page.locator(".explanation .what-if-change").first.is_visible(), "nothing is offered"
+        )
+        card = tab.page.locator(".explanation").bounding_box()
+        assert card is not None
+        over = card["x"] < at[0] < card["x"] + card["width"] and card["y"] < at[1] < card["y"] + card["height"]
+        assert not over, selected
+
+
 WITHOUT_WEBGL = """const get = HTMLCanvasElement.prototype.getContext;
     HTMLCanvasElement.prototype.getContext = function (kind, ...more) {
         return kind.startsWith("webgl") ? null : get.call(this, kind, ...more);
