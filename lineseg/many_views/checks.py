@@ -15,7 +15,7 @@ from .refining import MOST_SHIFT, MOST_TURN
 # A drive passes through so many views or more.
 LEAST_VIEWS = 6
 # Between two scans a robot drives no farther than this [m], or than so many times its usual step.
-FARTHEST_STEP, TIMES_USUAL = 1.0, 8.0
+FARTHEST_STEP, TIMES_USUAL = 1.0, 5.0
 # With less on walls than the first, there is no truth; with less than the second, it is not trusted.
 LEAST_EXPLAINED, WELL_EXPLAINED = 0.25, 0.6
 THICKEST, MOST_UNKNOWN = 0.05, 0.4
