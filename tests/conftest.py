@@ -52,7 +52,10 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
 
 # They begin first among those with a browser, so that no worker is left with a long one at the end.
-LONGEST = ("learn", "labels", "places", "lesson_views", "inspect", "tuner", "learn_scene", "rerun", "strip")
+LONGEST = (
+    "learn", "inspect", "places", "labels", "window", "rerun", "export", "methods", "kinds_of_files", "strip", "tuner",
+    "lesson_views", "learn_scene",
+)  # fmt: skip
 
 
 def _turn(item: pytest.Item) -> int:
