@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..many_views.checks import first_jump
+from ..posed.jumps import first_jump
 from ..poses import Poses
 from ..scan import Recording
 
