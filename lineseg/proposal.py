@@ -37,6 +37,8 @@ LEAST_FRAMES = 4
 STEP, APART = 1.6**0.25, 3
 # The search begins at this many times the white noise, and ends so many steps above the ε that suits the scatter.
 LOWEST, STEPS = 2.7, 6
+# An ε this many times as large covers what an ε that suits the walls also covers, and more.
+LOOSER = 4.0
 # Walls that beams graze scatter by less than others, for which ε is a little larger than what suits them all.
 MORE = 1.1
 # The share of ε by which points may scatter about their lines: for white noise, ε is then about three times as large.
@@ -244,17 +246,21 @@ class _Search:
     def _least_suiting(self) -> float:
         """The smallest ε [m] at which the lines of region growing scatter by no more than they may.
 
-        Between the values that are tried, the logarithm is interpolated.
+        They must cover half of what lines at a much larger ε cover: where walls bend within the length of the shortest
+        line, few lines are found, and these are straight. Between the values that are tried, the logarithm is
+        interpolated.
         """
         demands = self.present if isinstance(self.present, Params) else demands_of(self.present)
         scale, before = max(LOWEST * self._white, LEAST_EPSILON), 0.0
         while scale <= MOST_EPSILON:
             params = self.fitting(scale, demands)
-            share = _share(self._extracted_by(GROWING.extract, params), params)
-            over = math.log(max(share, 1e-9) / _allowed(scale))
+            found = self._extracted_by(GROWING.extract, params)
+            over = math.log(max(_share(found, params), 1e-9) / _allowed(scale))
             if over <= 0.0:
-                return scale * STEP ** (over / (before - over)) if before else scale
-            scale, before = scale * STEP, over
+                looser = self._extracted_by(GROWING.extract, self.fitting(LOOSER * scale, demands))
+                if 2 * _covered(found) >= _covered(looser):
+                    return scale * STEP ** (over / (before - over)) if before else scale
+            scale, before = scale * STEP, max(over, 0.0)
         return math.nan
 
     def _extracted(self, params: Thresholds) -> list[Extraction]:
@@ -311,6 +317,11 @@ def _share(found: list[Extraction], params: Params) -> float:
     middles = np.array([(line.start, line.end) for line in lines]).mean(axis=1)
     shares = rms / params.epsilon_at(np.hypot(*middles.T))
     return math.sqrt(float(length @ shares**2 / length.sum()))
+
+
+def _covered(found: list[Extraction]) -> int:
+    """The number of points on lines."""
+    return sum(line.points for one in found for line in one.segments)
 
 
 def _scatter(found: list[Extraction]) -> float:

@@ -11,6 +11,7 @@ from lineseg import EXTRACTORS, Cancelled, Params, extract, open_recording
 from lineseg.proposal import propose
 from lineseg.scan import Recording, Scan
 from lineseg.simulate.laser import LMS_200, RPLIDAR_A2, UTM_30LX
+from lineseg.simulate.world import Material, box, room
 from lineseg.simulate.worlds import WORLDS
 from lineseg.truth import Agreement, agreement, true_lines
 from lineseg.tuning import Objective
@@ -89,6 +90,15 @@ def test_for_noise_in_proportion_to_the_range_the_proposal_is_better_than_any_co
         f"ε = {found.params.epsilon:g} and κ = {found.params.epsilon_growth:g} fit; 0.03 and 0.002 miss " in found.text
     )
     assert found.text.endswith("% of the walls.")
+
+
+@pytest.mark.parametrize("laser", [LMS_200, UTM_30LX])
+def test_one_straight_cabinet_does_not_hide_that_the_walls_bend(laser):
+    bent = Material(returns=0.9985, warp=0.028, warp_length=0.4)
+    hall = room([(0, 0), (9, 0), (9, 6), (0, 6)], material=bent) + box((5.0, 4.6), 1.5, 0.6)
+    fine = replace(laser, sigma=0.003, sigma_far=0.003, resolution=0.001)
+    recording = replace(WORLDS["boards"], world=lambda: hall, laser=fine).recording("hall", FRAMES)
+    assert score(recording, propose(recording).params) > 0.97 * best_score(recording)
 
 
 def test_nothing_is_proposed_if_the_current_values_are_as_good():
