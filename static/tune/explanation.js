@@ -37,20 +37,11 @@ export function createExplanation(text, stage, pointing, { onClose, onChange }) 
 
   /** @type {Explanation | null} */
   let shown = null;
-  let placed = false;
   /** @type {import("../wire.js").Method[]} */
   let methods = [];
   /** Of the method. @type {Knob[]} */
   let knobs = [];
-  stage.onMove(place);
-
-  /** Puts the card where it does not hide its point. It stays there until another point is explained, and never moves from under the pointer. */
-  function place() {
-    const spot = shown?.at && !placed ? stage.project(...shown.at) : null;
-    if (!spot || element.matches(":hover")) return;
-    placed = true;
-    element.classList.toggle("out-of-the-way", isUnder(element, ...spot));
-  }
+  const stand = createStand(element, stage);
 
   /** @param {Offer[]} offers @param {string} words before them */
   function offer(offers, words) {
@@ -58,12 +49,10 @@ export function createExplanation(text, stage, pointing, { onClose, onChange }) 
     replaceNamed(changes, [h("span", { class: "muted" }, words), ...buttons], pointing);
   }
 
-  /** Shows the offers or not. The card, which grows with them, may come to lie over its point. @param {boolean} known */
+  /** Shows the offers or not. @param {boolean} known */
   function showChanges(known) {
-    const hovered = element.matches(":hover");
     changes.hidden = !known;
-    const spot = shown?.at && !hovered ? stage.project(...shown.at) : null;
-    if (spot && isUnder(element, ...spot)) element.classList.add("out-of-the-way");
+    stand.grown();
   }
 
   return {
@@ -76,7 +65,7 @@ export function createExplanation(text, stage, pointing, { onClose, onChange }) 
     setState({ explanation, method, view }) {
       knobs = (methods.find(({ name }) => name === method) ?? methods[0]).knobs;
       element.hidden = !explanation;
-      if (explanation?.beam !== shown?.beam) placed = false;
+      stand.about(explanation?.at ?? null, explanation?.beam !== shown?.beam);
       shown = explanation;
       if (!explanation) return;
       const beside = view.beside ?? null;
@@ -84,7 +73,7 @@ export function createExplanation(text, stage, pointing, { onClose, onChange }) 
       if (beside === null) fillWords(sentence, explanation.words, pointing);
       versus.set(beside === null ? comparison(explanation, knobs) : null);
       versus.element.hidden = beside !== null;
-      place();
+      stand.place();
     },
     /** Buttons for the changes that would give another answer. @param {import("../wire.js").WhatIf[]} found */
     setChanges(found) {
@@ -99,6 +88,40 @@ export function createExplanation(text, stage, pointing, { onClose, onChange }) 
       const kind = apart?.together ? "part" : "join";
       if (apart) offer(apart.changes.map(offerOf), apart.changes.length ? text[kind] : text.nothing[kind]);
       showChanges(apart !== null);
+    },
+  };
+}
+
+/**
+ * Where a card stands so that it does not hide its point. It stays there until it is about another point, and never
+ * moves from under the pointer.
+ * @param {HTMLElement} card @param {Parameters<typeof createExplanation>[1]} stage
+ */
+function createStand(card, stage) {
+  /** @type {[number, number] | null} */
+  let point = null;
+  let placed = false;
+  const spot = () => (point && !card.matches(":hover") ? stage.project(...point) : null);
+
+  function place() {
+    const at = placed ? null : spot();
+    if (!at) return;
+    placed = true;
+    card.classList.toggle("out-of-the-way", isUnder(card, ...at));
+  }
+  stage.onMove(place);
+
+  return {
+    place,
+    /** @param {[number, number] | null} next of the plan @param {boolean} other whether it is another point */
+    about(next, other) {
+      point = next;
+      if (other) placed = false;
+    },
+    /** The card has grown, and may lie over its point now. */
+    grown() {
+      const at = spot();
+      if (at && isUnder(card, ...at)) card.classList.add("out-of-the-way");
     },
   };
 }
