@@ -16,6 +16,10 @@ from .address import domain_of
 RANGES = ("LOCALHOST", "SUBNET", "OFF", "SYSTEM_DEFAULT")
 # Cyclone DDS announces itself to a peer for 30 s only; a robot may start later, and may listen to nothing else.
 STEADY = "<SPDPInterval>1s</SPDPInterval><InitialLocatorPruneDelay>inf</InitialLocatorPruneDelay>"
+# Every vendor but Cyclone DDS itself (1.16), which refuses definitions that others describe in other ways. The bytes of
+# a ROS message do not depend on this.
+OTHER_VENDORS = ",".join(f"1.{vendor}" for vendor in range(1, 33) if vendor != 16)
+LENIENT = f"<Compatibility><IgnoreTypeInformation>{OTHER_VENDORS}</IgnoreTypeInformation></Compatibility>"
 PARTICIPANTS = "<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>32</MaxAutoParticipantIndex>"
 
 
@@ -52,7 +56,7 @@ def discovery(environ: Mapping[str, str]) -> str:
     others = PARTICIPANTS + f"<Peers>{found}</Peers>" if found else ""
     others = f"<Tag>off-{os.getpid()}</Tag>" if range == "OFF" else others
     general = f"<General>{general}</General>" if general else ""
-    return f"<CycloneDDS><Domain>{general}<Discovery>{STEADY}{others}</Discovery></Domain></CycloneDDS>"
+    return f"<CycloneDDS><Domain>{general}<Discovery>{STEADY}{others}</Discovery>{LENIENT}</Domain></CycloneDDS>"
 
 
 def _peers(text: str) -> list[str]:
