@@ -351,9 +351,11 @@ def test_the_picture_of_a_threshold_takes_a_click_back_to_its_value(new_tab):
 def test_words_fit_and_controls_have_names_on_a_small_screen(new_tab):
     tab = learn(new_tab, "sample:hallway", step=900)
     tab.page.set_viewport_size({"width": 480, "height": 800})
+    lit = tab.page.locator("#learn .code-line.lit")
+    tab.eventually(lit.is_visible, "no line of the listing is lit")
     tab.page.keyboard.press("ArrowRight")
     tab.until("s.step === 901")
-    tab.eventually(lambda: tab.page.locator("#learn .lit").first.is_visible(), "no line of the listing is lit")
+    tab.eventually(lit.is_visible, "no line of the listing is lit after the step")
     # The line of the listing comes into view, the sentence and its buttons stay there.
     assert tab.page.evaluate("() => main.scrollTop") == 0
     tab.page.set_viewport_size({"width": 1024, "height": 700})

@@ -8,7 +8,7 @@ from __future__ import annotations
 import struct
 from collections.abc import Collection, Generator, Iterator
 from dataclasses import dataclass
-from pathlib import Path
+from os import SEEK_END
 from typing import BinaryIO, NamedTuple
 from zlib import crc32
 
@@ -59,10 +59,11 @@ class McapFile:
     out; doubt: which other checksum differs, "" if none does.
     """
 
-    def __init__(self, path: Path) -> None:
-        self._file: BinaryIO = path.open("rb")
+    def __init__(self, file: BinaryIO) -> None:
+        self._file = file
         self._at = 0
-        self._size = path.stat().st_size
+        self._size = file.seek(0, SEEK_END)
+        file.seek(0)
         self.channels: dict[int, McapChannel] = {}
         self.counts: dict[int, int] = {}
         self.broken = self.doubt = ""
@@ -76,9 +77,6 @@ class McapFile:
         if not self._indexed:
             for _ in self._scan(None):
                 pass
-
-    def close(self) -> None:
-        self._file.close()
 
     def messages(self, channels: Collection[int]) -> Generator[tuple[int, int, bytes], None, None]:
         """(channel, time of recording in nanoseconds, data) of these channels, chunk after chunk."""

@@ -150,9 +150,7 @@ def _storage(file: Path, stack: ExitStack, notes: Notes) -> Iterator[Storage]:
         with file.open("rb") as opened:
             magic = opened.read(16)
     if magic.startswith(MCAP_MAGIC):
-        reader = McapFile(file)
-        stack.callback(reader.close)
-        yield _McapStorage(reader)
+        yield _McapStorage(McapFile(stack.enter_context(file.open("rb"))))
     elif magic.startswith(SQLITE_MAGIC):
         yield _Database(_connect(file, stack), file)
     else:
