@@ -1,9 +1,9 @@
 """The way from a hand to the picture, in headless Chromium: hand_to_picture.py [RECORDING] [SECONDS]
 
 Drags ε at 60 Hz, then presses arrow keys at 30 Hz, and prints the time from the input to each stage that the page marks
-(static/view/stages.js), and to the first drawing of the scene with new data. It does so with a page and a scene
-that the processor paints, with the scene alone painted so, and with no scene painted, as if a graphics card did it: the
-differences are the renderer's share.
+(static/view/stages.js), and, if the segments are others, to the first drawing of the scene with new data. It does so
+with a page and a scene that the processor paints, with the scene alone painted so, and with no scene painted, as if a
+graphics card did it: the differences are the renderer's share.
 """
 
 from __future__ import annotations
@@ -47,6 +47,12 @@ WATCHED = """if (location.pathname.includes("/viser/")) {
         });
 } else {
     window.stages = [];
+    window.shown = [];
+    const mark = performance.mark.bind(performance);
+    performance.mark = (name, options) => {
+        if (name === "lineseg shown") shown.push([options.detail, JSON.stringify(lineseg.state.segments)]);
+        return mark(name, options);
+    };
     new PerformanceObserver((list) => {
         for (const { name, detail, startTime } of list.getEntries())
             if (name.startsWith("lineseg ")) stages.push([name.slice(8), detail, performance.timeOrigin + startTime]);
@@ -56,6 +62,7 @@ MOVED = """async ([seconds, hertz, key]) => {
     const slider = document.querySelector("[data-knob=epsilon] input[type=range]");
     window.stages = [];
     window.drawings = [];
+    window.shown = [];
     slider.focus();
     const begun = performance.now();
     for (let k = 0; performance.now() - begun < 1000 * seconds; k++) {
@@ -70,7 +77,7 @@ MOVED = """async ([seconds, hertz, key]) => {
         }
     }
     await new Promise((go) => setTimeout(go, 500));
-    return { stages, drawings };
+    return { stages, drawings, shown };
 }"""
 
 
@@ -104,14 +111,16 @@ def _moved(page: Page, seconds: float, hertz: float, key: bool) -> dict[str, lis
     for stage, rev, when in seen["stages"]:
         at.setdefault(rev, {})[stage] = when
     drawings = np.array(sorted(seen["drawings"]))
+    segments = [one for _, one in seen["shown"]]
+    others = {rev for (rev, one), before in zip(seen["shown"][1:], segments, strict=False) if one != before}
     times: dict[str, list[float]] = {stage: [] for stage in (*STAGES, "scene")}
-    for marks in at.values():
+    for rev, marks in at.items():
         if len(marks) < len(STAGES) + 1:
             continue
         for stage in STAGES:
             times[stage].append(marks[stage] - marks["changed"])
         after = int(np.searchsorted(drawings, marks["answered"]))
-        if after < len(drawings):
+        if rev in others and after < len(drawings):
             times["scene"].append(float(drawings[after]) - marks["changed"])
     return times
 
