@@ -38,15 +38,15 @@ HALF_TURN = (180, 181, 360, 361)
 
 
 class Line(NamedTuple):
-    """One decoded laser line; range_max: as stated in the line, None if not stated. pose: the words
-    that begin with x, y, θ of the laser."""
+    """One decoded laser line; range_max: as stated in the line, None if not stated. pose: x, y, θ of
+    the laser as it stands there, or what there is of it."""
 
     ranges: Floats
     angle_min: float
     angle_increment: float
     range_max: float | None
     stamp: float
-    pose: list[bytes]
+    pose: bytes
 
 
 class CarmenLog(Reader):
@@ -105,7 +105,7 @@ class Laser:
 
     def __init__(self) -> None:
         self.sweeps = Sweeps()
-        self.poses: list[list[bytes]] = []
+        self.poses: list[bytes] = []
         self.announced = 0.0
 
     def add(self, line: Line, topic: str) -> None:
@@ -134,9 +134,9 @@ def _recording(
     return recording
 
 
-def _found(words: list[list[bytes]], topic: str) -> Found:
-    """The poses of the lines, from the words that begin with them."""
-    poses = np.array([_pose(each) for each in words])
+def _found(words: list[bytes], topic: str) -> Found:
+    """The poses of the lines, from their words."""
+    poses = np.array([_pose(each.split()) for each in words])
     known = np.isfinite(poses).all(axis=1)
     if not known.any():
         return Found(poses, PoseSource(missing=f"{topic} lines have none"))
@@ -176,7 +176,7 @@ def _decode_flaser(text: bytes, tail: int) -> Line:
     message, count, values = _words(text, 3)
     ranges, rest = _ranges(message, count, values)
     angle_min, angle_increment = flaser_angles(len(ranges))
-    return Line(ranges, angle_min, angle_increment, None, _stamp(rest, tail), rest[:3] if tail else [])
+    return Line(ranges, angle_min, angle_increment, None, _stamp(rest, tail), b" ".join(rest[:3]) if tail else b"")
 
 
 def _decode_robotlaser(text: bytes, tail: int) -> Line:
@@ -190,7 +190,7 @@ def _decode_robotlaser(text: bytes, tail: int) -> Line:
     if step == 0 and len(ranges) > 1:
         step = _float(view, message) / (len(ranges) - 1)
     remissions = int(rest[0]) if rest and rest[0].isdigit() else 0
-    pose = rest[1 + remissions : 4 + remissions] if tail else []
+    pose = b" ".join(rest[1 + remissions : 4 + remissions]) if tail else b""
     return Line(ranges, angle_min, step, range_max, _stamp(rest, 1 + remissions + tail), pose)
 
 

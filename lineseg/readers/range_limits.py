@@ -17,6 +17,7 @@ SICK_CODES = (
 )
 ROUND_MAXIMA = (4.0, 5.6, 8.0, 10.0, 12.0, 16.0, 20.0, 25.0, 30.0, 32.0, 40.0, 50.0, 60.0, 80.0, 100.0)
 FEW_CODES = 3
+AT_ONCE = 1 << 20
 
 
 def longest_return(ranges: Floats, announced: float | None = None) -> float:
@@ -30,11 +31,25 @@ def longest_return(ranges: Floats, announced: float | None = None) -> float:
     finite = ranges if np.isfinite(greatest) else ranges[np.isfinite(ranges)]
     greatest = float(finite.max(initial=0.0)) if finite is not ranges else greatest
     for longest, lowest_code, highest_code in SICK_CODES:
-        if lowest_code <= greatest <= highest_code and np.count_nonzero(finite >= lowest_code) > 1:
+        if lowest_code <= greatest <= highest_code and _recur(finite, lowest_code):
             return longest
     if announced is not None and announced > 0:
-        beyond = np.unique(finite[finite >= announced])
-        return announced if len(beyond) <= FEW_CODES else np.inf
-    if any(abs(greatest - each) <= 1e-6 for each in ROUND_MAXIMA) and np.count_nonzero(finite == greatest) > 1:
+        return announced if len(_beyond(finite, announced)) <= FEW_CODES else np.inf
+    if any(abs(greatest - each) <= 1e-6 for each in ROUND_MAXIMA) and _recur(finite, greatest):
         return greatest
     return np.inf
+
+
+def _recur(ranges: Floats, least: float) -> bool:
+    """Whether more than one range is as long as this."""
+    return sum(int(np.count_nonzero(block >= least)) for block in _blocks(ranges)) > 1
+
+
+def _beyond(ranges: Floats, least: float) -> Floats:
+    """The different ranges from this on."""
+    return np.unique(np.concatenate([np.unique(block[block >= least]) for block in _blocks(ranges)] or [ranges]))
+
+
+def _blocks(ranges: Floats) -> list[Floats]:
+    """Parts of long arrays, so that what is compared with them takes little memory."""
+    return [ranges[start : start + AT_ONCE] for start in range(0, len(ranges), AT_ONCE)]

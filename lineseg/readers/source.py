@@ -133,7 +133,7 @@ class Joined:
     """Arrays joined as they come, so that the message that each was part of can be forgotten."""
 
     def __init__(self) -> None:
-        self.lengths: list[int] = []
+        self.lengths = array("q")
         self._numbers: Floats = np.empty(0, np.float32)
         self._used = 0
         self._seen = False
@@ -185,6 +185,7 @@ class Sweeps:
         self.ranges = Joined()
         self.geometry = array("d")
         self.frame_ids: list[str] = []
+        self._names: dict[str, str] = {}
         self.time_increments = array("d")
         self.bearings: list[Floats] = []
 
@@ -205,7 +206,8 @@ class Sweeps:
     ) -> None:
         self.ranges.append(ranges)
         self.geometry.extend((angle_min, angle_increment, range_min, range_max, stamp))
-        self.frame_ids.append(frame_id)
+        # One text for all scans.
+        self.frame_ids.append(self._names.setdefault(frame_id, frame_id))
         self.time_increments.append(time_increment)
         if bearings is not None:
             self.bearings.append(bearings)

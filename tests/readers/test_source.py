@@ -15,7 +15,7 @@ def test_arrays_are_joined_as_numpy_joins_them(types):
     for array in arrays:
         joined.append(array)
     expected = np.concatenate(arrays)
-    assert joined.lengths == [3, 0, 40]
+    assert joined.lengths.tolist() == [3, 0, 40]
     assert joined.all().tolist() == expected.tolist()
     assert joined.all().dtype == expected.dtype
 

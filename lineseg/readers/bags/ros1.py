@@ -33,7 +33,7 @@ class Ros1Bag(Reader):
                 bag = stack.enter_context(_with_index(source))
             except Exception as error:  # rosbags has errors of its own, and needs an index
                 return _without_index(source, detail(error))
-            streams = [Stream(each.topic, each.msgtype, each.msgcount, each, "ros1") for each in bag.connections]
+            streams = [Stream(each.topic, each.msgtype, bag.count(each.id), each, "ros1") for each in bag.connections]
             topic, topics, chosen = choose_streams(source, streams)
             total = sum(stream.messages for stream in chosen)
             return collect(source, _messages(source, bag, chosen), total, topic, topics, Ros1Bag.format)
@@ -51,7 +51,9 @@ def messages_of(source: Source, wanted: Callable[[Stream], bool]) -> Iterator[tu
                 if wanted(stream):
                     yield stream, nanoseconds, data
             return
-        streams = {each.id: Stream(each.topic, each.msgtype, each.msgcount, each, "ros1") for each in bag.connections}
+        streams = {
+            each.id: Stream(each.topic, each.msgtype, bag.count(each.id), each, "ros1") for each in bag.connections
+        }
         chosen = [stream.handle for stream in streams.values() if wanted(stream)]
         for connection, nanoseconds, data in bag.in_order([each.id for each in chosen]):
             yield streams[connection], nanoseconds, data

@@ -170,7 +170,7 @@ def collect(
 def _note_times(source: Source, recording: Recording, times: Floats, publishers: list[Decoder]) -> None:
     """Notes when and by whom each scan was published."""
     source.notes.recorded = times
-    senders = np.array(list(map(id, publishers)))
+    senders = np.fromiter(map(id, publishers), np.int64, len(publishers))
     source.notes.publishers = senders if (senders != senders[0]).any() else None
     source.notes.stamps = "the messages" if recording.stamps.any() else "the recorder"
 
