@@ -64,7 +64,9 @@ def rows_of_one_laser(
     """
     column, most = column_of(names, lambda name: name.plain in LASERS), MOST_LASERS
     if column is None:
-        column, most = column_of(names, lambda name: name.element < 0 and name.plain in LAYERS), MOST_LAYERS
+        # Beside a roll or a yaw, a pitch is that of a robot.
+        layers = {*LAYERS} - ({"pitch"} if any(name.plain in ("roll", "yaw") for name in names) else set())
+        column, most = column_of(names, lambda name: name.element < 0 and name.plain in layers), MOST_LAYERS
     if column is None:
         return rows, ""
     rows = list(rows)

@@ -42,12 +42,14 @@ from .headers import (
     is_beam,
     is_distance,
     name_of,
+    says_angle,
+    says_distance,
     unit_of,
     units_as_names,
 )
 from .interleaved import interleaved, read_interleaved
 from .numbered import read_numbered
-from .numbers import all_numbers
+from .numbers import all_numbers, split
 from .scan_columns import alike, named_columns, tell_columns
 from .scan_rows import parsed, read_scans, scans_of
 from .spanning import scans_over_lines
@@ -60,6 +62,8 @@ TEXT_FORMS = "use one scan per row, or columns of angle and distance, or a table
 OF_RPLIDAR = re.compile(
     rb"rplidar|slamtec|^[S ]*theta: *[\d.]+ +Dist: *[\d.]+ +Q:|angle_z?_?q\d", re.IGNORECASE | re.MULTILINE
 )
+# Its driver for ROS turns them.
+OF_ROS = re.compile(rb"(?<![A-Za-z])ros|/scan\b|LaserScan", re.IGNORECASE)
 # An angle as the name of a column, such as -134.5°.
 ANGLE = re.compile("([A-Za-z][A-Za-z_ ]*[@_ ])?([-+]?\\d+(?:[.,]\\d+)?)([\\s_]*(?:deg|rad|°)?)".encode(), re.IGNORECASE)
 MARK = re.compile(rb"[,;\t]")
@@ -100,7 +104,8 @@ class Text(Reader):
         if first is None:
             raise ValueError(f"{source.name} has no line of numbers; {TEXT_FORMS}")
         reading = _with_comments(source, said)
-        if OF_RPLIDAR.search(b"\n".join([*comments, first.text])):
+        above = b"\n".join([*comments, first.text])
+        if OF_RPLIDAR.search(above) and not OF_ROS.search(above):
             source.notes.clockwise = "an RPLIDAR counts its angles so"
         rest = (row for row in rows if not row.text.startswith(COMMENTS))
         head, rest = _without_headings(source, [first, *islice(rest, SAMPLE)], rest)
@@ -117,11 +122,18 @@ def _without_headings(source: Source, head: list[Row], rest: Iterable[Row]) -> t
     if sum(these) < 2 or 2 * sum(these) > len(head):
         return head, rest
     below = [row.text for row, heading in zip(head[1:], these, strict=False) if heading]
-    if not all(map(begins_with_number, below)):
+    if not all(map(begins_with_number, below)) or _is_header_of(head[0].text, below[0]):
         return head, rest
     shown = text_of(head[0].text.strip()[:40])
     source.notes.notice("titles", f"Lines of words between the rows, such as {shown!r}, were passed over.")
     return [row for row in head if _words(row.text) != words], (row for row in rest if _words(row.text) != words)
+
+
+def _is_header_of(line: bytes, below: bytes) -> bool:
+    """Whether a line has a name for each of the numbers below it."""
+    names = [name_of(text_of(word)) for word in split(line)]
+    known = any(says_angle(name) or says_distance(name) or name.plain in ("x", "y") for name in names)
+    return known and 1 < len(names) == len(split(below))
 
 
 def _words(line: bytes) -> bytes:
