@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from itertools import chain
@@ -13,7 +14,7 @@ import numpy as np
 from ..scan import Floats, Recording, Topic
 from .json_scans import NAMES, as_list, is_even, json_values, parsed, scan_of
 from .laser_scan import LaserScan, decode_json
-from .lasers import rows_of_one_laser
+from .lasers import choose_laser, need_laser, rows_of_one_laser
 from .source import Reader, Source, Sweeps
 from .stamping import in_seconds
 from .tables.beam_rows import beams_of, read_beams
@@ -23,11 +24,12 @@ from .tables.numbers import all_numbers
 from .tables.scan_rows import scans_of
 
 MOST_DEPTH = 6
-# A shorter list of numbers is no scan; what lists of ranges are called where they have no usual name.
+# A shorter list of numbers is no scan; what lists of ranges are called where they have no usual name, and others.
 LONG_LIST = 30
 OF_SCANS = re.compile(
     r"scan|laser|lidar|rang|dist|depth|reading|measure|value|data|frame|sweep|turn|front|rear|back|^\d*$"
 )
+OF_OTHERS = re.compile(r"intens|qualit|remission|reflect|rssi|signal|time|stamp|angle|bearing|theta|azimuth")
 LIST_KEYS = ("ranges", "distances", "range", "distance")
 LEAST_BEAMS = 8
 STAMP_NAMES = NAMES["stamp"]
@@ -113,10 +115,10 @@ def recording_of_values(source: Source, values: Iterable[tuple[str, Any]], forma
     found: dict[str, list[LaserScan]] = {}
     beams: list[Mapping[str, Any]] = []
     tables: list[Table] = []
-    rows: list[Floats] = []
+    rows: list[tuple[str, Floats]] = []
     for place, value in values:
         messages = list(_messages(value, "scan"))
-        rows += [] if messages or found else [np.array(row, dtype=np.float64) for row in _long_lists(value)]
+        rows += [] if messages or found else _long_lists(value)
         for topic, message in messages:
             if isinstance(message, list):
                 tables.append(message)
@@ -132,7 +134,7 @@ def recording_of_values(source: Source, values: Iterable[tuple[str, Any]], forma
     if not found and len(beams) >= LEAST_BEAMS:
         return replace(_beams(source, beams), format=format)
     if not found and not tables and rows:
-        return scans_of(source, source.reading, list(range(1, len(rows) + 1)), rows, 0, None, format)
+        return _of_lists(source, rows, format)
     if not found and tables:
         table = np.array([row for each in tables for row in each], dtype=np.float64)
         return beams_of(source, source.reading, table, None, format=format)
@@ -141,18 +143,32 @@ def recording_of_values(source: Source, values: Iterable[tuple[str, Any]], forma
     return recording_of(source, found, format) if found else None
 
 
-def _long_lists(value: Any, depth: int = 0) -> Iterator[list[float | None]]:
-    """The lists of many numbers that are called like scans, or have no name, wherever they lie."""
+def _of_lists(source: Source, lists: list[tuple[str, Floats]], format: str) -> Recording:
+    """The scans of (name, ranges); of one laser, if the names recur and differ."""
+    counts, laser = Counter(name for name, _ in lists), ""
+    if 1 < len(counts) < len(lists):
+        if source.reading.frame_id is not None:
+            need_laser(source.name, source.reading.frame_id, list(counts))
+        laser = choose_laser(counts, "scans", "the file", source.reading.frame_id, source.notes)
+    rows = [ranges for name, ranges in lists if laser in ("", name)]
+    recording = scans_of(source, source.reading, list(range(1, len(rows) + 1)), rows, 0, None, format)
+    return replace(recording, frame_ids=(laser,) * len(recording)) if laser else recording
+
+
+def _long_lists(value: Any, name: str = "", depth: int = 0) -> Iterator[tuple[str, Floats]]:
+    """(name without its number, numbers) of lists that are called like scans, or have no name, wherever they lie."""
     if depth > MOST_DEPTH:
         return
     if isinstance(value, Mapping):
-        named = ((name_of(str(key)).plain, held) for key, held in value.items())
-        value = [held for name, held in named if isinstance(held, Mapping) or OF_SCANS.search(name)]
+        for key, held in value.items():
+            plain = name_of(str(key)).plain
+            if isinstance(held, Mapping) or (OF_SCANS.search(plain) and not OF_OTHERS.search(plain)):
+                yield from _long_lists(held, re.sub(r"_?\d+", "", plain), depth + 1)
     elif isinstance(value, list) and len(value) >= LONG_LIST and all(_is_number_or_none(held) for held in value):
-        yield value
-        return
-    for inner in value if isinstance(value, list) else []:
-        yield from _long_lists(inner, depth + 1)
+        yield name, np.array(value, dtype=np.float64)
+    elif isinstance(value, list):
+        for inner in value:
+            yield from _long_lists(inner, name, depth + 1)
 
 
 def _is_number_or_none(value: Any) -> bool:
@@ -206,11 +222,14 @@ def _parallel(value: Mapping[str, Any]) -> list[dict[str, Any]] | None:
 
     A row may also have a whole scan.
     """
-    columns = {key: held for key, held in value.items() if isinstance(held, list)}
+    lists = {key: held for key, held in value.items() if isinstance(held, list)}
+    ranges = next((key for key in lists if is_distance(name_of(key))), None)
+    if ranges is None or not lists[ranges]:
+        return None
+    columns = {key: held for key, held in lists.items() if len(held) == len(lists[ranges])}
     names = {key: name_of(key) for key in columns}
-    ranges = next((key for key, name in names.items() if is_distance(name)), None)
     angles = next((key for key, name in names.items() if is_angle(name)), None)
-    if ranges is None or len(columns) < 2 or len({len(held) for held in columns.values()}) != 1 or not columns[ranges]:
+    if len(columns) < 2:
         return None
     if not (isinstance(columns[ranges][0], list) and len(columns) == len(value)):
         numbered = any(name.plain in SCANS for name in names.values())
