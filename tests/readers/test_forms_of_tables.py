@@ -92,6 +92,14 @@ FORMS = {
     "objects of YAML": "".join(f"- stamp: {at}.5\n  ranges:\n" + "".join(f"  - {each:g}\n" for each in ranges)
                                for at, ranges in enumerate(SCANS)),
     "lists in JSON": json.dumps({"scans": SCANS.tolist()}),
+    "lists of other quantities in JSON": json.dumps(
+        [{"front": each.tolist(), "quality_data": [47] * 181, "frame_times": [0] * 181} for each in SCANS]),
+    "lists of other quantities in lines": "".join(
+        f"intensities: {row(np.full(181, 120.0), ' ')}\nranges: {row(each, ' ')}\n" for each in SCANS),
+    "names above each row": "".join(f"angle,{','.join(f'range_{beam}' for beam in range(181))}\n0.5,{row(each)}\n"
+                                    for each in SCANS),
+    "the pitch of a robot": f"roll,pitch,yaw,{','.join(f'range_{beam}' for beam in range(181))}\n"
+    + "".join(f"0,{at / 100},0,{row(each)}\n" for at, each in enumerate(SCANS)),
 }  # fmt: skip
 
 
@@ -122,6 +130,35 @@ def test_angles_of_an_rplidar_are_taken_for_clockwise_and_marked(tmp_path: Path)
         assert any(guess.value == "clockwise" for guess in recording.account.guesses)
         turned = read(tmp_path, text, "a.txt", direction="counter-clockwise")
         assert np.rad2deg(turned[0].bearings) == pytest.approx(DEGREES, abs=0.01)
+
+
+def test_angles_of_an_rplidar_that_its_driver_for_ros_turned_are_not_turned_again(tmp_path: Path):
+    recording = read(tmp_path, "# /scan of rplidar_ros\n" + lines(DEGREES, NEAR, mark=" "), "a.txt")
+    assert np.rad2deg(recording[0].bearings) == pytest.approx(DEGREES, abs=0.01)
+
+
+def test_names_above_each_scan_say_the_units_of_all(tmp_path: Path):
+    parts = [each[60:75] for each in SCANS]
+    text = "".join("distance_cm,angle_deg\n" + lines(100 * each, DEGREES[60:75]) for each in parts)
+    recording = read(tmp_path, text)
+    assert [scan.ranges.tolist() for scan in recording] == [pytest.approx(each, abs=1e-4) for each in parts]
+
+
+def test_lists_called_after_two_lasers_are_not_mixed(tmp_path: Path):
+    objects = json.dumps([{"front": each.tolist(), "rear": (each * 2).tolist()} for each in SCANS])
+    assert read(tmp_path, objects, "a.json")[1].ranges == pytest.approx(FAR)
+    assert read(tmp_path, objects, "a.json", frame_id="rear")[1].ranges == pytest.approx(FAR * 2)
+    fields = "".join(f"front: {row(each, ' ')}\nrear: {row(each * 2, ' ')}\n" for each in SCANS)
+    recording = read(tmp_path, fields)
+    assert recording[1].ranges == pytest.approx(FAR)
+    assert recording.account is not None
+    assert any("not those called rear" in notice.text for notice in recording.account.notices)
+
+
+def test_uneven_angles_are_read_whatever_other_lists_stand_beside(tmp_path: Path):
+    angles = DEGREES + 0.3 * (np.arange(181) % 2)
+    recording = read(tmp_path, json.dumps({"tags": ["a"], "angles": angles.tolist(), "distances": NEAR.tolist()}))
+    assert np.rad2deg(recording[0].bearings) == pytest.approx(angles, abs=0.01)
 
 
 def test_coordinates_that_are_read_as_ranges_are_noticed(tmp_path: Path):

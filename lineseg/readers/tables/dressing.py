@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator
 from itertools import chain, islice
 from typing import NamedTuple
 
+from ..account import Notes
 from ..source import Source
 from .dialect import COMMENTS, Row
 
@@ -76,7 +77,6 @@ DRESSES = (
     Dress(RECEIVED.match, _without_time),
     Dress(lambda line: b"&" in line and ROW_END.search(line.strip()), _of_latex),
     Dress(QUOTES.fullmatch, lambda line: QUOTES.sub(rb"\1", line)),
-    Dress(LABEL.match, lambda line: LABEL.sub(b"", line)),
     Dress(DASH.match, lambda line: DASH.sub(b"", line)),
 )
 
@@ -85,7 +85,7 @@ def rows_of(source: Source) -> Iterator[Row]:
     """The lines of a file without what a program put around their numbers; blank lines have no text."""
     rows = _lines(source)
     head = list(islice(rows, SAMPLE))
-    off = _undressing([row.text for row in head if row.text])
+    off = _undressing([row.text for row in head if row.text], source.notes)
     if off is None:
         yield from head
         yield from rows
@@ -111,20 +111,38 @@ def _lines(source: Source) -> Iterator[Row]:
         yield Row(number, stripped if not stripped or stripped.startswith(COMMENTS) else text)
 
 
-def _undressing(lines: list[bytes]) -> Callable[[bytes], bytes] | None:
+def _undressing(lines: list[bytes], notes: Notes) -> Callable[[bytes], bytes] | None:
     """What takes off the dress that most of the lines wear; None if they wear none."""
     # Titles may stand above.
     lines = lines[-ENOUGH:]
     worn = (dress for dress in DRESSES if 2 * sum(map(bool, map(dress.fits, lines))) > len(lines))
     dress = next(worn, None)
-    return _of_one_field(lines) if dress is None else dress.off
+    return _of_one_field(lines, notes) if dress is None else dress.off
 
 
-def _of_one_field(lines: list[bytes]) -> Callable[[bytes], bytes] | None:
-    """What leaves only the long list of each message, such as "ranges: 1.5 1.6 …", if each line has one field of it."""
-    found = [LABEL.match(line) for line in lines]
-    names = dict.fromkeys(each[0].strip() for each in found if each)
-    if not names or not all(FIELD.match(line) for line in lines):
+def _of_one_field(lines: list[bytes], notes: Notes) -> Callable[[bytes], bytes] | None:
+    """What takes off the labels of long lists, such as "ranges: 1.5 1.6 …", if most lines have one or each line is a
+    field of a message; only lists of one label are left."""
+    labels = [match[0].strip() for line in lines if (match := LABEL.match(line))]
+    most = 2 * len(labels) > len(lines)
+    if not labels or not (most or all(map(FIELD.match, lines))):
         return None
-    usual = next((name for name in names if RANGES.search(name)), next(iter(names)))
-    return lambda line: LABEL.sub(b"", line) if (match := LABEL.match(line)) and match[0].strip() == usual else b""
+    recurs = {label for label in labels if labels.count(label) > 1}
+
+    def field_of(label: bytes) -> bytes:
+        # A number that does not recur counts the scans.
+        return label if label in recurs else re.sub(rb"[\W\d]+", b" ", label).strip()
+
+    fields = list(dict.fromkeys(map(field_of, labels)))
+    taken = next(filter(RANGES.search, fields), fields[0])
+    if len(fields) > 1 and not any(notice.kind == "fields" for notice in notes.notices):
+        shown, *others = (each.decode("utf-8", "replace").rstrip(":= ") for each in sorted(fields, key=taken.__ne__))
+        notes.notice("fields", f"Only the lists called {shown} were read, and not those called {', '.join(others)}.")
+
+    def off(line: bytes) -> bytes:
+        match = LABEL.match(line)
+        if match is None:
+            return line if most else b""
+        return line[match.end() :] if field_of(match[0].strip()) == taken else b""
+
+    return off
