@@ -14,7 +14,7 @@ from lineseg.scan import Recording
 from lineseg.unfinished import write_whole
 
 from .flag_types import Several, Unset
-from .progress import open_with_progress, progress_bar
+from .progress import open_with_truth, progress_bar
 from .reading import ReadingFlags, reading_of
 
 if TYPE_CHECKING:
@@ -37,7 +37,8 @@ def compare(
 
     The tables give TR, FR, completeness, endpoint errors and time. Each method is judged on one half of the frames with
     three settings: as installed; as proposed without truth, by the same search on the other half for each; and tuned
-    with the truth of the other half. Without truth, methods are only timed. Ctrl-C stops and writes the results so far.
+    with the truth of the other half. Recordings without truth take the walls that their scans with poses agree on; if
+    there are none, methods are only timed. Ctrl-C stops and writes the results so far.
 
     Args:
         files: recordings, or names of samples and simulated worlds (default: all samples and worlds).
@@ -118,4 +119,4 @@ def _recording(name: str, reading: Reading) -> Recording:
     if not path.exists():
         known = ", ".join((*SAMPLES, *WORLDS))
         raise FileNotFoundError(f"{name}: there is no such file, sample or world. Samples and worlds: {known}.")
-    return open_with_progress(path, reading)
+    return open_with_truth(path, reading)

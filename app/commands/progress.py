@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TypeVar
 
 from lineseg.readers import Reading, open_recording
+from lineseg.readers.walling import with_walls_if_any
 from lineseg.scan import Recording
 
 T = TypeVar("T")
@@ -48,7 +49,18 @@ def open_with_progress(file: Path, reading: Reading, tell: bool = True) -> Recor
     return recording
 
 
-def tell_by_views(said: Mapping[str, str]) -> None:
-    """Print on stderr what is said of truths that many views agree on, by the files that they belong to."""
-    for file, text in said.items():
-        print(f"lineseg: {Path(file).name}: truth by many views: {text}", file=sys.stderr)
+def tell_by_views(file: str, taken: bool, said: str) -> None:
+    """Print on stderr what is said of a truth that many views agree on, or why a recording is left without; "" for no
+    word.
+    """
+    if said:
+        print(f"lineseg: {Path(file).name}: {'' if taken else 'no '}truth by many views: {said}", file=sys.stderr)
+
+
+def open_with_truth(file: Path, reading: Reading) -> Recording:
+    """The recording of a file, with the truth by many views where it has no other; tells so."""
+    recording = open_with_progress(file, reading)
+    with progress_bar("truth", "step") as advance:
+        recording, said = with_walls_if_any(recording, advance)
+    tell_by_views(recording.name, recording.wall is not None, said)
+    return recording

@@ -16,7 +16,7 @@ from lineseg.scan import Recording
 from lineseg.truth import Agreement
 
 from .flag_types import Files, Switch, Unset
-from .progress import counted, open_with_progress
+from .progress import counted, open_with_progress, open_with_truth
 from .reading import ReadingFlags, each_file, files_of, reading_of
 from .thresholds import Choice, Flags
 
@@ -43,7 +43,8 @@ def score(
         method: the method, and where its thresholds come from (default: the method's defaults).
         threshold: thresholds of region growing; they override --params.
         reading: how to read the files.
-        truth: labels of one recording, .lineseg.json (default: the array `wall` of each recording).
+        truth: labels of one recording, .lineseg.json (default: the array `wall` of each recording, or the walls that
+            its scans with poses agree on).
         json: write JSON instead of a table, a line for each recording, with its total and each frame.
         csv: write CSV instead of a table, with a row for each frame.
     """
@@ -56,7 +57,7 @@ def score(
     totals: list[Agreement] = []
 
     def work(file: Path) -> None:
-        recording = open_with_progress(file, how)
+        recording = open_with_progress(file, how) if truth else open_with_truth(file, how)
         frames = _agreements(recording, chosen, name, truth)
         total = Agreement.of_all(frames.values())
         by_views = recording.wall_source if truth is None else ""
@@ -87,7 +88,7 @@ def _agreements(recording: Recording, params: Thresholds, method: str, truth: Pa
     if truth is None and recording.wall is None:
         raise ValueError(
             f"{recording.name} has no truth; give a file of labels with --truth, or an NPZ with `wall`; "
-            "for scans with poses, --walls by-views makes one."
+            "scans with poses need neither, if they agree on walls."
         )
     found = counted(agreements(recording, params, method, *known), len(recording), "score")
     return {recording.number(frame): each for frame, each in enumerate(found) if each is not None}

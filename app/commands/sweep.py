@@ -43,7 +43,8 @@ def sweep(
 ) -> None:
     """Try every combination of threshold values on whole recordings.
 
-    The table has coverage, segments and, with truth, TR and FR. Give thresholds as FROM:TO:COUNT, as values separated
+    The table has coverage, segments and, with truth, TR and FR. Recordings without truth take the walls that their
+    scans with poses agree on. Give thresholds as FROM:TO:COUNT, as values separated
     by commas, or as one value. To resume an interrupted sweep, run it again: finished work is kept in a file next to
     the table until the table is complete.
 
@@ -79,7 +80,8 @@ def sweep(
         with pool(scheduler) as workers, progress_bar("sweep", "frame") as advance:
             result = measure_all(files_of(files), grid, workers, reading_of(reading), journal, advance)
         write_table(result, out)
-        tell_by_views({source.file: source.by_views for source in result.sources if source.by_views})
+        for source in result.sources:
+            tell_by_views(source.file, source.truth, source.by_views)
         complete = True
     finally:
         journal.close(remove=complete)

@@ -46,7 +46,7 @@ def tune(
         reading: how to read the files.
         trials: number of settings to try in this call.
         objective: compare with the truth, or with lines that fit the noise of the laser (default: truth if all files
-            have it).
+            have it, if need be the walls that scans with poses agree on).
         thresholds: names of the thresholds to tune (default: the paper's five with truth; epsilon, delta and
             seed_points without it, because label-free scores cannot know which lines you want).
         split: what to hold back: every other stretch of frames, or every other file.
@@ -73,8 +73,8 @@ def tune(
         aim = Objective(kind, recall, completeness)
         tuning = Tuning(blocks, aim, study, thresholds, base)
         print(f"{aim.text}\n{aim.caution}", file=sys.stderr)
-        if blocks.truth:
-            tell_by_views(blocks.by_views)
+        for source in blocks.sources:
+            tell_by_views(source.file, source.truth, source.by_views)
         _search(tuning, trials)
         verdict = tuning.verdict()
     _tell(verdict.text, tuning.importance())

@@ -34,7 +34,7 @@ def opened(
 
     def progress(done: int, total: int) -> None:
         source = library.live.get(view.recording)
-        note = source.note if source is not None else WALLS if view.reading.walls else ""
+        note = source.note if source is not None else WALLS if view.reading.walls == "by-views" else ""
         tell(Loading(recording=view.recording, label=label, done=done, total=total, note=note))
 
     recording = library.recording(view.recording, view.read_as, progress, wanted, so_far)

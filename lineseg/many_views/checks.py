@@ -52,8 +52,8 @@ def check(recording: Recording) -> Poses:
 
 def trust(
     name: str, thickness: float, explained: float, unknown: float, shift: Floats, turn: Floats
-) -> tuple[bool, str]:
-    """Whether rates measured with a truth are likely near the exact ones, and why.
+) -> tuple[bool, bool, str]:
+    """Whether rates measured with a truth are likely near the exact ones, whether it is usable at all, and why.
 
     Raises ValueError if there are hardly any walls.
     """
@@ -73,8 +73,9 @@ def trust(
     if bounded > 0.05:
         reasons.append(f"{bounded:.0%} of the poses needed the largest correction")
     if reasons:
-        return False, f"Do not trust this truth: {'; '.join(reasons)}."
-    return _expected(thickness, unknown, float(shift.max()))
+        return False, False, f"Do not trust this truth: {'; '.join(reasons)}."
+    near, reason = _expected(thickness, unknown, float(shift.max()))
+    return near, True, reason
 
 
 def _expected(thickness: float, unknown: float, shift: float) -> tuple[bool, str]:

@@ -57,7 +57,8 @@ class ManyViews:
     and the corrected poses.
     thickness: rms distance of the points from their walls [m], and before the poses were corrected; explained, unknown:
     shares of the returns. shift, turn: (frames with a pose,) corrections of the poses [m, rad]. trusted: whether
-    rates measured with it are likely a few points off at most; reason: how far off they were in simulated worlds.
+    rates measured with it are likely a few points off at most; usable: whether it is better than no truth; reason: how
+    far off rates were in simulated worlds, or why it is not usable.
     """
 
     recording: Recording
@@ -68,6 +69,7 @@ class ManyViews:
     shift: Floats
     turn: Floats
     trusted: bool
+    usable: bool
     reason: str
 
     @property
@@ -308,7 +310,7 @@ def _result(
     shift, turn = np.hypot(*(poses - given)[:, :2].T), np.abs(poses - given)[:, 2]
     explained = float(np.mean(wall >= 0)) if len(wall) else 0.0
     thickness, unknown = _rms(height[wall >= 0]), float(np.mean(wall == UNKNOWN))
-    trusted, reason = trust(recording.name, thickness, explained, unknown, shift, turn)
+    judged = trust(recording.name, thickness, explained, unknown, shift, turn)
     made = replace(recording, wall=of_beams, walls=walls[used], track=Track.of(all_poses, source))
-    found = ManyViews(made, thickness, before, explained, unknown, shift, turn, trusted, reason)
+    found = ManyViews(made, thickness, before, explained, unknown, shift, turn, *judged)
     return replace(found, recording=replace(made, wall_source=found.text))

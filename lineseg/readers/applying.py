@@ -42,7 +42,7 @@ def applied(
     if reading.motion == "removed":
         shown = without_motion(shown, notes)
     shown = _chosen_beams(shown, used)
-    if reading.walls is not None:
+    if reading.walls == "by-views":
         shown = with_walls(shown, notes, progress)
     account = Account(
         given=reading,

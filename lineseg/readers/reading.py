@@ -14,7 +14,7 @@ Unit = Literal["m", "cm", "mm", "0.1mm", "1/4mm", "um", "in", "ft"]
 AngleUnit = Literal["rad", "deg", "gon", "mrad", "0.01deg", "1/64deg"]
 Direction = Literal["counter-clockwise", "clockwise"]
 Motion = Literal["kept", "removed"]
-Walls = Literal["by-views"]
+Walls = Literal["by-views", "none"]
 Stamps = Literal["message", "unwrapped", "recorded", "none"]
 METRES: dict[str, float] = {
     "m": 1.0, "cm": 0.01, "mm": 0.001, "0.1mm": 1e-4, "1/4mm": 0.25e-3, "um": 1e-6, "in": 0.0254, "ft": 0.3048,
@@ -163,7 +163,8 @@ class Reading:
         Walls | None,
         ReadingField(
             "truth from poses",
-            "where the file has no truth, take the walls that many scans with poses agree on (default: no truth)",
+            "where the file has no truth, the walls that many scans with poses agree on: by-views takes them, none "
+            "never does (default: score, tune, sweep and compare take them unless they cannot be trusted)",
             "scans",
         ),
     ] = None

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from ..params import Params
 from ..readers import Reading, open_recording
+from ..readers.walling import with_walls_if_any
 from ..scan import Recording
 from .measure import Batch
 
@@ -29,7 +30,8 @@ _reading = threading.Lock()
 class Source:
     """A file as it is read, at one moment; beams, frames: its size.
 
-    truth: whether it has one; by_views: what is said of one that many views agree on, "" for others.
+    truth: whether it has one, if need be by many views; by_views: what is said of that one, or why there is none, ""
+    where nothing is.
     """
 
     file: str
@@ -71,9 +73,9 @@ def describe(place: tuple[str, Reading]) -> Source:
     """The description of a file, read on this machine."""
     file, reading = place
     status = Path(file).stat()
-    recording = _opened(file, reading, status.st_mtime_ns, status.st_size)
+    recording, by_views = _opened(file, reading, status.st_mtime_ns, status.st_size)
     size = len(recording), int(recording.offsets[-1])
-    truth = recording.wall is not None, recording.wall_source
+    truth = recording.wall is not None, by_views
     return Source(file, reading, status.st_mtime_ns, status.st_size, *size, *truth)
 
 
@@ -97,9 +99,9 @@ def _batch(chunk: Chunk, scored: bool, judges: tuple[Params, ...]) -> Batch:
 
 def opened(source: Source) -> Recording:
     """The recording of a source."""
-    return _opened(source.file, source.reading, source.changed, source.size)
+    return _opened(source.file, source.reading, source.changed, source.size)[0]
 
 
 @lru_cache(maxsize=2)
-def _opened(file: str, reading: Reading, changed: int, size: int) -> Recording:
-    return open_recording(Path(file), reading)
+def _opened(file: str, reading: Reading, changed: int, size: int) -> tuple[Recording, str]:
+    return with_walls_if_any(open_recording(Path(file), reading))

@@ -89,8 +89,7 @@ class FileBlocks:
     """Blocks of files, opened by the workers; split: whether every other block or every other file is held back.
 
     blind: compare with the lines of `judges`, found for each file, even if the truth is known; None: only if a file has
-    no truth. base: thresholds with their P_min and L_min. by_views: what is said of the truth of files, by their names,
-    where many views agree on it.
+    no truth, not even by many views. base: thresholds with their P_min and L_min. sources: the files as they are read.
     """
 
     def __init__(
@@ -105,8 +104,13 @@ class FileBlocks:
     ) -> None:
         if split == "files" and len(files) < 2:
             raise ValueError("splitting by files needs two or more files; split by frames instead")
-        places = [(str(Path(file).absolute()), reading or Reading()) for file in files]
-        sources = [source for _, source in sorted(workers.results(describe, places), key=lambda row: row[0])]
+        reading = reading or Reading()
+        if blind and reading.walls is None:
+            reading = reading.but(walls="none")
+        places = [(str(Path(file).absolute()), reading) for file in files]
+        self.sources = sources = [
+            source for _, source in sorted(workers.results(describe, places), key=lambda row: row[0])
+        ]
         self._chunks: list[Chunk] = []
         owner: list[int] = []
         for number, source in enumerate(sources):
@@ -124,7 +128,6 @@ class FileBlocks:
         self.name = ", ".join(Path(source.file).name for source in sources)
         blind = not known if blind is None else blind
         self.truth = known and not blind
-        self.by_views = {Path(source.file).name: source.by_views for source in sources if source.by_views}
         tasks = [(source, base) for source in sources] if blind else []
         panels = dict(workers.results(_panel, tasks))
         self._workers, self._panels = workers, [panels.get(number, ()) for number in owner]

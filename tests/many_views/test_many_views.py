@@ -143,7 +143,8 @@ def test_what_one_place_alone_saw_is_unknown():
 def test_it_says_how_far_rates_were_off_in_worlds_alike(thickness, unknown, shift, trusted, sentence):
     found = trust("drive", thickness, 0.9, unknown, np.full(20, shift), np.zeros(20))
     assert found[0] is trusted
-    assert re.search(sentence, found[1])
+    assert found[1] is (thickness < 0.05)
+    assert re.search(sentence, found[2])
 
 
 def test_of_a_long_recording_places_seen_briefly_keep_their_returns():

@@ -9,6 +9,7 @@ import pytest
 from lineseg_app.__main__ import main
 
 from lineseg import Recording, open_recording, save_npz, simulate
+from lineseg.poses import Track
 from lineseg.simulate import UTM_30LX, box, room
 
 WORLD = room([(0, 0), (7, 0), (7, 5), (0, 5)]) + box((3.4, 4.7), 1.2, 0.5)
@@ -29,7 +30,7 @@ def file(drive, tmp_path) -> Path:
     return tmp_path / "drive.npz"
 
 
-def test_it_is_made_only_where_it_is_asked_for_and_no_truth_is_there(drive, file, tmp_path):
+def test_a_file_gets_it_only_where_it_is_asked_for_and_no_truth_is_there(drive, file, tmp_path):
     assert open_recording(file).wall is None
     made = open_recording(file, walls="by-views")
     assert made.wall is not None
@@ -69,15 +70,37 @@ def test_without_poses_it_says_why_there_is_none(drive, tmp_path):
         open_recording(tmp_path / "bare.npz", walls="by-views")
 
 
-@pytest.mark.parametrize(
-    ("command", "place"),
-    [
-        (("score",), "out"),
-        (("compare", "--methods", "region-growing", "--budget", "0", "--most-frames", "8"), "out"),
-        (("tune", "--trials", "1", "--most-frames", "8"), "err"),
-        (("sweep", "--epsilon", "0.02,0.03", "-o", "{}/sweep.csv"), "err"),
-    ],
-)
-def test_commands_take_it_and_say_so(command, place, file, tmp_path, capsys):
-    assert main([command[0], str(file), "--walls", "by-views", *(word.format(tmp_path) for word in command[1:])]) == 0
-    assert "by many views" in getattr(capsys.readouterr(), place)
+COMMANDS = [
+    ("score",),
+    ("compare", "--methods", "region-growing", "--budget", "0", "--most-frames", "8"),
+    ("tune", "--trials", "1", "--most-frames", "8"),
+    ("sweep", "--epsilon", "0.02,0.03", "-o", "{}/sweep.csv"),
+]
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_commands_take_it_by_themselves_and_say_so(command, file, tmp_path, capsys):
+    assert main([command[0], str(file), *(word.format(tmp_path) for word in command[1:])]) == 0
+    told = capsys.readouterr()
+    assert "lineseg: drive.npz: truth by many views: " in told.err
+    assert ("by many views" in told.out) == (command[0] in {"score", "compare"})
+
+
+@pytest.mark.parametrize("command", COMMANDS[1:])
+def test_commands_go_on_without_it_if_it_is_not_wanted(command, file, tmp_path, capsys):
+    words = [word.format(tmp_path) for word in command[1:]]
+    assert main([command[0], str(file), *words, "--walls", "none"]) == 0
+    assert "many views" not in "".join(capsys.readouterr())
+
+
+def test_tuning_without_truth_makes_none(file, capsys):
+    assert main(["tune", str(file), "--trials", "1", "--most-frames", "8", "--objective", "label-free"]) == 0
+    assert "many views" not in capsys.readouterr().err
+
+
+def test_commands_say_why_they_go_on_without_it(drive, tmp_path, capsys):
+    still = replace(drive, wall=None, walls=None, track=Track.of(0 * drive.poses, drive.pose_source))
+    save_npz(still, tmp_path / "still.npz")
+    assert main(["compare", str(tmp_path / "still.npz"), "--methods", "region-growing", "--budget", "0"]) == 0
+    assert re.search(r"still.npz: no truth by many views: .* the robot stands still", capsys.readouterr().err)
+    assert main(["score", str(tmp_path / "still.npz")]) != 0

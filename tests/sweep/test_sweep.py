@@ -152,7 +152,7 @@ def test_a_map_of_two_thresholds_takes_the_best_of_the_others(files: list[Path])
 def test_without_truth_the_table_leaves_the_rates_empty(tmp_path: Path, files: list[Path]):
     from dataclasses import replace
 
-    blind: Recording = replace(open_recording(files[0]), wall=None)
+    blind: Recording = replace(open_recording(files[0]), wall=None, track=None)
     save_npz(blind, tmp_path / "blind.npz")
     with pool() as workers:
         (row,) = rows_of(sweep([tmp_path / "blind.npz"], Grid(Params(), {}), workers))

@@ -65,7 +65,7 @@ def test_labels_are_the_truth_of_the_frames_that_have_them(score, tmp_path):
 @pytest.mark.parametrize(
     ("arguments", "sentence"),
     [
-        ([HALLWAY.with_suffix(".log")], "hallway.log has no truth"),
+        ([HALLWAY.with_suffix(".log"), "--walls", "none"], "hallway.log has no truth"),
         ([HALLWAY, "--truth", "gone.json"], "gone.json: there is no such file"),
         ([HALLWAY, "--truth", HALLWAY], "hallway.npz is not a text file; labels are JSON"),
         ([HALLWAY, "--method", "guess"], "there is no method 'guess'; choose from region-growing"),
