@@ -5,6 +5,7 @@ Run as a program with a port it obeys one JSON command a line, and answers each 
 
 import json
 import os
+import struct
 import subprocess
 import sys
 from collections import defaultdict
@@ -13,6 +14,7 @@ from typing import Any
 import numpy as np
 import zenoh
 from rosbags.typesys import Stores, get_typestore
+from zenoh.ext import CacheConfig, declare_advanced_publisher
 
 LOOPBACK = "127.0.0.1"
 STORE = get_typestore(Stores.ROS2_JAZZY)
@@ -45,13 +47,19 @@ class Obeying:
         """losing: messages before it that seem to be lost."""
         end = self.ends[topic]
         end.sequence_number += losing
-        types = end.session_mgr.store.types
-        stamp = types["builtin_interfaces/msg/Time"](sec=second, nanosec=7)
-        end.publish(
-            header=types["std_msgs/msg/Header"](stamp=stamp, frame_id="laser"),
-            angle_min=-0.7853982, angle_max=0.7853982, angle_increment=0.017453292, time_increment=0.0, scan_time=0.1,
-            range_min=0.0, range_max=30.0, ranges=np.float32(ranges), intensities=np.empty(0, np.float32),
-        )  # fmt: skip
+        end.publish(**fields_of(end.session_mgr.store.types, ranges, second))
+
+    def keeper(self, topic: str, ranges: list[float], seconds: list[int]) -> None:
+        """Publish scans of these stamps as rmw_zenoh does with a transient local topic: they are kept."""
+        name, dds = "sensor_msgs/msg/LaserScan", "sensor_msgs::msg::dds_::LaserScan_"
+        hash = STORE.hash_rihs01(name)
+        kept = {"cache": CacheConfig(len(seconds)), "publisher_detection": True}
+        end = declare_advanced_publisher(self.router, f"0{topic}/{dds}/{hash}", **kept)
+        for number, second in enumerate(seconds, 1):
+            data = STORE.serialize_cdr(STORE.types[name](**fields_of(STORE.types, ranges, second)), name)
+            end.put(bytes(data), attachment=struct.pack("<qqB", number, 0, 16) + bytes(16))
+        entity = f"@ros2_lv/0/{self.router.info.zid()}/0/1/MP/%/%/laser/{topic.replace('/', '%')}/{dds}/{hash}"
+        self.ends[topic] = end, self.router.liveliness().declare_token(f"{entity}/:1:,{len(seconds)}:,:,:,,")
 
     def take(self, topic: str) -> list[Any]:
         taken, self.received[topic][:] = self.received[topic][:], []
@@ -63,6 +71,15 @@ class Obeying:
 
     def close(self, topic: str) -> None:
         self.ends.pop(topic).close()
+
+
+def fields_of(types: Any, ranges: list[float], second: int) -> dict[str, Any]:
+    stamp = types["builtin_interfaces/msg/Time"](sec=second, nanosec=7)
+    numbers = {"angle_min": -0.7853982, "angle_max": 0.7853982, "angle_increment": 0.017453292, "time_increment": 0.0}
+    limits = {"scan_time": 0.1, "range_min": 0.0, "range_max": 30.0}
+    header = types["std_msgs/msg/Header"](stamp=stamp, frame_id="laser")
+    arrays = {"ranges": np.array(ranges, np.float32), "intensities": np.empty(0, np.float32)}
+    return {"header": header, **numbers, **limits, **arrays}
 
 
 def defined(type: str, hash: str | None) -> dict[str, str]:

@@ -22,6 +22,7 @@ from functools import partial
 from typing import NamedTuple
 
 import zenoh
+from zenoh.ext import HistoryConfig, declare_advanced_subscriber
 
 from lineseg.readers.bags.decoders import plain_type
 from lineseg.readers.laser_scan import decode_cdr
@@ -35,6 +36,7 @@ PUBLISHER, NODE, SUBSCRIPTION = "MP", "NN", "MS"
 NODE_NAME = "lineseg"
 # Reliable, volatile, the last 10: every field as by default.
 QOS = "::,10:,:,:,,"
+TRANSIENT_LOCAL = "1"
 # What ROS 2 Humble has in place of the hash of a definition.
 HASHLESS = "TypeHashNotSupported"
 LOOK_SECONDS = 0.1
@@ -48,9 +50,10 @@ STATE = struct.Struct("<qqB")
 
 @dataclass(frozen=True)
 class ZenohOffer(Offer):
-    """hash: of the definition of the type, as the publisher has it."""
+    """hash: of the definition of the type, as the publisher has it; kept: it keeps scans for those who come late."""
 
     hash: str
+    kept: bool
 
 
 class Arrived(NamedTuple):
@@ -124,18 +127,25 @@ class Zenoh:
         if chosen is None:
             return
         told.topic_is(chosen)
-        self._hashless = any(each.hash == HASHLESS for each in self.offers() if each.topic == chosen)
+        offers = [each for each in self.offers() if each.topic == chosen]
+        self._hashless = any(each.hash == HASHLESS for each in offers)
         for to, message in self._announced.items():
             self._writer(to, message)
         told.waits(f"subscribed to {chosen}; waiting for its first scan")
-        key = f"{self._domain}{chosen}/{dds_type(LASER_SCAN)}"
-        subscriber = self._session.declare_subscriber(f"{key}/*", self._keep)
+        subscriber = self._subscriber(f"{self._domain}{chosen}/{dds_type(LASER_SCAN)}/*", any(o.kept for o in offers))
         token = self._session.liveliness().declare_token(self._token(next(self._ids), SUBSCRIPTION, chosen, LASER_SCAN))
         try:
             self._hand_over(chosen, told)
         finally:
             token.undeclare()
             subscriber.undeclare()
+
+    def _subscriber(self, key: str, kept: bool) -> zenoh.Subscriber | zenoh.ext.AdvancedSubscriber:
+        """kept: ask for the scans that the publisher keeps, too."""
+        if not kept:
+            return self._session.declare_subscriber(key, self._keep)
+        history = HistoryConfig(detect_late_publishers=True, max_samples=MOST_WAITING)
+        return declare_advanced_subscriber(self._session, key, self._keep, history=history)
 
     def announce(self, topic: str, message: type[Message]) -> None:
         """Wait with it for a publisher of scans, which tells the kind of hash that this robot has."""
@@ -173,7 +183,8 @@ class Zenoh:
         if sample.kind != zenoh.SampleKind.PUT:
             self._offers.pop(key, None)
         elif len(self._offers) < MOST_OFFERS:
-            self._offers[key] = ZenohOffer(parts[9].replace("%", "/"), plain_type(parts[10]), parts[11])
+            kept = len(parts) > 12 and parts[12].split(":")[1:2] == [TRANSIENT_LOCAL]
+            self._offers[key] = ZenohOffer(parts[9].replace("%", "/"), plain_type(parts[10]), parts[11], kept)
 
     def _keep(self, sample: zenoh.Sample) -> None:
         """The newest scans; the oldest makes room."""
