@@ -13,6 +13,8 @@ from ..scan import Floats, Scan
 
 ROS1_HEADER = struct.Struct("<IIII")
 CDR_HEADER, NUMBERS = ({order: struct.Struct(order + form) for order in "<>"} for form in ("iII", "7fI"))
+# Plain CDR of either version, whose numbers lie as one after another; the last is how XTypes 1.2 wrote the second.
+PLAIN = (0x00, 0x01, 0x06, 0x07, 0x10, 0x11)
 FLOATS = {order: np.dtype(f"{order}f4") for order in "<>"}
 TYPES = ("sensor_msgs/LaserScan", "sensor_msgs/msg/LaserScan")
 
@@ -62,6 +64,10 @@ def decode_ros1(data: bytes) -> LaserScan:
 
 def decode_cdr(data: bytes) -> LaserScan:
     """The serialisation of ROS 2: four bytes that state the byte order, then CDR with aligned numbers."""
+    if len(data) > 1 and data[1] not in PLAIN:
+        raise ValueError(
+            f"its bytes have the encoding 0x{data[1]:04x}, but ROS 2 sends plain CDR; declare its type as final"
+        )
     try:
         order = "<" if data[1] & 1 else ">"
         seconds, nanoseconds, length = CDR_HEADER[order].unpack_from(data, 4)

@@ -27,6 +27,13 @@ def test_a_message_is_decoded_whatever_the_length_of_its_frame_name(version, dec
     assert scan[3:7] == pytest.approx((-1.5, 0.01, 0.1, 30.0))
 
 
+def test_a_message_whose_structures_are_delimited_is_told():
+    data = bytearray(encoded(2, message(2, [1.0])))
+    data[1] = 0x09
+    with pytest.raises(ValueError, match="its bytes have the encoding 0x0009, but ROS 2 sends plain CDR"):
+        decode_cdr(bytes(data))
+
+
 def test_an_increment_of_0_is_taken_from_the_angles(tmp_path):
     scan = decode_ros1(encoded(1, message(1, [1.0] * 11, increment=0.0, angle_min=-1.0, angle_max=1.0)))
     assert scan.angle_increment == pytest.approx(0.2)
