@@ -5,14 +5,25 @@ from __future__ import annotations
 import sys
 from collections.abc import Sequence
 
-from .stopping import interruptible
+from .stopping import end_if_stuck, interruptible
 
 INTERRUPTED, TERMINATED = 130, 143
 
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run the command line and return the exit code."""
-    arguments = list(sys.argv[1:] if argv is None else argv)
+    if argv is not None:
+        return _run(list(argv))
+    try:
+        code = _run(sys.argv[1:])
+    except SystemExit as ended:
+        end_if_stuck(ended.code if isinstance(ended.code, int) else 1)
+        raise
+    end_if_stuck(code)
+    return code
+
+
+def _run(arguments: list[str]) -> int:
     try:
         with interruptible(0 if _serves(arguments) else TERMINATED):
             from .command_line import run

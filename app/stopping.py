@@ -7,11 +7,26 @@ import signal
 import sys
 import threading
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from types import FrameType
 from typing import Any
 
 AGAIN_SECONDS = 0.02
+_abandoned: list[threading.Thread] = []
+
+
+def abandon(thread: threading.Thread) -> None:
+    """Wait no longer for a thread that does not end, because a library in it waits for another machine."""
+    _abandoned.append(thread)
+
+
+def end_if_stuck(code: int) -> None:
+    """End the process here if an abandoned thread still runs: Python would stop it inside its library, which aborts."""
+    if any(thread.is_alive() for thread in _abandoned):
+        for stream in (sys.stdout, sys.stderr):
+            with suppress(OSError, ValueError):
+                stream.flush()
+        os._exit(code)
 
 
 @contextmanager

@@ -55,6 +55,8 @@ class Live:
 
     def close(self) -> None:
         for robot in self._robots.values():
+            robot.leave()
+        for robot in self._robots.values():
             robot.close()
 
     def pushed(self, name: str) -> Source:

@@ -16,8 +16,9 @@ from websockets.exceptions import WebSocketException
 from lineseg import EXTRACTORS
 from lineseg.readers.laser_scan import LaserScan
 
+from ..stopping import abandon
 from .address import Address, domain_of
-from .bridge import OPEN_SECONDS, Bridge, why_not
+from .bridge import Bridge, why_not
 from .cloud import Cloud
 from .markers import Markers
 from .ring import Ring
@@ -27,6 +28,8 @@ from .websocket import open_websocket
 log = logging.getLogger(__name__)
 FIRST_PAUSE, LONGEST_PAUSE = 0.5, 15.0
 MOST_SPENT = 10_000
+# DDS waits up to two seconds until the last messages are confirmed; Zenoh up to ten, for a router that hangs.
+LEAVE_SECONDS = 3.0
 
 
 class Robot(Source):
@@ -49,14 +52,20 @@ class Robot(Source):
     def start(self) -> None:
         self._thread.start()
 
-    def close(self) -> None:
-        """Disconnect; blocks until the thread has ended."""
+    def leave(self) -> None:
+        """Begin to disconnect."""
         self._closing.set()
         bridge = self._bridge
         if bridge is not None:
             bridge.close()
+
+    def close(self) -> None:
+        """Disconnect; blocks until the thread has ended, or for a while: a robot may not answer any more."""
+        self.leave()
         if self._thread.is_alive():
-            self._thread.join(timeout=OPEN_SECONDS + 1)
+            self._thread.join(LEAVE_SECONDS)
+        if self._thread.is_alive():
+            abandon(self._thread)
 
     @property
     def publishable(self) -> bool:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import re
+import signal
 import socket
 import time
 from collections.abc import Iterator
@@ -17,8 +18,11 @@ pytest.importorskip("zenoh_ros2_sdk", reason="tests of Zenoh need the package ze
 import zenoh_peer
 from lineseg_app.__main__ import main
 from lineseg_app.live.address import Address
+from lineseg_app.live.ring import Ring
+from lineseg_app.live.robot import Robot
 from live import page_of
 from obeying import SECONDS, Obedient, eventually, running, said
+from processes import lineseg
 from robots import nearest, wall, watching
 
 from lineseg import extract
@@ -113,6 +117,18 @@ def test_scans_that_never_arrive_are_counted(peer: Obedient, port: int, topic: s
     assert re.match(r"ended after \d+ scans(, \d+ left out)?, 7 lost", told[-1])
 
 
+def test_scans_that_a_publisher_keeps_are_received_by_who_comes_later(peer: Obedient, port: int, topic: str):
+    peer.ask("keeper", topic=topic, ranges=wall(2.0), seconds=[5, 6, 7])
+    robot = Robot(address(port, topic), Ring(10), lambda: None)
+    robot.start()
+    try:
+        eventually(lambda: robot.ring.total == 3)
+        assert robot.ring.snapshot().stamps.tolist() == pytest.approx([5, 6, 7])
+        assert robot.lost == 0
+    finally:
+        robot.close()
+
+
 def test_a_router_may_die_and_return(topic: str):
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
@@ -147,6 +163,19 @@ def test_a_router_that_is_not_there_is_named(topic: str):
         port = taken.getsockname()[1]
         with running(address(port, topic), topic) as told:
             said(told, f"no Zenoh router answers at 127.0.0.1:{port}")
+
+
+def test_a_node_ends_on_sigterm_while_a_router_is_silent(topic: str):
+    with socket.socket() as silent:
+        silent.bind(("127.0.0.1", 0))
+        silent.listen()
+        process = lineseg("node", f"zenoh://127.0.0.1:{silent.getsockname()[1]}{topic}")
+        silent.accept()[0].close()
+        connection, _ = silent.accept()  # after a trial whether anyone listens
+        process.send_signal(signal.SIGTERM)
+        _, errors = process.communicate(timeout=SECONDS)
+        connection.close()
+    assert (process.returncode, "Traceback" in errors, "FATAL" in errors) == (0, False, False)
 
 
 def test_the_page_shows_scans_and_the_topics_are_listed(
