@@ -10,6 +10,7 @@ from foxglove import Channel, Context, Schema, open_mcap
 from rosbags.rosbag2 import StoragePlugin
 
 from lineseg.readers import open_recording
+from lineseg.readers.bags import ros2
 
 from .test_ros_bags import bag2
 
@@ -99,3 +100,23 @@ def test_a_bag_whose_messages_are_still_in_its_log_names_that_file(tmp_path):
         open_recording(alone / "moved.db3")
     with pytest.raises(ValueError, match=r"live\.db3-wal is the log of .*; open the \.db3 of the same name"):
         open_recording(alone / "live.db3-wal")
+
+
+@pytest.mark.parametrize("seen", [4, 256])
+def test_what_lies_before_and_after_a_damaged_page_of_a_database_is_read_once(tmp_path, monkeypatch, seen):
+    monkeypatch.setattr(ros2, "ROWS", seen)
+    stamps = [100.0 + number for number in range(1000)]
+    path = bag2(tmp_path / "bag", ("/scan", [1.0] * 40), ("/rear", [2.0] * 20), stamps=stamps) / "bag.db3"
+    whole = open_recording(path)
+    assert [(topic.name, topic.scans) for topic in whole.topics] == [("/scan", 1000), ("/rear", 1000)]
+    data = bytearray(path.read_bytes())
+    at = data.index(whole.stamps[530].astype("<i4").tobytes()) // 4096 * 4096
+    data[at : at + 4096] = bytes(4096)
+    path.write_bytes(data)
+    recording = open_recording(path)
+    read = recording.stamps.tolist()
+    assert read == sorted(set(read)) == [stamp for stamp in stamps if stamp in read]
+    assert 980 < len(read) < 1000
+    assert [(topic.name, topic.scans > 980) for topic in recording.topics] == [("/scan", True), ("/rear", True)]
+    assert recording.topics[0].scans == len(read)
+    assert "breaks off" in [notice.kind for notice in recording.account.notices]

@@ -34,9 +34,8 @@ class Ros1Bag(Reader):
             except Exception as error:  # rosbags has errors of its own, and needs an index
                 return _without_index(source, detail(error))
             streams = [Stream(each.topic, each.msgtype, bag.count(each.id), each, "ros1") for each in bag.connections]
-            topic, topics, chosen = choose_streams(source, streams)
-            total = sum(stream.messages for stream in chosen)
-            return collect(source, _messages(source, bag, chosen), total, topic, topics, Ros1Bag.format)
+            topic, laser, chosen = choose_streams(source, streams)
+            return collect(source, _messages(source, bag, chosen), topic, (laser, chosen), Ros1Bag.format)
 
 
 def messages_of(source: Source, wanted: Callable[[Stream], bool]) -> Iterator[tuple[Stream, int, bytes]]:
@@ -105,10 +104,9 @@ def _without_index(source: Source, why: str) -> Recording:
     if not any(found.values()):
         raise ValueError(f"{source.name}: a damaged ROS bag ({why}); {hint}")
     streams = [Stream(each.topic, each.type, len(messages), each, "ros1") for each, messages in found.items()]
-    topic, topics, chosen = choose_streams(source, streams)
+    topic, laser, chosen = choose_streams(source, streams)
     if not any(notice.kind == "breaks off" for notice in source.notes.notices):
         tell_cut(source, "ROS bag", why, hint)
-    total = sum(stream.messages for stream in chosen)
     decoders = [(stream.decoder(source), found[stream.handle]) for stream in chosen]
     rows = [(decoder, *row) for decoder, messages in decoders for row in messages]
-    return collect(source, sorted(rows, key=lambda row: row[1]), total, topic, topics, Ros1Bag.format)
+    return collect(source, sorted(rows, key=lambda row: row[1]), topic, (laser, chosen), Ros1Bag.format)

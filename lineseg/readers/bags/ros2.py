@@ -19,7 +19,7 @@ from ..containers.bounded import MOST_MESSAGE, expand, limit_of, zstd_file
 from ..containers.folder import missing_parts, storage_files
 from ..containers.wrapping import tell_break
 from ..source import Reader, Source
-from .decoders import Decoder, plain_type
+from .decoders import Decoder, is_laser, plain_type
 from .mcap_records import McapChannel, McapFile
 from .sqlite_pages import scan_pages
 from .topics import NotABagError, Stream, choose_streams, collect, cut_off, detail, guarded, tell_cut
@@ -27,6 +27,8 @@ from .topics import NotABagError, Stream, choose_streams, collect, cut_off, deta
 SQLITE_MAGIC = b"SQLite format 3\0"
 MCAP_MAGIC = b"\x89MCAP"
 ZSTD_MAGIC = b"\x28\xb5\x2f\xfd"
+# The messages of a database are estimated from rows at some places.
+PLACES, ROWS = 16, 256
 # Steps of SQLite's machine; a row takes some 50.
 STEPS_AT_ONCE, LEAST_STEPS, STEPS_A_BYTE = 100_000, 20_000_000, 20
 
@@ -107,7 +109,7 @@ def _read(source: Source, files: list[Path], format: str) -> Recording:
         broken = next((storage.broken for storage in storages if storage.broken), "")
         if broken and not streams:
             raise ValueError(f"{source.name}: a damaged {format} ({broken}); {hint}")
-        topic, topics, chosen = choose_streams(source, streams)
+        topic, laser, chosen = choose_streams(source, streams)
         decoders = {id(stream): stream.decoder(source) for stream in chosen}
 
         def messages() -> Iterator[tuple[Decoder, int, bytes]]:
@@ -120,8 +122,7 @@ def _read(source: Source, files: list[Path], format: str) -> Recording:
                 if storage.broken:
                     tell_cut(source, format, storage.broken, hint)
 
-        total = sum(stream.messages for stream in chosen)
-        return collect(source, messages(), total, topic, topics, format)
+        return collect(source, messages(), topic, (laser, chosen), format)
 
 
 def _storages(source: Source, files: list[Path], stack: ExitStack) -> list[Storage]:
@@ -176,7 +177,11 @@ class _Database:
         rows = database.execute("SELECT id, name, type, serialization_format FROM topics ORDER BY id").fetchall()
         if any(not isinstance(each, str) for row in rows for each in row[1:3]):
             raise ValueError("the names of its topics are lost")
-        counts = self._counts()
+        lasers = {id for id, _, type, encoding in rows if is_laser(plain_type(type), str(encoding or "cdr"), b"")}
+        estimates = self._estimates()
+        # To count them, all of the file must be read.
+        self._counted = not lasers <= estimates.keys()
+        counts = self._counts() if self._counted else estimates
         self.streams = [
             Stream(str(name), plain_type(str(type)), counts.get(id, 0), id, str(encoding or "cdr"))
             for id, name, type, encoding in rows
@@ -191,18 +196,60 @@ class _Database:
             return dict(self.database.execute("SELECT topic_id, count(*) FROM messages GROUP BY topic_id"))
         except sqlite3.DatabaseError as error:
             self.broken = str(error)
-            return Counter(id for id, _, _ in scan_pages(self.file))
+            return Counter(id for _, id, _, _ in scan_pages(self.file))
+
+    def _estimates(self) -> dict[int, int]:
+        """About how many messages the topics have that are seen at some places; none for a file that breaks off."""
+        if _is_cut(self.file):
+            return {}
+        query = "SELECT topic_id FROM messages NOT INDEXED WHERE rowid >= ? ORDER BY rowid LIMIT ?"
+        seen: Counter[int] = Counter()
+        try:
+            ((first, last),) = self.database.execute("SELECT min(rowid), max(rowid) FROM messages NOT INDEXED")
+            if first is None:
+                return {}
+            step = (last - first) // PLACES + 1
+            for start in range(first, last + 1, step):
+                seen.update(id for (id,) in self.database.execute(query, (start, min(step, ROWS))))
+        except sqlite3.DatabaseError:
+            return {}
+        share = (last - first + 1) / sum(seen.values())
+        return {id: max(1, round(share * count)) for id, count in seen.items()}
 
     def messages(self, streams: list[Stream]) -> Iterator[tuple[Stream, int, bytes]]:
         by_id = {stream.handle: stream for stream in streams}
         if self.broken:
-            yield from ((by_id[id], time, data) for id, time, data in scan_pages(self.file) if id in by_id)
-            return
-        marks = ",".join("?" * len(by_id))
-        # The index of times may be missing from a cut file, so `collect` sorts.
-        query = f"SELECT topic_id, timestamp, data FROM messages NOT INDEXED WHERE topic_id IN ({marks})"
-        for id, nanoseconds, data in self.database.execute(query, list(by_id)):
-            yield by_id[id], nanoseconds, data
+            yield from ((by_id[id], time, data) for _, id, time, data in scan_pages(self.file) if id in by_id)
+        elif self._counted:
+            marks = ",".join("?" * len(by_id))
+            # The index of times may be missing from a cut file, so `collect` sorts.
+            query = f"SELECT topic_id, timestamp, data FROM messages NOT INDEXED WHERE topic_id IN ({marks})"
+            for id, nanoseconds, data in self.database.execute(query, list(by_id)):
+                yield by_id[id], nanoseconds, data
+        else:
+            counts: Counter[int] = Counter()
+            for id, nanoseconds, data in self._every_row(list(by_id)):
+                counts[id] += 1
+                if id in by_id:
+                    yield by_id[id], nanoseconds, data
+            for stream in self.streams:
+                stream.messages = counts[stream.handle]
+
+    def _every_row(self, wanted: list[int]) -> Iterator[tuple[int, int, bytes]]:
+        """(topic id, time in nanoseconds, data if it is wanted) of the messages of all topics."""
+        marks = ",".join("?" * len(wanted))
+        wanted_data = f"CASE WHEN topic_id IN ({marks}) THEN data END"
+        query = f"SELECT rowid, topic_id, timestamp, {wanted_data} FROM messages NOT INDEXED ORDER BY rowid"
+        last = None
+        try:
+            for row, id, nanoseconds, data in self.database.execute(query, wanted):
+                last = row
+                yield id, nanoseconds, data
+        except sqlite3.DatabaseError as error:
+            self.broken = str(error)
+            for row, id, nanoseconds, data in scan_pages(self.file):
+                if last is None or row > last:
+                    yield id, nanoseconds, data
 
 
 class _McapStorage:
@@ -267,6 +314,14 @@ def _connect(file: Path, stack: ExitStack) -> sqlite3.Connection:
     stack.callback(database.close)
     _restrict(database, file)
     return database
+
+
+def _is_cut(file: Path) -> bool:
+    """Whether a database is shorter than its header says."""
+    with file.open("rb") as opened:
+        head = opened.read(32)
+    size = int.from_bytes(head[16:18], "big")
+    return int.from_bytes(head[28:32], "big") * (1 << 16 if size == 1 else size) > file.stat().st_size
 
 
 def _has_log(file: Path) -> bool:

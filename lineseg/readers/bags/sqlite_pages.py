@@ -17,8 +17,8 @@ COLUMNS = 4
 INTEGERS = {1: 1, 2: 2, 3: 3, 4: 4, 5: 6, 6: 8, 8: 0, 9: 0}
 
 
-def scan_pages(path: Path) -> Iterator[tuple[int, int, bytes]]:
-    """(topic id, time of recording in nanoseconds, data) of each whole message, in the order of the file."""
+def scan_pages(path: Path) -> Iterator[tuple[int, int, int, bytes]]:
+    """(row, topic id, time of recording in nanoseconds, data) of each whole message, in the order of the file."""
     with path.open("rb") as file:
         head = file.read(100)
         size = int.from_bytes(head[16:18], "big")
@@ -39,20 +39,21 @@ def scan_pages(path: Path) -> Iterator[tuple[int, int, bytes]]:
                 continue
             for (at,) in struct.iter_unpack(">H", leaf[8 : 8 + 2 * int.from_bytes(leaf[3:5], "big")]):
                 try:
-                    yield _message(_payload(leaf, at, usable, page))
+                    row, payload = _payload(leaf, at, usable, page)
+                    yield row, *_message(payload)
                 except (ValueError, IndexError):
                     continue  # a row of another table, or one that is not whole
 
 
-def _payload(leaf: bytes, at: int, usable: int, page: Callable[[int], bytes]) -> bytes:
-    """A row, of which a part may lie on further pages."""
+def _payload(leaf: bytes, at: int, usable: int, page: Callable[[int], bytes]) -> tuple[int, bytes]:
+    """The number of a row, and the row, of which a part may lie on further pages."""
     length, at = _varint(leaf, at)
-    _, at = _varint(leaf, at)
+    row, at = _varint(leaf, at)
     if length > MOST_MESSAGE:
         raise ValueError("a row is too large")
     most, least = usable - 35, (usable - 12) * 32 // 255 - 23
     if length <= most:
-        return leaf[at : at + length]
+        return row, leaf[at : at + length]
     here = least + (length - least) % (usable - 4)
     here = here if here <= most else least
     parts, left = [leaf[at : at + here]], length - here
@@ -62,7 +63,7 @@ def _payload(leaf: bytes, at: int, usable: int, page: Callable[[int], bytes]) ->
         parts.append(part[4 : 4 + min(left, usable - 4)])
         left -= usable - 4
         following = int.from_bytes(part[:4], "big")
-    return b"".join(parts)
+    return row, b"".join(parts)
 
 
 def _message(row: bytes) -> tuple[int, int, bytes]:

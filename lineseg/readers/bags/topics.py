@@ -15,12 +15,15 @@ from ...scan import Floats, Recording, Topic
 from ..source import Source, Sweeps
 from .decoders import MULTI_ECHO, POINT_CLOUDS, Decoder, decoder_of, is_laser
 
+# Room for so many times as many scans as announced, because that may be an estimate.
+ROOM = 1.25
 
-@dataclass(frozen=True)
+
+@dataclass(eq=False)
 class Stream:
     """The messages of one publisher; several may share a topic. `handle` identifies it for its reader.
 
-    encoding, schema: of its messages.
+    messages: their number, which may be an estimate until they were read. encoding, schema: of its messages.
     """
 
     topic: str
@@ -68,8 +71,8 @@ def detail(error: Exception) -> str:
     return re.sub(r"\('(.*?)\.?',?\)", r"\1", str(error)).strip().rstrip(".") or type(error).__name__
 
 
-def choose_streams(source: Source, streams: list[Stream]) -> tuple[str, tuple[Topic, ...], list[Stream]]:
-    """The topic to read, all laser topics, and the streams of the chosen one."""
+def choose_streams(source: Source, streams: list[Stream]) -> tuple[str, list[Stream], list[Stream]]:
+    """The topic to read, the streams of all laser topics, and those of the chosen one."""
     laser = [stream for stream in streams if is_laser(stream.type, stream.encoding, stream.schema)]
     if not laser:
         others = ", ".join(sorted({f"{stream.topic} ({_short(stream.type) or stream.encoding})" for stream in streams}))
@@ -79,15 +82,18 @@ def choose_streams(source: Source, streams: list[Stream]) -> tuple[str, tuple[To
         sentence = f"{source.name} has no sensor_msgs/LaserScan topic; it has {others or 'no topic at all'}.{way}"
         raise ValueError(sentence)
     laser = _readable(source, laser)
-    counts: dict[str, int] = {}
-    for stream in laser:
-        counts[stream.topic] = counts.get(stream.topic, 0) + stream.messages
-    topics = tuple(Topic(name, count) for name, count in counts.items())
-    topic = source.choose(list(topics))
+    topic = source.choose(list(_topics_of(laser)))
     chosen = [stream for stream in laser if stream.topic == topic]
     if source.reading.echo is not None and not any(stream.type in MULTI_ECHO for stream in chosen):
         raise ValueError(f"{source.name}: echo cannot be used, because the beams of {topic} have one range each.")
-    return topic, topics, chosen
+    return topic, laser, chosen
+
+
+def _topics_of(streams: list[Stream]) -> tuple[Topic, ...]:
+    counts: dict[str, int] = {}
+    for stream in streams:
+        counts[stream.topic] = counts.get(stream.topic, 0) + stream.messages
+    return tuple(Topic(name, count) for name, count in counts.items())
 
 
 def _readable(source: Source, streams: list[Stream]) -> list[Stream]:
@@ -116,28 +122,29 @@ def _readable(source: Source, streams: list[Stream]) -> list[Stream]:
 def collect(
     source: Source,
     messages: Iterable[tuple[Decoder, int, bytes]],
-    total: int,
     topic: str,
-    topics: tuple[Topic, ...],
+    streams: tuple[list[Stream], list[Stream]],
     format: str,
 ) -> Recording:
     """A Recording from (decoder, recording time in nanoseconds, bytes); messages that cannot be read are skipped.
 
-    Each publisher has a decoder of its own.
+    Each publisher has a decoder of its own. streams: those of all laser topics, and those of the chosen one.
     """
+    laser, chosen = streams
+    total = sum(stream.messages for stream in chosen)
     sweeps = Sweeps()
     recorded = array("d")
     publishers: list[Decoder] = []
     rising = True
 
     def part(source: Source) -> Recording:
-        recording = sweeps.recording(source, partial=True, topic=topic, topics=topics, format=format)
+        recording = sweeps.recording(source, partial=True, topic=topic, topics=_topics_of(laser), format=format)
         _note_times(source, recording, 1e-9 * np.array(recorded), publishers)
         return recording
 
     for done, (decode, nanoseconds, data) in enumerate(messages):
         if done % 64 == 0:
-            source.progress(done, total)
+            source.progress(min(done, total), total)
             if rising:
                 source.offer(len(sweeps), part)
         try:
@@ -151,14 +158,14 @@ def collect(
         recorded.append(at)
         publishers.append(decode)
         if len(sweeps) == 1:
-            sweeps.ranges.reserve_for(total)
+            sweeps.ranges.reserve_for(int(ROOM * total))
     source.progress(total, total)
     if not len(sweeps):
         source.notes.nothing_left()
-        others = ", ".join(each.name for each in topics if each.scans)
+        others = ", ".join(each.name for each in _topics_of(laser) if each.scans)
         way = f"choose one of {others}" if others else "no other topic of scans has any, so record it again"
         raise ValueError(f"{source.name}: the topic {topic} has no messages; {way}.")
-    recording = sweeps.recording(source, topic=topic, topics=topics, format=format)
+    recording = sweeps.recording(source, topic=topic, topics=_topics_of(laser), format=format)
     times = 1e-9 * np.array(recorded)
     if (np.diff(times) < 0).any():
         order = np.argsort(times, kind="stable")
