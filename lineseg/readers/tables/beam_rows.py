@@ -425,6 +425,11 @@ def columns_of_beam(table: NDArray[np.float64]) -> tuple[float, Roles]:
                 possible.append(Roles(True, angle, partner))
     if len(columns) >= 2:
         possible.append(Roles(False, columns[0], columns[1]))
+    if len(columns) >= 3 and _is_number_of_row(table[:, columns[0]]):
+        points = Roles(False, columns[1], columns[2])
+        score = regularity(bearings_of(table, points))
+        if score <= LEAST_REGULAR and not any(_counts(table[:, at]) for at in columns[1:3]):
+            return score, points
     found = [(regularity(bearings_of(table, roles)), roles) for roles in possible]
     # The number of a beam counts as evenly as its angle, which is nearer to the distance.
     order = lambda each: (round(each[0], 2), abs(each[1].first - each[1].second))  # noqa: E731
@@ -456,6 +461,10 @@ def _counts(column: Floats) -> bool:
     steps = np.diff(column[np.isfinite(column)])
     usual = middle_of(np.sort(steps))
     return usual != 0 and len(steps) >= FEW_ROWS and bool((np.abs(steps - usual) <= EVEN * abs(usual)).mean() > 0.9)
+
+
+def _is_number_of_row(column: Floats) -> bool:
+    return column[0] in (0, 1) and bool((np.diff(column) == 1).all())
 
 
 def _radians(angles: Floats) -> Floats:
