@@ -96,6 +96,14 @@ FORMS = {
         [{"front": each.tolist(), "quality_data": [47] * 181, "frame_times": [0] * 181} for each in SCANS]),
     "lists of other quantities in lines": "".join(
         f"intensities: {row(np.full(181, 120.0), ' ')}\nranges: {row(each, ' ')}\n" for each in SCANS),
+    "lists of other quantities in a log": "".join(
+        f"[INFO] [17.{at}]: {name}: [{row(each, ', ')}]\n" for at, ranges in enumerate(SCANS)
+        for name, each in (("intensities", np.full(181, 120)), ("ranges", ranges))),
+    "lists of other quantities in brackets": "".join(
+        f"{name}: [{row(each, ', ')}]\n" for ranges in SCANS
+        for name, each in (("intensities", np.full(181, 120)), ("ranges", ranges))),
+    "numbers beside points": "".join(f"{beam} {x:g} {y:g}\n" for beam, (x, y) in
+                                     enumerate(np.array([points(each) for each in SCANS]).reshape(-1, 2))),
     "names above each row": "".join(f"angle,{','.join(f'range_{beam}' for beam in range(181))}\n0.5,{row(each)}\n"
                                     for each in SCANS),
     "the pitch of a robot": f"roll,pitch,yaw,{','.join(f'range_{beam}' for beam in range(181))}\n"

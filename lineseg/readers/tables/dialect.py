@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...scan import Floats
+from ..account import Notes
 from .numbers import all_numbers, is_number, number_of
 
 COMMENTS = (b"#", b"%", b"//")
@@ -40,6 +41,9 @@ INDEXED = re.compile(rb"\w$")
 NUMBER = rb"(?>[-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?|[-+.]?inf|\.?nan|null|none)"
 # Two numbers or more in brackets at the end of a line.
 LAST_LIST = re.compile(rb"[\[({]\s*+(%s(?>(?:\s*+,\s*+|\s++)%s)+)\s*+[\])}]\W*$" % (NUMBER, NUMBER), re.IGNORECASE)
+OPENING = re.compile(rb"\[")
+# What lists of ranges are called.
+RANGES = re.compile(rb"rang|dist|scan|laser|lidar", re.IGNORECASE)
 # A list of ten numbers or more.
 LONG_LIST = re.compile(rb"(?:\[|\{\w+ )((?>(?:\s*+%s\s*+,){9}[^\[\]{}]*))[\]}]" % NUMBER, re.IGNORECASE)
 WORDS = {
@@ -259,19 +263,36 @@ def in_log(lines: list[bytes]) -> re.Pattern[bytes] | None:
     )
 
 
-def of_one_label(rows: Iterable[Row], lines: list[bytes]) -> Iterable[Row]:
-    """The rows whose brackets have the usual words before them, if other words stand before some of the others."""
-    labels = Counter(_words_before(line) for line in lines if b"[" in line)
-    label, count = labels.most_common(1)[0] if labels else (b"", 0)
-    if len(labels) < 2 or 2 * count <= len(lines) or not label:
+def of_one_label(rows: Iterable[Row], lines: list[bytes], list_: re.Pattern[bytes], notes: Notes) -> Iterable[Row]:
+    """The rows whose lists have the usual words before them, if other words stand before some of the others.
+
+    If none are usual, those that speak of ranges, or the first. list_: finds a list, or its bracket.
+    """
+    found = [(_letters(line[: match.start()]), match) for line in lines if (match := list_.search(line))]
+    labels = Counter(label for label, _ in found)
+    if len(labels) < 2:
         return rows
-    if not all(b"]" in line.partition(b"[")[2] for line in lines if _words_before(line) == label):
+    label, count = labels.most_common(1)[0]
+    if 2 * count <= len(lines):
+        recur = [label for label, count in labels.items() if count > 1]
+        label = field_of_ranges(recur, notes) if len(recur) > 1 else b""
+    closed = all(b"]" in match.string[match.start() :] for words, match in found if words == label)
+    if not label or not closed:
         return rows
-    return (row for row in rows if _words_before(row.text) == label)
+    return (row for row in rows if (match := list_.search(row.text)) and _letters(row.text[: match.start()]) == label)
 
 
-def _words_before(line: bytes) -> bytes:
-    return re.sub(rb"[^A-Za-z]+", b" ", line.partition(b"[")[0]).strip()
+def _letters(text: bytes) -> bytes:
+    return re.sub(rb"[^A-Za-z]+", b" ", text).strip()
+
+
+def field_of_ranges(fields: list[bytes], notes: Notes) -> bytes:
+    """What the lists of ranges are called, by their name or because they are the first; others are told."""
+    taken = next(filter(RANGES.search, fields), fields[0])
+    if len(fields) > 1 and not any(notice.kind == "fields" for notice in notes.notices):
+        shown, *others = (text_of(field).rstrip(":= ") for field in sorted(fields, key=taken.__ne__))
+        notes.notice("fields", f"Only the lists called {shown} were read, and not those called {', '.join(others)}.")
+    return taken
 
 
 def bracketed(rows: Iterable[Row], name: str) -> Iterator[Row]:

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from ..account import Notes
 from ..source import Source
-from .dialect import COMMENTS, Row
+from .dialect import COMMENTS, Row, field_of_ranges
 
 # How most rows begin; nothing is to be done to them.
 PLAIN = frozenset(b"%c" % each for each in b"+-.0123456789")
@@ -24,10 +24,7 @@ RECEIVED = re.compile(
 LABEL = re.compile(
     rb"\s*[A-Za-z_][\w ]{0,40}(?:\([\w\xc2\xb0]+\))?\s*[:=]\s*(?=(?:[-+.]?(?:\d|nan|inf)[^\s,;]*[\s,;]+){10})"
 )
-FIELD, RANGES = (
-    re.compile(rb"\s*[A-Za-z_][\w ]{0,40}\s*[:=]"),
-    re.compile(rb"rang|dist|scan|laser|lidar", re.IGNORECASE),
-)
+FIELD = re.compile(rb"\s*[A-Za-z_][\w ]{0,40}\s*[:=]")
 QUOTES = re.compile(rb'\s*"([^"]*[,;\t][^"]*)"\s*[,;]?\s*')
 DASH = re.compile(rb"\s*-\s+(?=[-+]?\.?(?:\d|nan|inf)\S*\s*$)", re.IGNORECASE)
 ROW_END = re.compile(rb"\\\\(?:\[[^\]]*\])?\s*(?:\\\w+\s*)*$|\\(?:tabularnewline|cr)\b.*$")
@@ -134,10 +131,7 @@ def _of_one_field(lines: list[bytes], notes: Notes) -> Callable[[bytes], bytes] 
         return label if label in recurs else re.sub(rb"[\W\d]+", b" ", label).strip()
 
     fields = list(dict.fromkeys(map(field_of, labels)))
-    taken = next(filter(RANGES.search, fields), fields[0])
-    if len(fields) > 1 and not any(notice.kind == "fields" for notice in notes.notices):
-        shown, *others = (each.decode("utf-8", "replace").rstrip(":= ") for each in sorted(fields, key=taken.__ne__))
-        notes.notice("fields", f"Only the lists called {shown} were read, and not those called {', '.join(others)}.")
+    taken = field_of_ranges(fields, notes)
 
     def off(line: bytes) -> bytes:
         match = LABEL.match(line)

@@ -18,6 +18,7 @@ from .beam_groups import groups_of, read_groups
 from .beam_rows import columns_beside, read_beams, table_of
 from .dialect import (
     COMMENTS,
+    OPENING,
     Dialect,
     Row,
     begins_with_number,
@@ -219,11 +220,12 @@ def _read(source: Source, reading: Reading, head: list[Row], rows: Iterable[Row]
     lines = [row.text for row in head]
     source.notes.kind = "text"
     if not is_list(lines[0]) and (pattern := in_log(lines)) is not None:
+        rows = of_one_label(rows, lines, pattern, source.notes)
         lists = (Row(row.number, found[1]) for row in rows if (found := pattern.search(row.text)))
         head = list(islice(lists, SAMPLE))
         return _read_numbers(source, reading, head, chain(head, lists), Dialect(b","), None)
     if is_list(lines[0]):
-        rows, dialect = bracketed(of_one_label(rows, lines), source.name), Dialect(b" ")
+        rows, dialect = bracketed(of_one_label(rows, lines, OPENING, source.notes), source.name), Dialect(b" ")
         head = list(islice(rows, SAMPLE))
         if not head:
             raise ValueError(f"{source.name} has brackets, but no list of numbers in them; {TEXT_FORMS}")
