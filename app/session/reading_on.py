@@ -25,11 +25,11 @@ Tell = Callable[[Loading], None]
 
 
 class _File:
-    """A file on its way: what was read of it, and how it ended."""
+    """A file on its way: what was read of it, now or before, and how it ended."""
 
-    def __init__(self, view: View) -> None:
+    def __init__(self, view: View, before: Recording | None) -> None:
         self.view = view
-        self.recording: Recording | None = None
+        self.recording = before
         self.error: BaseException | None = None
         self.ended = self.stopped = self.cut = False
 
@@ -50,12 +50,13 @@ class ReadingOn:
         self._file: _File | None = None
         self._thread = Newest(name, self._read)
 
-    def recording(self, view: View, wanted: Callable[[], bool]) -> Recording:
+    def recording(self, view: View, wanted: Callable[[], bool], before: Recording | None = None) -> Recording:
         """The recording of a View, or its first scans, if the View's frame is one of them; waits for them.
 
-        Raises Cancelled once it is not `wanted`, and what `opened` raises.
+        before: what was read of the file before it was left, which is shown until there is more. Raises Cancelled once
+        it is not `wanted`, and what `opened` raises.
         """
-        file = self._begun(view)
+        file = self._begun(view, before)
         if file is None:
             return opened(self._library, view, self._tell, wanted)
         while not file.enough_for(view):
@@ -64,6 +65,10 @@ class ReadingOn:
                 raise Cancelled
             with self._changed:
                 self._changed.wait_for(lambda: file.enough_for(view), POLL)
+        if file.ended and not file.cut:
+            # The library is asked again when something changes. Not now: a file that another program is writing, or has
+            # deleted, would be read again and again.
+            self._leave()
         if file.recording is None:
             assert file.error is not None
             raise file.error
@@ -97,7 +102,7 @@ class ReadingOn:
         with self._changed:
             self._file = None
 
-    def _begun(self, view: View) -> _File | None:
+    def _begun(self, view: View, before: Recording | None) -> _File | None:
         """The file of a View on its way; None if it is open already, or if there is no file. Others are left."""
         with self._changed:
             if self._file is not None and self._file.view.place == view.place:
@@ -105,7 +110,7 @@ class ReadingOn:
             self._file = None
             if not is_file(view) or self._library.open_already(view.recording, view.read_as) is not None:
                 return None
-            self._file = _File(view)
+            self._file = _File(view, before)
             self._thread.put(self._file)
             return self._file
 
@@ -115,6 +120,8 @@ class ReadingOn:
 
         def show(part: Recording) -> None:
             with self._changed:
+                if file.recording is not None and len(part) < len(file.recording):
+                    return
                 file.recording = part
                 self._changed.notify_all()
             self._grown()
@@ -137,9 +144,6 @@ class ReadingOn:
                 recording = _cut_short(file.recording, None if file.stopped else str(error))
             file.recording, file.error, file.ended = recording, error, True
             waited = self._file is file
-            # The library keeps what is whole, and says why what is not cannot be read when it is asked again.
-            if waited and not file.cut:
-                self._file = None
             self._changed.notify_all()
         if waited:
             self._grown()

@@ -444,7 +444,8 @@ class Session:
                 now = self._wanted.view
                 return now.place == view.place and not self._cancelled and not self._closing
 
-        return self._reading.recording(view, wanted)
+        before = None if shown is None or shown.view.place != view.place else shown.recording
+        return self._reading.recording(view, wanted, before if before is not None and before.partial else None)
 
     def _fall_back(self, request: Request, message: str | None) -> None:
         """Keep the present picture; if there is none, show the first recording that works."""

@@ -59,10 +59,13 @@ def loaded(path: Path, notes: Notes) -> NDArray:
     left = path.stat().st_size - start
     row = kind.itemsize * int(np.prod(shape[1:], dtype=np.int64))
     if kind.hasobject or fortran or not shape or not row or left // row >= shape[0] or left < row:
-        return np.load(path, mmap_mode="r", allow_pickle=False)
+        # Not mapped into memory: a file that another program makes shorter would end this process.
+        return np.load(path, allow_pickle=False)
     rows = left // row
     notes.notice("breaks off", f"The array announces {shape[0]} rows, but only {rows} are there.")
-    return np.memmap(path, kind, "r", start, (rows, *shape[1:]))
+    with path.open("rb") as file:
+        file.seek(start)
+        return np.fromfile(file, kind, rows * (row // kind.itemsize)).reshape(rows, *shape[1:])
 
 
 def header_of(path: Path) -> tuple[tuple[tuple[int, ...], bool, np.dtype], int]:

@@ -1,3 +1,5 @@
+import subprocess
+import sys
 import zipfile
 
 import numpy as np
@@ -124,3 +126,25 @@ def test_pairs_of_numbers_are_points_or_angles_and_distances_of_each_scan(tmp_pa
     assert any(guess.field == "columns" for guess in recording.account.guesses) == (form != "complex")
     with pytest.raises(ValueError, match="has 2 numbers for each beam; columns must name them, such as x,y"):
         open_recording(tmp_path / "array.npy", columns="stamp,x,y")
+
+
+def test_a_file_that_another_program_makes_shorter_does_not_end_the_process(tmp_path):
+    """A file that is mapped into memory would end it with a signal."""
+    path = tmp_path / "array.npy"
+    np.save(path, np.ones((100, 1000)))
+    whole = path.read_bytes()
+    program = """
+import os, sys
+from pathlib import Path
+from lineseg.readers.account import Notes
+from lineseg.readers.arrays import loaded
+
+path = Path(sys.argv[1])
+array = loaded(path, Notes())
+os.truncate(path, 0)
+print(array.sum())
+"""
+    for content, total in ((whole, "100000.0\n"), (whole[:-8], "99000.0\n")):
+        path.write_bytes(content)
+        ended = subprocess.run([sys.executable, "-c", program, path], capture_output=True, text=True)
+        assert (ended.returncode, ended.stdout) == (0, total), ended.stderr

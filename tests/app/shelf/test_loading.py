@@ -192,3 +192,40 @@ def test_leaving_a_bag_that_is_read_stops_reading_it(bag_shelf: Address, halfway
         for load in loads:
             load.join(20)
         assert not any(load.is_alive() for load in loads)
+
+
+@pytest.mark.parametrize("fate", ["deleted", "grows", "replaced"])
+def test_a_bag_that_changes_while_it_is_read_is_shown_as_it_was_and_read_once(
+    bag_shelf: Address, halfway: threading.Event, tmp_path: Path, fate: str
+):
+    bag = tmp_path / "long.bag"
+    with page_of(bag_shelf) as page:
+        page.hello()
+        assert page.change(recording=ids(page)["long.bag"])["growing"]
+        if fate == "grows":
+            with bag.open("ab") as file:
+                file.write(b"more")
+        else:
+            bag.unlink()
+        if fate == "replaced":
+            bag.write_text("nothing")
+        halfway.set()
+        while (message := page.hear_a("drawn", "error"))["type"] == "drawn" and message["state"]["growing"]:
+            pass
+        assert message["type"] == "drawn"
+        assert message["state"]["frames"] == 400
+
+
+def test_a_bag_that_is_gone_when_one_comes_back_to_its_first_scans_is_told_once(
+    bag_shelf: Address, halfway: threading.Event, tmp_path: Path
+):
+    with page_of(bag_shelf) as page:
+        page.hello()
+        first = page.change(recording=ids(page)["long.bag"])["frames"]
+        (tmp_path / "long.bag").unlink()
+        page.refused(recording="sample:none")
+        halfway.set()
+        state = page.until(lambda state: not state["growing"])
+        assert (state["label"], state["frames"]) == ("long.bag", first)
+        (notice,) = (each for each in state["account"]["notices"] if each["kind"] == "not all")
+        assert "is no longer in" in notice["text"]
