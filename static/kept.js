@@ -19,12 +19,16 @@ export function recalled(key) {
   }
 }
 
-/** @param {string} key @param {string | null} value null: forgets it */
+/**
+ * Whether it is kept: without room, or if the browser says no, a choice holds until the page is left.
+ * @param {string} key @param {string | null} value null: forgets it
+ */
 export function keep(key, value) {
   try {
     if (value === null) localStorage.removeItem(key);
     else localStorage.setItem(key, value);
+    return true;
   } catch {
-    // The choice holds until the page is left.
+    return false;
   }
 }

@@ -189,7 +189,7 @@ export class LessonList {
 
   /** What was answered, right or not. @param {Lesson} lesson @param {string} answer @param {boolean} right */
   note(lesson, answer, right) {
-    this.progress.note(lesson, answer, right);
+    if (!this.progress.note(lesson, answer, right)) toast(this.#progressText.full);
   }
 
   /** Saves what was answered as a file. */

@@ -34,13 +34,13 @@ export class Progress {
     return [...this.#of.values()].filter(({ done }) => done).length;
   }
 
-  /** @param {{id: string, title: string}} lesson @param {string} answer @param {boolean} right */
+  /** Whether the browser keeps it. @param {{id: string, title: string}} lesson @param {string} answer @param {boolean} right */
   note({ id, title }, answer, right) {
     const before = this.#of.get(id) ?? { title, done: false, answers: [] };
     const said = { answer: answer.slice(0, LONGEST), right, when: new Date().toISOString() };
     const answers = [...before.answers, said].slice(-MOST_ANSWERS);
     this.#of.set(id, { title, done: before.done || right, answers });
-    this.#keep();
+    return this.#keep();
   }
 
   /** The text of a file. */
@@ -64,13 +64,14 @@ export class Progress {
         answers: all.slice(-MOST_ANSWERS),
       });
     }
-    this.#keep();
-    return words.read(read.length, this.done);
+    const kept = this.#keep();
+    return `${words.read(read.length, this.done)}${kept ? "" : ` ${words.full}`}`;
   }
 
   #keep() {
-    keep(KEY, JSON.stringify(Object.fromEntries(this.#of)));
-    keep(FORMER_KEY, null);
+    const kept = keep(KEY, JSON.stringify(Object.fromEntries(this.#of)));
+    if (kept) keep(FORMER_KEY, null);
+    return kept;
   }
 }
 

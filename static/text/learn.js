@@ -80,6 +80,7 @@ export const learnText = {
     saveHint: "A small file with what you answered, to hand in or to go on with elsewhere",
     open: "Open saved progress",
     file: "lineseg_progress.json",
+    full: "This browser does not keep your answers, or has no room for them: “Save my progress” writes a file.",
     notOne: "This file is no saved progress. It is written by “Save my progress”.",
     read: (/** @type {number} */ lessons, /** @type {number} */ done) =>
       `Progress in ${lessons} ${lessons === 1 ? "lesson" : "lessons"} was read; ${done} are done now.`,

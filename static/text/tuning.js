@@ -17,6 +17,8 @@ export const tuningText = {
     manage: "Keep or open a profile…",
     used: (/** @type {string} */ name) => `Profile ${name}. Ctrl+Z brings the former thresholds and layers back.`,
     unknown: (/** @type {string} */ method) => `This profile is for the method ${method}, which is not known here.`,
+    full: (/** @type {string} */ name) =>
+      `This browser has no room for the profile ${name}, so it is not kept. Remove others, or clear what the browser keeps for this page.`,
     notOne: (/** @type {string} */ file) => `${file} is not a profile of lineseg. Choose a .lineseg-profile.json file.`,
   },
   fit: {

@@ -77,18 +77,25 @@ function showProfiles(text, { use, taken }) {
           h("span", {}, profile.name),
           button(text.use, () => (dialog.close(), use(profile))),
           button(text.save, () => download(`${profile.name}.lineseg-profile.json`, JSON.stringify(profile, null, 2))),
-          button(text.remove, () => (keepAs(profile.name, null), refresh())),
+          button(text.remove, () => change(profile.name, null)),
         ),
       ),
     );
   }
 
+  /** @param {string} words @param {Profile | null} profile */
+  function change(words, profile) {
+    const kept = keepAs(words, profile);
+    trouble.hidden = kept;
+    if (!kept) setText(trouble, text.full(words));
+    refresh();
+    return kept;
+  }
+
   function add() {
     const words = name.value.trim();
     if (!words) return name.focus();
-    keepAs(words, taken(words));
-    name.value = "";
-    return refresh();
+    if (change(words, taken(words))) name.value = "";
   }
 
   /** @param {File[]} files */
@@ -96,8 +103,7 @@ function showProfiles(text, { use, taken }) {
     const found = await profileIn(files[0]);
     trouble.hidden = found !== null;
     if (!found) return setText(trouble, text.notOne(files[0].name));
-    keepAs(found.name, found);
-    return refresh();
+    return change(found.name, found);
   }
 
   const dialog = openDialog(
@@ -121,7 +127,7 @@ function showProfiles(text, { use, taken }) {
 /** @param {string} name @param {Profile | null} profile null: no longer */
 function keepAs(name, profile) {
   const { [name]: _, ...others } = kept();
-  keep(KEY, JSON.stringify(profile ? { ...others, [name]: profile } : others));
+  return keep(KEY, JSON.stringify(profile ? { ...others, [name]: profile } : others));
 }
 
 /** The profiles of this browser. @returns {Record<string, Profile>} */

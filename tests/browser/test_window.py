@@ -189,6 +189,17 @@ def test_a_profile_is_kept_under_a_name_and_chosen_like_a_preset(new_tab: Callab
     with page.expect_download() as saved:
         page.get_by_role("button", name="Save file").click()
     assert json.loads(saved.value.path().read_text())["view"]["params"]["epsilon"] == 0.07
+    page.evaluate("""() => {
+        for (let [size, key] = [4_000_000, 0]; size >= 1; key++)
+            try { localStorage["full" + key] = "x".repeat(size); } catch { size = Math.floor(size / 2); }
+    }""")
+    page.locator(".profile-name").fill("one more")
+    page.get_by_role("button", name="Keep what is on the screen").click()
+    page.get_by_text("This browser has no room for the profile one more").wait_for()
+    assert (page.locator(".profiles li").count(), page.locator(".profile-name").input_value()) == (1, "one more")
+    page.evaluate(
+        "() => Object.keys(localStorage).forEach((key) => key.startsWith('full') && delete localStorage[key])"
+    )
     page.keyboard.press("Escape")
     tab.type_value("epsilon", "0.02")
     tab.until("s.params.epsilon === 0.02")
