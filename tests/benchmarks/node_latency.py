@@ -2,7 +2,8 @@
 
 Each `lineseg node` is a process of its own. It says itself, when it ends, how long it took from the arrival of a scan
 until its segments were published. The process that writes the scans measures the time until it has read the
-PointCloud2, which includes the transport both ways.
+PointCloud2, which includes the transport both ways. With `--wire` it measures, without a
+node, how long a scan takes from another process until its ranges are an array.
 
     .venv/bin/python tests/benchmarks/node_latency.py --seconds 10
 """
@@ -10,6 +11,7 @@ PointCloud2, which includes the transport both ways.
 from __future__ import annotations
 
 import argparse
+import itertools
 import math
 import struct
 import subprocess
@@ -34,6 +36,7 @@ from lineseg_app.live.dds_domain import join
 from lineseg_app.live.dds_types import serialised_type
 
 from lineseg import open_recording
+from lineseg.readers.laser_scan import decode_cdr
 
 STAMP = struct.Struct("<iI")
 RATE = 40
@@ -82,7 +85,18 @@ def main() -> None:
     options = argparse.ArgumentParser(description=__doc__)
     options.add_argument("--seconds", type=float, default=10.0)
     options.add_argument("--lasers", type=int, default=4)
+    options.add_argument("--wire", action="store_true")
+    options.add_argument("--write", action="store_true", help=argparse.SUPPRESS)
     given = options.parse_args()
+    if given.wire:
+        with loopback():
+            writing = subprocess.Popen([sys.executable, __file__, "--write"])
+            try:
+                return wire_to_array()
+            finally:
+                writing.terminate()
+    if given.write:
+        return write_scans()
     topics = [f"/laser{number}" for number in range(given.lasers)]
     with loopback():
         nodes = [
@@ -99,6 +113,36 @@ def main() -> None:
                 node.terminate()
             for topic, node in zip(topics, nodes, strict=True):
                 print(topic, node.communicate()[1].splitlines()[-1].removeprefix("lineseg: "))
+
+
+def write_scans() -> None:
+    """Until it is terminated; the stamp says when."""
+    participant, kind, messages = join(None), serialised_type("sensor_msgs/msg/LaserScan"), scans()
+    writer = DataWriter(participant, Topic(participant, "rt/wire", kind), qos=qos_of(reliable=True))
+    for message in itertools.cycle(messages):
+        now = time.time()
+        STAMP.pack_into(message, 4, int(now), int(now % 1 * 1e9))
+        writer.write(kind(bytes(message)))
+        time.sleep(0.005)
+
+
+def wire_to_array(times: int = 500) -> None:
+    participant = join(None)
+    topic = Topic(participant, "rt/wire", serialised_type("sensor_msgs/msg/LaserScan"))
+    reader = DataReader(participant, topic, qos=qos_of(reliable=True))
+    waiting, ready = WaitSet(participant), ReadCondition(reader, SampleState.Any | ViewState.Any | InstanceState.Any)
+    waiting.attach(ready)
+    beams, delays, spent = 0, [], 0.0
+    while len(delays) < times:
+        waiting.wait(duration(seconds=1))
+        for sample in reader.take(1):
+            scan = decode_cdr(sample.data)
+            beams, spent = len(scan.ranges), spent or time.process_time()
+            delays.append(1e3 * (time.time() - scan.stamp))
+    spent = 1e3 * (time.process_time() - spent) / times
+    middle, most = np.percentile(delays, (50, 95))
+    print(f"{beams} beams, from another process to an array: p50 {middle:.2f} ms, p95 {most:.2f} ms; "
+          f"the reader takes {spent:.2f} ms of processor for a scan")  # fmt: skip
 
 
 def measure(topics: list[str], seconds: float) -> None:
