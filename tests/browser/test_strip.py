@@ -2,24 +2,29 @@
 
 from __future__ import annotations
 
+import re
+import threading
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from bags import bag1
 from browser.conftest import Tab
 from lineseg_app.server import Settings
+from lineseg_app.shelf import library
 from live import Address, serving
 from long import long_hallway
 
-from lineseg import Params, open_recording
+from lineseg import Params, Recording, open_recording
 from lineseg.doubt import SCORES
-from lineseg.readers import save_npz
+from lineseg.readers import Progress, Reading, parts, save_npz
 from lineseg.survey import survey
 from lineseg.survey.committee import with_disputes
 from lineseg.survey.stability import with_stability
 
+Show = Callable[[Recording], None]
 FRAMES = 3_000
 # The stability of so many frames is computed behind everything else.
 PATIENCE = 150
@@ -35,7 +40,10 @@ def long(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def address(long: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Address]:
-    with serving(Settings(files=(long,), data_folder=tmp_path_factory.mktemp("data"))) as address:
+    data = tmp_path_factory.mktemp("data")
+    stamps = [100 + 0.025 * k for k in range(400)]
+    bags = [bag1(data / name, ("/scan", [2.0] * 90), stamps=stamps) for name in ("stopped.bag", "torn.bag")]
+    with serving(Settings(files=(long, *bags), data_folder=data)) as address:
         yield address
 
 
@@ -182,3 +190,50 @@ def test_a_recording_of_one_frame_says_why_there_is_no_strip(tab):
     tab.until("s.frames > 1")
     strip_of(tab)
     tab.eventually(note.is_hidden, "the note stays")
+
+
+class Held:
+    """Bags that are read part by part, as a test lets them."""
+
+    def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
+        self.more = threading.Semaphore(0)
+        self.torn = False
+        monkeypatch.setattr(parts, "FIRST", 0.0)
+        monkeypatch.setattr(parts, "EVERY", 0.0)
+        monkeypatch.setattr(library, "open_recording", self._opened)
+
+    def _opened(self, path: Path, reading: Reading, *, progress: Progress, so_far: Show) -> Recording:
+        def show(part: Recording) -> None:
+            so_far(part)
+            while not self.more.acquire(timeout=0.05):
+                progress(len(part), 400)
+
+        def going_on(done: int, total: int) -> None:
+            if self.torn:
+                raise OSError("the disk is gone")
+            progress(done, total)
+
+        return open_recording(path, reading, progress=going_on, so_far=show)
+
+
+def test_the_timeline_grows_and_keeps_what_was_read_when_it_is_stopped_or_cannot_go_on(tab, monkeypatch):
+    held = Held(monkeypatch)
+    tab.choose_recording("stopped.bag")
+    first = tab.until('s.label === "stopped.bag" && s.growing')["frames"]
+    held.more.release()
+    frames = tab.until(f"s.frames > {first}")["frames"]
+    assert len(strip_of(tab)["values"]) == frames
+    scrubber = tab.page.get_by_role("slider", name="Frame")
+    scrubber.press("End")
+    assert tab.until(f"s.frame === {frames - 1}")["growing"]
+    tab.page.get_by_role("button", name="Stop", exact=True).click()
+    assert tab.until("!s.growing")["frames"] == frames
+    told = tab.page.locator(".noticed")
+    told.get_by_text(f"Only the first {frames} scans were read: you stopped it.").wait_for()
+
+    tab.choose_recording("torn.bag")
+    first = tab.until('s.label === "torn.bag" && s.growing')["frames"]
+    held.torn = True
+    held.more.release()
+    assert tab.until("!s.growing")["frames"] == first
+    told.get_by_text(re.compile(f"Only the first {first} scans were read: .*the disk is gone")).wait_for()
