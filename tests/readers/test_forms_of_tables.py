@@ -102,6 +102,12 @@ FORMS = {
     "lists of other quantities in brackets": "".join(
         f"{name}: [{row(each, ', ')}]\n" for ranges in SCANS
         for name, each in (("intensities", np.full(181, 120)), ("ranges", ranges))),
+    "angles and ranges in lines": "".join(
+        f"angles: {row(DEGREES, ' ')}\nranges: {row(each, ' ')}\nintensities: {row(100 * each, ' ')}\n"
+        for each in SCANS),
+    "angles and ranges in a log": "".join(
+        f"[{('INFO', 'WARN')[at]}] [17.5]: {name}: [{row(each, ', ')}]\n" for at, ranges in enumerate(SCANS)
+        for name, each in (("angles", DEGREES), ("ranges", ranges))),
     "numbers beside points": "".join(f"{beam} {x:g} {y:g}\n" for beam, (x, y) in
                                      enumerate(np.array([points(each) for each in SCANS]).reshape(-1, 2))),
     "names above each row": "".join(f"angle,{','.join(f'range_{beam}' for beam in range(181))}\n0.5,{row(each)}\n"

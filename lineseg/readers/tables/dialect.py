@@ -42,8 +42,9 @@ NUMBER = rb"(?>[-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?|[-+.]?inf|\.?nan|null|none
 # Two numbers or more in brackets at the end of a line.
 LAST_LIST = re.compile(rb"[\[({]\s*+(%s(?>(?:\s*+,\s*+|\s++)%s)+)\s*+[\])}]\W*$" % (NUMBER, NUMBER), re.IGNORECASE)
 OPENING = re.compile(rb"\[")
-# What lists of ranges are called.
+# What lists of ranges are called, and those of their angles.
 RANGES = re.compile(rb"rang|dist|scan|laser|lidar", re.IGNORECASE)
+OF_ANGLES = re.compile(rb"angle|bearing|theta|azimuth", re.IGNORECASE)
 # A list of ten numbers or more.
 LONG_LIST = re.compile(rb"(?:\[|\{\w+ )((?>(?:\s*+%s\s*+,){9}[^\[\]{}]*))[\]}]" % NUMBER, re.IGNORECASE)
 WORDS = {
@@ -264,35 +265,34 @@ def in_log(lines: list[bytes]) -> re.Pattern[bytes] | None:
 
 
 def of_one_label(rows: Iterable[Row], lines: list[bytes], list_: re.Pattern[bytes], notes: Notes) -> Iterable[Row]:
-    """The rows whose lists have the usual words before them, if other words stand before some of the others.
+    """The rows whose lists have the usual words before them, or those that speak of ranges or angles, if words before
+    others do not.
 
-    If none are usual, those that speak of ranges, or the first. list_: finds a list, or its bracket.
+    list_: finds a list, or its bracket.
     """
     found = [(_letters(line[: match.start()]), match) for line in lines if (match := list_.search(line))]
     labels = Counter(label for label, _ in found)
-    if len(labels) < 2:
+    usual = {label for label, count in labels.items() if list_ is OPENING and label and 2 * count > len(lines)}
+    of_ranges = {label for label in labels if RANGES.search(label)}
+    kept = usual or of_ranges | {label for label in labels if OF_ANGLES.search(label)}
+    closed = all(b"]" in match.string[match.start() :] for label, match in found if label in kept)
+    if not (usual or of_ranges) or len(kept) == len(labels) or not closed:
         return rows
-    label, count = labels.most_common(1)[0]
-    if 2 * count <= len(lines):
-        recur = [label for label, count in labels.items() if count > 1]
-        label = field_of_ranges(recur, notes) if len(recur) > 1 else b""
-    closed = all(b"]" in match.string[match.start() :] for words, match in found if words == label)
-    if not label or not closed:
-        return rows
-    return (row for row in rows if (match := list_.search(row.text)) and _letters(row.text[: match.start()]) == label)
+    if not usual:
+        tell_fields(notes, kept, labels.keys() - kept)
+    return (row for row in rows if (match := list_.search(row.text)) and _letters(row.text[: match.start()]) in kept)
 
 
 def _letters(text: bytes) -> bytes:
     return re.sub(rb"[^A-Za-z]+", b" ", text).strip()
 
 
-def field_of_ranges(fields: list[bytes], notes: Notes) -> bytes:
-    """What the lists of ranges are called, by their name or because they are the first; others are told."""
-    taken = next(filter(RANGES.search, fields), fields[0])
-    if len(fields) > 1 and not any(notice.kind == "fields" for notice in notes.notices):
-        shown, *others = (text_of(field).rstrip(":= ") for field in sorted(fields, key=taken.__ne__))
-        notes.notice("fields", f"Only the lists called {shown} were read, and not those called {', '.join(others)}.")
-    return taken
+def tell_fields(notes: Notes, kept: Iterable[bytes], others: Iterable[bytes]) -> None:
+    """Tells, once, which lists are read and which are not, by what they are called."""
+    if any(notice.kind == "fields" for notice in notes.notices):
+        return
+    read, left = (", ".join(sorted(text_of(field).rstrip(":= ") for field in fields)) for fields in (kept, others))
+    notes.notice("fields", f"Only the lists called {read} were read, and not those called {left}.")
 
 
 def bracketed(rows: Iterable[Row], name: str) -> Iterator[Row]:

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from ..account import Notes
 from ..source import Source
-from .dialect import COMMENTS, Row, field_of_ranges
+from .dialect import COMMENTS, OF_ANGLES, RANGES, Row, tell_fields
 
 # How most rows begin; nothing is to be done to them.
 PLAIN = frozenset(b"%c" % each for each in b"+-.0123456789")
@@ -119,7 +119,7 @@ def _undressing(lines: list[bytes], notes: Notes) -> Callable[[bytes], bytes] | 
 
 def _of_one_field(lines: list[bytes], notes: Notes) -> Callable[[bytes], bytes] | None:
     """What takes off the labels of long lists, such as "ranges: 1.5 1.6 …", if most lines have one or each line is a
-    field of a message; only lists of one label are left."""
+    field of a message; only lists of one label and of their angles are left."""
     labels = [match[0].strip() for line in lines if (match := LABEL.match(line))]
     most = 2 * len(labels) > len(lines)
     if not labels or not (most or all(map(FIELD.match, lines))):
@@ -131,12 +131,15 @@ def _of_one_field(lines: list[bytes], notes: Notes) -> Callable[[bytes], bytes] 
         return label if label in recurs else re.sub(rb"[\W\d]+", b" ", label).strip()
 
     fields = list(dict.fromkeys(map(field_of, labels)))
-    taken = field_of_ranges(fields, notes)
+    taken = next(filter(RANGES.search, fields), fields[0])
+    kept = {taken} | {field for field in fields if OF_ANGLES.search(field)}
+    if len(kept) < len(fields):
+        tell_fields(notes, kept, set(fields) - kept)
 
     def off(line: bytes) -> bytes:
         match = LABEL.match(line)
         if match is None:
             return line if most else b""
-        return line[match.end() :] if field_of(match[0].strip()) == taken else b""
+        return line[match.end() :] if field_of(match[0].strip()) in kept else b""
 
     return off
