@@ -29,6 +29,7 @@ COLUMNS = (
 # How what a spreadsheet computes begins.
 FORMULAS = ("=", "+", "-", "@", "\t", "\r")
 METRES = "metres in the frame of the laser, x ahead and y to the left; not degrees"
+COLLECTION_END = "\n]}\n"
 POLAR_COLUMNS = ("rho", "theta", "var_rho", "cov_rho_theta", "var_theta")
 
 
@@ -52,8 +53,7 @@ def geojson(rows: Rows, noise: Noise | None = None, about: About = None) -> Iter
 
     Coordinates are metres in the frame of the laser, not degrees, as its member `coordinates` says.
     """
-    head = f'"about":{_text(about)},' if about else ""
-    yield f'{{"type":"FeatureCollection","coordinates":"{METRES}",{head}"features":['
+    yield collection_head(about)
     separator = "\n"
     for frame, scan, extraction in rows:
         for number, fields in enumerate(_segments(scan, extraction, noise)):
@@ -62,7 +62,13 @@ def geojson(rows: Rows, noise: Noise | None = None, about: About = None) -> Iter
             feature = {"type": "Feature", "geometry": line, "properties": about | fields}
             yield separator + _text(feature)
             separator = ",\n"
-    yield "\n]}\n"
+    yield COLLECTION_END
+
+
+def collection_head(about: About) -> str:
+    """What stands before the features of GeoJSON."""
+    head = f'"about":{_text(about)},' if about else ""
+    return f'{{"type":"FeatureCollection","coordinates":"{METRES}",{head}"features":['
 
 
 def csv_lines(rows: Rows, noise: Noise | None = None, about: About = None) -> Iterator[str]:

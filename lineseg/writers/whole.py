@@ -13,7 +13,7 @@ import msgspec
 from ..scan import Recording
 from ..survey.result import Survey
 from .finite import finite_or_none
-from .segments import COLUMNS, About, cell, suffix_of, write_lines
+from .segments import COLLECTION_END, COLUMNS, About, cell, collection_head, suffix_of, write_lines
 
 # Frames whose numbers are Python objects at a time: so few that the collector of cycles finds nothing to look through,
 # which would take longer than all the rest.
@@ -31,6 +31,34 @@ class _Segment(msgspec.Struct):
     points: int
     length: float
     rms: float
+
+
+class _Ends(msgspec.Struct, tag_field="type", tag="LineString"):
+    """The geometry of a segment in GeoJSON."""
+
+    coordinates: tuple[tuple[float, float], tuple[float, float]]
+
+
+class _Properties(msgspec.Struct):
+    """What else GeoJSON says of a segment."""
+
+    frame: int
+    stamp: float | None
+    frame_id: str
+    segment: int
+    first: int
+    last: int
+    line: tuple[float, float, float]
+    points: int
+    length: float
+    rms: float
+
+
+class _Feature(msgspec.Struct, tag_field="type", tag="Feature"):
+    """A segment in GeoJSON."""
+
+    geometry: _Ends
+    properties: _Properties
 
 
 class _Frame(NamedTuple):
@@ -60,6 +88,28 @@ def survey_json_lines(recording: Recording, survey: Survey, about: About = None)
         yield encoder.encode_lines(rows).decode()
 
 
+def survey_geojson(recording: Recording, survey: Survey, about: About = None) -> Iterator[str]:
+    """The same as `geojson` of all frames, the features of some frames at a time."""
+    encoder = msgspec.json.Encoder()
+    yield collection_head(about)
+    separator = "\n"
+    for frames, column in _chunks(recording, survey):
+        starts, ends = zip(column["x1"], column["y1"], strict=True), zip(column["x2"], column["y2"], strict=True)
+        lines = zip(column["a"], column["b"], column["c"], strict=True)
+        others = (column[name] for name in ("points", "length", "rms"))
+        fields = list(zip(column["first"], column["last"], lines, *others, strict=True))
+        properties = (
+            _Properties(number, stamp, frame_id, segment, *its_fields)
+            for number, stamp, frame_id, its in frames
+            for segment, its_fields in enumerate(fields[its])
+        )
+        features = list(map(_Feature, map(_Ends, zip(starts, ends, strict=True)), properties))
+        if features:
+            yield separator + encoder.encode_lines(features).decode()[:-1].replace("\n", ",\n")
+            separator = ",\n"
+    yield COLLECTION_END
+
+
 def survey_csv_lines(recording: Recording, survey: Survey, about: About = None) -> Iterator[str]:
     """The same as `csv_lines` of all frames, the rows of a frame at a time."""
     yield _csv(COLUMNS) + "\n"
@@ -85,7 +135,7 @@ def _csv(fields: Iterable[Any]) -> str:
     return text.getvalue()
 
 
-SURVEY_WRITERS = {"jsonl": survey_json_lines, "csv": survey_csv_lines}
+SURVEY_WRITERS = {"jsonl": survey_json_lines, "csv": survey_csv_lines, "geojson": survey_geojson}
 
 
 def write_survey(
