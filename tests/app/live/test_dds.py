@@ -19,10 +19,14 @@ import pytest
 pytest.importorskip("cyclonedds", reason="DDS needs the extra ros2")
 
 import dds_peer
+import rtps_peer
 from dds_peer import DOMAIN, URI, loopback
 from lineseg_app.__main__ import main
 from lineseg_app.live.address import Address, domain_of
+from lineseg_app.live.cdr import CdrWriter
 from lineseg_app.live.dds_domain import discovery, join
+from lineseg_app.live.ring import Ring
+from lineseg_app.live.robot import Robot
 from live import page_of
 from obeying import SECONDS, Obedient, eventually, running, said
 from processes import lineseg
@@ -162,6 +166,29 @@ def test_another_definition_of_the_type_is_told(peer: Obedient, topic: str):
     with running(Address(f"ros2:{topic}"), topic) as told:
         peer.ask("open", topic=topic, kind="OtherScan", write=True)
         said(told, f"{topic} is published, but with another definition of sensor_msgs/LaserScan")
+
+
+def test_how_another_vendor_describes_the_type_does_not_matter(peer: Obedient, topic: str):
+    ranges = np.float32(wall(2.0))
+    cdr = CdrWriter()
+    cdr.numbers("2I", 7, 0)
+    cdr.text("laser")
+    cdr.numbers("7f", -0.7853982, 0.7853982, 0.017453292, 0.0, 0.1, 0.0, 30.0)
+    cdr.sequence(ranges)
+    cdr.sequence(ranges[:0])
+    other = rtps_peer.Publisher(DOMAIN, f"lineseg-{os.getpid()}", topic)
+    robot = Robot(Address(f"ros2:{topic}"), Ring(10), lambda: None)
+    robot.start()
+
+    def heard() -> int:
+        other.send(cdr.bytes())
+        return robot.ring.total
+
+    try:
+        eventually(heard)
+    finally:
+        robot.close()
+        other.close()
 
 
 def test_a_publisher_may_die_and_return(peer: Obedient, topic: str):
