@@ -30,7 +30,8 @@ class Guess:
     def text(self) -> str:
         """One sentence, with the flags that change the guess."""
         flag = as_flags(self.change) if self.change else f"--{self.field.replace('_', '-')}"
-        return f"{self.value} is a guess: {self.why}. To change it: {flag}"
+        is_guess = "are a guess" if self.value.endswith(" columns") else "is a guess"
+        return f"{self.value} {is_guess}: {self.why}. To change it: {flag}"
 
 
 @dataclass(frozen=True)

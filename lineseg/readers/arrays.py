@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ..scan import Recording
 from .account import Notes
-from .reading import columns_of
+from .reading import around_ranges, columns_of
 from .source import Reader, Source
 from .tables.beam_rows import beams_of, words_of
 from .tables.headers import LENGTHS, STAMPS, TURNS, Name, is_angle, is_distance, name_of
@@ -200,8 +200,8 @@ def _guessed(
         return beams_of(source, reading, np.atleast_2d(array), names, format=format)
     values = list(np.atleast_2d(array))
     try:
-        leading = given[:-1] if given else None
-        return scans_of(source, reading, list(range(len(values))), values, 0, leading, format)
+        leading, trailing = around_ranges(given) if given else (None, ())
+        return scans_of(source, reading, list(range(len(values))), values, 0, leading, format, trailing)
     except ValueError as error:
         if "without angles" not in str(error):
             raise

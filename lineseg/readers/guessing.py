@@ -83,6 +83,10 @@ def guess_unit(recording: Recording, reading: Reading, notes: Notes) -> Unit:
     if reading.unit or "unit" not in notes.unstated:
         return reading.unit or notes.found.get("unit", "m")
     ranges = rising(recording.ranges)
+    if notes.found.get("angle_unit") == "1/64deg" and unit_of(ranges) == "mm":
+        why = "no unit is stated, and lasers that count 64ths of a degree count so"
+        notes.guess("unit", UNIT_NAMES["1/4mm"], why, unit="mm")
+        return "1/4mm"
     unit = unit_of(ranges)
     other = next(each for each in ("mm", "m", "cm") if each != unit)
     why = f"no unit is stated, and the median of the ranges is {middle_of(ranges):.4g}"

@@ -13,9 +13,9 @@ import numpy as np
 from .guessing import guess_angle_unit
 from .laser_scan import LaserScan, decode_json
 from .source import Source
-from .tables.dialect import seconds_of
+from .tables.dialect import Dialect, seconds_of
 from .tables.headers import LENGTHS, TIMES, TURNS, Name, is_angle, is_distance, name_of
-from .tables.numbers import all_numbers
+from .tables.numbers import all_numbers, is_number
 from .tables.scan_rows import tell_unknown_direction, tell_usual_angles, usual_angles
 
 # What the fields of a scan are called elsewhere.
@@ -32,6 +32,7 @@ NAMES = {
 }
 # A text of fewer numbers is none of ranges.
 LEAST_NUMBERS = 8
+NO_DIALECT = Dialect(b";")
 # So much of a step may angles be off their places [1], because they are rounded.
 UNEVEN = 0.1
 FIELD = {name: field for field, names in NAMES.items() for name in names}
@@ -48,6 +49,10 @@ def parsed(text: bytes | str) -> Any:
 def as_list(value: Any) -> Any:
     """The values of an object whose keys count from 0, as JavaScript and pandas write arrays; the numbers of a text, or
     of a list of lists of one; all else unchanged."""
+    if isinstance(value, list) and is_text(value):
+        return _numbers_of(value)
+    if isinstance(value, list) and value and all(isinstance(each, list) and is_text(each) for each in value):
+        return [_numbers_of(each) for each in value]
     if isinstance(value, str) and value.count(",") + value.count(" ") >= LEAST_NUMBERS:
         numbers = all_numbers(value.strip("[]() ").encode())
         return value if numbers is None else numbers.tolist()
@@ -57,6 +62,23 @@ def as_list(value: Any) -> Any:
     if not isinstance(value, Mapping) or "0" not in value or str(len(value) - 1) not in value:
         return value
     return list(value.values()) if all(key == str(at) for at, key in enumerate(value)) else value
+
+
+def is_text(values: list[Any]) -> bool:
+    return bool(values) and all(isinstance(each, str) for each in values)
+
+
+def _numbers_of(words: list[str]) -> list[Any]:
+    """The numbers that words are, None for empty ones; the words if one of them is no number."""
+    numbers = [NO_DIALECT.number(word.strip().encode()) for word in words]
+    if None in numbers:
+        return words
+    return [None if number is None or math.isnan(number) else number for number in numbers]
+
+
+def number_in(value: Any) -> Any:
+    """The number that a text is; all else unchanged."""
+    return float(value) if isinstance(value, str) and is_number(value.encode()) else value
 
 
 def json_values(source: Source) -> Iterator[tuple[str, Any]]:

@@ -12,14 +12,14 @@ from typing import Any, TypeGuard
 import numpy as np
 
 from ..scan import Floats, Recording, Topic
-from .json_scans import NAMES, as_list, is_even, json_values, parsed, scan_of
+from .json_scans import NAMES, as_list, is_even, json_values, number_in, parsed, scan_of
 from .laser_scan import LaserScan, decode_json
 from .lasers import choose_laser, need_laser, rows_of_one_laser
 from .source import Reader, Source, Sweeps
 from .stamping import in_seconds
 from .tables.beam_rows import beams_of, read_beams
 from .tables.dialect import LEFT_OUT, Dialect, Row
-from .tables.headers import SCANS, STAMPS, is_angle, is_distance, name_of
+from .tables.headers import LASERS, SCANS, STAMPS, is_angle, is_distance, name_of
 from .tables.numbers import all_numbers
 from .tables.scan_rows import scans_of
 
@@ -33,6 +33,8 @@ OF_OTHERS = re.compile(r"intens|qualit|remission|reflect|rssi|signal|time|stamp|
 LIST_KEYS = ("ranges", "distances", "range", "distance")
 LEAST_BEAMS = 8
 STAMP_NAMES = NAMES["stamp"]
+# Texts that may look like numbers.
+TEXTS = {*LASERS, *NAMES["frame_id"], "child_frame_id"}
 ECHO_LINES = (
     re.compile(rb"^[ \t]*angle_(?:min|increment|step)[ \t]*[:=][ \t]*[-+.\d]", re.MULTILINE),
     re.compile(rb"^[ \t]*ranges[ \t]*[:=][ \t]*(?:[-+.\d\[]|inf|nan|'?<|$)", re.MULTILINE),
@@ -182,7 +184,7 @@ def _messages(value: Any, topic: str, depth: int = 0) -> Iterator[tuple[str, Map
     if isinstance(value, str) and value[:1] in ("{", "["):
         value = parsed(value)
     if isinstance(value, Mapping):
-        value = {key: as_list(held) for key, held in value.items()}
+        value = {key: held if key in TEXTS else number_in(as_list(held)) for key, held in value.items()}
         if (records := _records(value)) is not None:
             value = records
     if isinstance(value, Mapping):
@@ -191,6 +193,8 @@ def _messages(value: Any, topic: str, depth: int = 0) -> Iterator[tuple[str, Map
                 yield topic, beam
         elif _ranges_key(value) is not None or _is_beam(value):
             yield topic, value
+        elif (point := _geo_point(value)) is not None:
+            yield topic, point
         elif (table := _keyed(value)) is not None:
             yield topic, table
         else:
@@ -200,7 +204,7 @@ def _messages(value: Any, topic: str, depth: int = 0) -> Iterator[tuple[str, Map
                 for name, message in _messages(inner, named if isinstance(named, str) and named else topic, depth + 1):
                     lacks = stamp and isinstance(message, Mapping) and not {*STAMP_NAMES, "header"} & message.keys()
                     yield name, {**message, **stamp} if lacks and isinstance(message, Mapping) else message
-    elif _is_table(value):
+    elif isinstance(value, list) and _is_table(value := as_list(value)):
         yield topic, value
     elif isinstance(value, list):
         for inner in value:
@@ -251,6 +255,14 @@ def _is_beam(value: Mapping[str, Any]) -> bool:
     names = [name_of(key) for key, held in value.items() if isinstance(held, int | float)]
     plain = {name.plain for name in names}
     return (any(map(is_angle, names)) and any(map(is_distance, names))) or {"x", "y"} <= plain
+
+
+def _geo_point(value: Mapping[str, Any]) -> dict[str, Any] | None:
+    """x and y of a point of GeoJSON; None for others."""
+    held = value.get("coordinates")
+    if value.get("type") != "Point" or not isinstance(held, list) or len(held) < 2:
+        return None
+    return {"x": held[0], "y": held[1]}
 
 
 def _is_table(value: Any) -> TypeGuard[Table]:

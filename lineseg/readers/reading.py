@@ -209,7 +209,7 @@ class Reading:
         str | None,
         ReadingField(
             "columns",
-            "what the columns hold, in order: stamp, angle, distance, x, y, - for others, ranges for all that follow",
+            "what the columns hold, in order: stamp, angle, distance, x, y, - for others, ranges for all in between",
             "numbers",
             metavar="NAME,NAME,…",
             only=TEXT_FORMATS,
@@ -370,11 +370,17 @@ def columns_of(text: str) -> tuple[str, ...]:
         if words.count(word) > 1:
             raise ValueError(f"{word} is named twice")
     beams = [pair for pair in (("angle", "distance"), ("x", "y")) if set(pair) <= set(words)]
-    if "ranges" in words and (beams or words[-1] != "ranges"):
-        raise ValueError("ranges is all that follows, so it is the last column and needs no other distances")
+    if "ranges" in words and not {*words} <= {"ranges", "stamp", "-"}:
+        raise ValueError("beside ranges, which are all columns in between, only stamp and - can be named")
     if len(beams) + ("ranges" in words) != 1:
-        raise ValueError("name angle and distance, or x and y, or end with ranges")
+        raise ValueError("name angle and distance, or x and y, or ranges")
     return words
+
+
+def around_ranges(words: tuple[str, ...]) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """What the columns before the ranges hold, and those after them."""
+    at = words.index("ranges")
+    return words[:at], words[at + 1 :]
 
 
 def _checked(name: str, value: Any, kind: Any, entry: ReadingField) -> Any:

@@ -22,6 +22,8 @@ ALIAS = re.compile(r"(?:^|[\s\[{,:])\*\w", re.MULTILINE)
 CALL = re.compile(r"^[^#\n]*Params\(", re.MULTILINE)
 COMMENT = re.compile(r"(?:^|(?<=\s))#.*")
 NESTED = re.compile(r"(?:[\[{]\s*){50}")
+# What drivers of lasers are told, and scans have.
+OF_LASER = re.compile(r"(?:angle|range|scan|time)_(?:min|max|increment|time)$|(?:min|max)_(?:angle|range)$")
 FLAG = re.compile(r"(?<!\S)(?:--([a-z][a-z0-9_-]*)|([a-z][a-z0-9_]*)(?==))")
 Found = tuple[str, Any, int]  # name as written, value, line (0: unknown)
 Known = Mapping[str, str]  # name or alias → name
@@ -86,6 +88,11 @@ def _values(found: Iterable[Found], kind: type[Thresholds], known: Known) -> dic
     for written, value, line in found:
         where = f"line {line}: " if line else ""
         name = known.get(written)
+        if name is None and OF_LASER.match(written):
+            raise ValueError(
+                f"{where}{written} is a setting of a laser, not a threshold; to see its scans, open a recording of "
+                f"them. Thresholds are {_names(kind)}."
+            )
         if name is None:
             raise ValueError(f"{where}there is no threshold {written!r}; choose from {_names(kind)}.")
         try:

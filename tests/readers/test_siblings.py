@@ -43,6 +43,30 @@ def scan(**changes):
     return {name: value for name, value in (whole | changes).items() if value is not ...}
 
 
+POINTS = [[float(x), float(y)] for x, y in np.column_stack((np.nan_to_num(ROOM * np.cos(BEARINGS)),
+          np.nan_to_num(ROOM * np.sin(BEARINGS))))]  # fmt: skip
+OBJECTS = {
+    "numbers as texts": [
+        {"angle": f"{angle:.1f}", "distance": f"{each:.3f}"} for angle, each in zip(DEGREES, ROOM, strict=True)
+    ],
+    "ranges as texts": {"angle_min": str(BEARINGS[0]), "angle_increment": str(STEP), "ranges": row().split(",")},
+    "points of GeoJSON": {"features": [{"geometry": {"type": "Point", "coordinates": each}} for each in POINTS]},
+}
+
+
+@pytest.mark.parametrize("name", OBJECTS)
+def test_json_with_texts_or_geometry_has_the_scan(tmp_path, name):
+    path = tmp_path / "made.json"
+    path.write_text(json.dumps(OBJECTS[name]))
+    right(open_recording(path), 1)
+
+
+def test_columns_after_the_ranges_can_be_named(tmp_path):
+    path = tmp_path / "made.txt"
+    path.write_text("".join(f"7,{row()},{at}.5,{stamp}\n" for at, stamp in enumerate(STAMPS)))
+    right(open_recording(path, columns="-,ranges,-,stamp"), 3, STAMPS)
+
+
 def beams(line):
     return "".join(line(angle, 0.0 if np.isnan(each) else each) for angle, each in zip(DEGREES, ROOM, strict=True))
 
@@ -81,8 +105,18 @@ FORMS = {
         3, None, {"angle_min"}),
     "a time before a list": ("".join(f"{stamp} [{row('inf', between=', ')}]\n" for stamp in STAMPS),
         3, STAMPS, {"angle_min", "stamps"}),
-    "tuples with words": (beams(lambda angle, each: f"(False, 15, {angle % 360:.4f}, {each * 1000:.2f})\n"),
-        1, None, {"columns", "unit"}),
+    "tuples of the package rplidar": (
+        beams(lambda angle, each: f"(False, 15, {-angle % 360:.4f}, {each * 1000:.2f})\n"),
+        1, None, {"columns", "unit", "direction"}),
+    "units behind numbers": (
+        "angle,range\n" + beams(lambda angle, each: f"{angle:.1f}°,{each:.3f} m\n"), 1, None, {"direction"}),
+    "colours of a terminal": (
+        beams(lambda angle, each: f"angle: \x1b[36m{angle:.1f}\x1b[0m dist: {each * 1000:.0f}\n"),
+        1, None, {"angle_unit", "unit"}),
+    "a word before the numbers": (f"scan7 {row(between=' ')}\n", 1, None, {"angle_min"}),
+    "labels of two lasers": (f"front: {row()}\nrear: {row(scale=2)}\n" * 3, 3, None, {"angle_min"}),
+    "a pose and a stamp after the ranges": (
+        "".join(f"{row()},{at}.5,2.25,0.1,{stamp}\n" for at, stamp in enumerate(STAMPS)), 3, None, {"angle_min"}),
     "commas in quotes": ("angle,distance\n"
         + beams(lambda angle, each: f'"{angle:.3f}","{each:.4f}"\n'.replace(".", ",")),
         1, None, {"unit"}),
@@ -177,7 +211,7 @@ def test_other_forms_of_a_table_are_read_right_and_guesses_are_marked(tmp_path, 
     [
         (f"100,0,laser,{FIELDS.replace(';', ',')},{row('inf')[:900]},'...'\n", "left out"),
         ("a;ranges\n" + f"1;[{row()[:50]} ... {row()[-50:]}]\n" * 2, "left out"),
-        (f"{row()},1.0\n" * 3, "rows of 542 numbers without angles; give angle_increment"),
+        (f"{','.join(row().split(',')[:97])}\n" * 3, "rows of 97 numbers without angles; give angle_increment"),
         ("[" + json.dumps(scan())[:-40], "not JSON; is it complete"),
         ("  angle  range\n0  -2.3  2.4\n1  -2.2  2.4\n..  ...  ...\n", "left out"),
         ("$GPGGA,101320.00,4807.038,N,01131.000,E,1,08,0.9,545.4,M,46.9,M,,*47\n", "a log of a GNSS receiver"),
@@ -186,7 +220,7 @@ def test_other_forms_of_a_table_are_read_right_and_guesses_are_marked(tmp_path, 
         ("<?xml version='1.0'?>\n<data><row><angle>0.1", "damaged XML"),
         ("[appName]\nUrgBenri\n[timestamp]\n1\n[scan]\n1;2;3\n", "does not say .*totalSteps.*; give angle_min"),
         ("t,x,y,qx,qy,qz,qw\n" + "".join(f"{n},{n},0,0,0,0,1\n" for n in range(9)), "has poses, not scans"),
-        ("".join(f"{n} {n} 0 0 0 0 0 1\n" for n in range(20)), "has poses, not scans.*--poses"),
+        ("".join(f"{n} {n} 0 0 0 0 0 1\n" for n in range(20)), "has poses, not scans.*as its trajectory"),
         ("1716200000.250\n181, 0", "2 rows of one number; is the file complete"),
         ("CREATE TABLE scan (angle real, dist real);\n", "SQL statements; save the table as CSV"),
     ],

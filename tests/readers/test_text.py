@@ -150,7 +150,7 @@ def test_odometry_without_a_header_is_named_as_poses(text, form):
     x, y = np.cumsum(0.05 * np.cos(heading)), np.cumsum(0.05 * np.sin(heading))
     columns = {"time": time, "x": x, "y": y, "heading": heading, "degrees": np.rad2deg(heading), "speed": 0 * x + 0.5}
     rows = np.column_stack([columns[name] for name in form.split()])
-    with pytest.raises(ValueError, match=r"has poses, not scans; .* as --poses\. If it has beams after all, say what"):
+    with pytest.raises(ValueError, match=r"has poses, not scans; .* as its trajectory\. If it has beams after all"):
         open_recording(text("\n".join(",".join(f"{value:.5f}" for value in row) for row in rows)))
 
 

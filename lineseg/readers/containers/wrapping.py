@@ -37,7 +37,7 @@ MARKS = {
     codecs.BOM_UTF16_BE: "utf-16",
 }  # fmt: skip
 PLAIN = frozenset(b"\t\r\n" + bytes(range(32, 127)))
-LATIN = PLAIN | frozenset(range(0xA0, 0x100))  # with ° and µ
+LATIN = PLAIN | frozenset(range(0xA0, 0x100)) | {0x1B}  # with ° and µ, and colours of a terminal
 HEAD_BYTES = 1 << 13
 MOST_LAYERS = 4
 MOST_NAMED = 5

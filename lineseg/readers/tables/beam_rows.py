@@ -13,7 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...scan import Floats, Recording, Topic
-from ..guessing import FAR, MOST_DEGREES, angle_unit_of, guess_angle_unit, middle_of
+from ..account import Notes
+from ..guessing import FAR, MOST_DEGREES, angle_unit_of, guess_angle_unit, middle_of, rising, unit_of
 from ..reading import RADIANS, Direction, Reading
 from ..source import Source, Sweeps
 from ..stamping import in_seconds
@@ -56,6 +57,8 @@ FLAT = 0.05
 FEW_CODES = 3
 # Points lie on their beams but for rounding [rad].
 AGREE = 0.02
+# Lower numbers than a laser's quality may be those of scans.
+LEAST_QUALITY = 8
 # What pandas and numpy print where they leave rows out.
 LEFT_OUT_CELLS = {b"..", b"..."}
 
@@ -87,7 +90,10 @@ def beams_of(
     """The scans of a table (beams, columns)."""
     if _are_poses(table, names):
         way = "" if names is not None else " If it has beams after all, say what the columns hold with --columns."
-        raise ValueError(f"{source.name} has poses, not scans; open the scans, and give this file as --poses.{way}")
+        raise ValueError(
+            f"{source.name} has poses, not scans; open the recording of the scans, and name this file there as its "
+            f"trajectory.{way}"
+        )
     if names is not None or table.shape[1] > 2:
         _check_path(source, table, names)
     if names is not None:
@@ -225,9 +231,9 @@ def with_roles(
             roles = Roles(False, *points, roles.scan, roles.stamp)
             return with_roles(source, reading, table, names, roles, guess_direction, format)
         notes.found["direction"] = sense
-    elif roles.polar and notes.clockwise and reading.direction is None:
+    elif roles.polar and (clockwise := notes.clockwise or _why_clockwise(notes)) and reading.direction is None:
         notes.found["direction"] = "clockwise"
-        notes.guess("direction", "clockwise", notes.clockwise, direction="counter-clockwise")
+        notes.guess("direction", "clockwise", clockwise, direction="counter-clockwise")
     elif roles.polar and guess_direction and reading.direction is None:
         notes.guess(
             "direction", "counter-clockwise", "the file does not say in which sense its angles count",
@@ -236,6 +242,12 @@ def with_roles(
     notes.radians = True
     notes.unstated.add("range_max")
     return replace(_recording(source, table, roles, bearings, ranges, names), format=format)
+
+
+def _why_clockwise(notes: Notes) -> str:
+    """Why angles count clockwise by their unit alone; "" if nothing says so."""
+    of_ticks = notes.found.get("angle_unit") == "1/64deg"
+    return "an RPLIDAR counts 64ths of a degree, and clockwise" if of_ticks else ""
 
 
 def _in_plane(source: Source, table: NDArray[np.float64], roles: Roles, z: int) -> NDArray[np.float64]:
@@ -401,7 +413,23 @@ def _guessed(source: Source, table: NDArray[np.float64]) -> Roles:
     other = ["-"] * table.shape[1]
     other[roles.first], other[roles.second] = ("x", "y") if roles.polar else ("angle", "distance")
     source.notes.guess("columns", named, "the columns have no names", columns=",".join(other))
+    if roles.polar and _are_of_rplidar(table, roles):
+        source.notes.clockwise = "a quality, degrees and millimetres are in the order of the package rplidar"
     return roles
+
+
+def _are_of_rplidar(table: NDArray[np.float64], roles: Roles) -> bool:
+    """Whether columns are a quality of 6 bits, an angle in degrees and a distance in millimetres, in this order."""
+    if roles.first < 1 or roles.second != roles.first + 1:
+        return False
+    quality, angles, distances = (table[:, roles.first + at] for at in (-1, 0, 1))
+    return bool(
+        ((quality >= 0) & (quality < 64) & (quality == np.floor(quality))).all()
+        and np.median(quality) >= LEAST_QUALITY
+        and not _counts(quality)
+        and angle_unit_of(angles) == "deg"
+        and unit_of(rising(distances)) == "mm"
+    )
 
 
 def words_of(source: Source, table: NDArray[np.float64]) -> tuple[str, ...]:

@@ -11,6 +11,7 @@ from typing import NamedTuple
 from ..account import Notes
 from ..source import Source
 from .dialect import COMMENTS, OF_ANGLES, RANGES, Row, tell_fields
+from .headers import LENGTHS, TURNS
 
 # How most rows begin; nothing is to be done to them.
 PLAIN = frozenset(b"%c" % each for each in b"+-.0123456789")
@@ -34,6 +35,11 @@ MARKS = re.compile(rb"\$|\\(?:,|\w+\{|)|[{}]")
 UPRIGHT = re.compile("\\||│|┃|║|┆|┊|¦".encode())
 BOXED = re.compile("\\s*(?:\\||│|┃|║)[^\n]*(?:\\||│|┃|║)\\s*".encode())
 RULE = re.compile(rb"[-:= ]*")
+# What colours the text of a terminal.
+COLOUR = re.compile(rb"\x1b\[[\d;]*[A-Za-z]")
+# The unit of a number.
+WITH_UNIT = re.compile(rb"(?<=\d)\s?(mm|cm|m|deg|rad|\xc2\xb0)(?=[\s,;|\"\])]|$)", re.IGNORECASE)
+WORD = re.compile(rb"\s*([A-Za-z_]+)[-_ ]?\d*[ \t,;]+(?=(?:[-+.]?(?:\d|nan|inf)[^\s,;]*[\s,;]+){10})")
 MANY, ENOUGH, SAMPLE = 10, 16, 40
 
 
@@ -69,6 +75,30 @@ def _of_box(line: bytes) -> bytes:
     return b"\t".join(cells[1:-1])
 
 
+def _unit_free(source: Source, lines: list[bytes]) -> Callable[[bytes], bytes] | None:
+    """What takes the units off numbers such as 1.25m or -90.0°, which are noted; None if most lines have none, or if
+    numbers have several units of one kind."""
+    found = [set(WITH_UNIT.findall(line)) for line in lines]
+    units = {unit.decode().lower() for each in found for unit in each}
+    lengths, turns = ({known[unit] for unit in units if unit in known} for known in (LENGTHS, TURNS))
+    if 2 * sum(map(bool, found)) <= len(lines) or len(lengths) > 1 or len(turns) > 1:
+        return None
+    stated = (("unit", lengths, source.reading.unit), ("angle_unit", turns, source.reading.angle_unit))
+    source.notes.found |= {name: next(iter(each)) for name, each, given in stated if each and given is None}
+    return lambda line: WITH_UNIT.sub(b"", line)
+
+
+def _of_one_word(lines: list[bytes]) -> Callable[[bytes], bytes] | None:
+    """What takes off the word before the numbers of each scan, such as scan0, if all begin with it."""
+    found = [WORD.match(line) for line in lines]
+    words = {each[1] for each in found if each}
+    return (
+        (lambda line: line[each.end() :] if (each := WORD.match(line)) else line)
+        if all(found) and len(words) == 1
+        else None
+    )
+
+
 DRESSES = (
     Dress(BOXED.fullmatch, _of_box),
     Dress(RECEIVED.match, _without_time),
@@ -82,7 +112,10 @@ def rows_of(source: Source) -> Iterator[Row]:
     """The lines of a file without what a program put around their numbers; blank lines have no text."""
     rows = _lines(source)
     head = list(islice(rows, SAMPLE))
-    off = _undressing([row.text for row in head if row.text], source.notes)
+    lines = [row.text for row in head if row.text]
+    off = _undressing(lines, source.notes)
+    if (plain := _unit_free(source, [off(line) for line in lines] if off else lines)) is not None:
+        dress, off = off, (lambda line: plain(dress(line) if dress else line))
     if off is None:
         yield from head
         yield from rows
@@ -98,6 +131,7 @@ def _lines(source: Source) -> Iterator[Row]:
             yield Row(number, line)
             continue
         text = line.removeprefix(b"\xef\xbb\xbf") if number == 1 else line
+        text = COLOUR.sub(b"", text) if b"\x1b" in text else text
         stripped = text.strip()
         if number == 1 and SEPARATOR.fullmatch(stripped):
             continue
@@ -114,7 +148,7 @@ def _undressing(lines: list[bytes], notes: Notes) -> Callable[[bytes], bytes] | 
     lines = lines[-ENOUGH:]
     worn = (dress for dress in DRESSES if 2 * sum(map(bool, map(dress.fits, lines))) > len(lines))
     dress = next(worn, None)
-    return _of_one_field(lines, notes) if dress is None else dress.off
+    return _of_one_word(lines) or _of_one_field(lines, notes) if dress is None else dress.off
 
 
 def _of_one_field(lines: list[bytes], notes: Notes) -> Callable[[bytes], bytes] | None:

@@ -63,17 +63,25 @@ class Geometry:
 
 
 def read_scans(
-    source: Source, reading: Reading, rows: Iterable[Row], dialect: Dialect, leading: tuple[str, ...] | None
-) -> Recording:
-    """The scans of rows of numbers. leading: what the columns before the ranges hold, None to find out."""
-    return scans_of(source, reading, *parsed(source, rows, dialect), leading)
+    source: Source, reading: Reading, rows: Iterable[Row], dialect: Dialect, leading: tuple[str, ...] | None,
+    trailing: tuple[str, ...] = (),
+) -> Recording:  # fmt: skip
+    """The scans of rows of numbers. leading: what the columns before the ranges hold, None to find out; trailing: what
+    those after them hold."""
+    return scans_of(source, reading, *parsed(source, rows, dialect), leading, trailing=trailing)
 
 
 def scans_of(
     source: Source, reading: Reading, numbers: list[int], values: list[Floats], double: int,
-    leading: tuple[str, ...] | None, format: str = "text",
+    leading: tuple[str, ...] | None, format: str = "text", trailing: tuple[str, ...] = (),
 ) -> Recording:  # fmt: skip
-    """The scans of rows; numbers: of their lines. double: the numbers before a double space, 0 without one."""
+    """The scans of rows; numbers: of their lines. double: the numbers before a double space, 0 without one.
+
+    leading, trailing: what the columns before and after the ranges hold; None to find out.
+    """
+    if trailing and leading is not None:
+        cut = len(trailing)
+        values, leading = [np.concatenate((row[-cut:], row[:-cut])) for row in values], trailing + leading
     if len(values) > 1 and all(len(row) == 1 for row in values):
         numbers, values = numbers[:1], [np.concatenate(values)]
     if leading is None and (columns := _in_columns(reading, values)) is not None:
@@ -103,11 +111,13 @@ def scans_of(
     numbers, values, laser = _of_one_length(source, numbers, values)
     numbers, values = _whole(source, numbers, values)
     skip = _skipped(source, reading, values, leading, geometry, double)
+    if leading is None and geometry is None and reading.angle_increment is None:
+        values = _without_trailing(source, values, skip)
     if min(map(len, values)) <= skip:
         raise ValueError(f"{source.name}:{numbers[0]}: no ranges are left after {skip} leading columns; skip fewer.")
     beams = Counter(len(row) - skip for row in values).most_common(1)[0][0]
     angle_min, increment = _angles(source, reading, beams, geometry)
-    stamps = _stamps(source, values, skip, leading)
+    stamps = _stamps(source, values, skip, leading, len(trailing))
     lasers = _lasers(values, skip) if leading is None and not laser else [laser] * len(values)
     sweeps = Sweeps()
     for row, stamp, laser in zip(values, stamps.tolist(), lasers, strict=True):
@@ -345,6 +355,26 @@ def _skipped(
     return skip
 
 
+def _without_trailing(source: Source, values: list[Floats], skip: int) -> list[Floats]:
+    """The rows without what follows the ranges of a known laser, such as a pose."""
+    sizes = {len(row) for row in values}
+    (size,) = sizes if len(sizes) == 1 else (0,)
+    if not size or usual_angles(size - skip) is not None:
+        return values
+    backwards = [row[::-1] for row in values]
+    found = (more for more in range(1, MOST_SETTINGS) if size - skip - more in LASERS and _leaps(backwards, more))
+    if not (more := next(found, 0)):
+        return values
+    words = ",".join([*["-"] * skip, "ranges", *["-"] * more])
+    what = "column" if more == 1 else f"{more} columns"
+    source.notes.notice(
+        "trailing",
+        f"The last {what} of each row {'was' if more == 1 else 'were'} left out, because {size - skip - more} ranges "
+        f"before make a usual laser. The flag --columns names them, as --columns={words} does.",
+    )
+    return [row[:-more] for row in values]
+
+
 def _unlike(values: list[Floats]) -> int:
     """The number of leading columns that are no ranges: stamps, which rise from row to row, or are far too large."""
     width = min(map(len, values))
@@ -376,8 +406,13 @@ def _leaps(values: list[Floats], lead: int) -> bool:
     return bool(np.nanmedian(gaps) > 8 * max(float(np.nanmedian(usual)), 1e-9))
 
 
-def _stamps(source: Source, values: list[Floats], skip: int, leading: tuple[str, ...] | None) -> Floats:
-    """(rows,) [s]: the leading column of stamps, or one that rises from row to row; 0 without one."""
+def _stamps(
+    source: Source, values: list[Floats], skip: int, leading: tuple[str, ...] | None, moved: int
+) -> Floats:  # fmt: skip
+    """(rows,) [s]: the leading column of stamps, or one that rises from row to row; 0 without one.
+
+    moved: how many of the leading columns are the last ones in the file.
+    """
     if leading is not None:
         at = leading.index("stamp") if "stamp" in leading else None
     else:
@@ -393,7 +428,7 @@ def _stamps(source: Source, values: list[Floats], skip: int, leading: tuple[str,
     if (column != raw).any():
         source.notes.notice("wraps", "The stamps wrap at 2³², and were counted on.")
     times, words = in_seconds(column)
-    source.notes.stamps = f"column {at + 1}"
+    source.notes.stamps = f"column {(at - moved) % len(values[0]) + 1}"
     if leading is None:
         source.notes.guess("stamps", f"column {at + 1} as {words}", "it rises from row to row", stamps="none")
     return times
@@ -427,7 +462,7 @@ def _angles(source: Source, reading: Reading, beams: int, geometry: Geometry | N
     if math.isnan(step) or math.isnan(low):
         raise ValueError(
             f"{source.name}: rows of {beams} numbers without angles; give angle_increment, and angle_min unless 0° "
-            "is in the middle, and skip_columns if not all numbers are ranges."
+            "is in the middle. If not all numbers are ranges, give skip_columns, or columns such as -,ranges,-,-."
         )
     if geometry is None and not stated:
         tell_usual_angles(source.notes, reading, "the rows have", beams, low, step)

@@ -12,7 +12,7 @@ from typing import Any
 
 from ...scan import Recording
 from ..lasers import rows_of_one_laser
-from ..reading import Reading, columns_of
+from ..reading import Reading, around_ranges, columns_of
 from ..source import Reader, Source
 from .beam_groups import groups_of, read_groups
 from .beam_rows import columns_beside, read_beams, table_of
@@ -238,7 +238,7 @@ def _read(source: Source, reading: Reading, head: list[Row], rows: Iterable[Row]
     cells = dialect.cells(lines[0])
     if column := echo_columns(dialect, head):
         return read_table(source, reading, rows, dialect, column)
-    if (row := _angles_in_names(source, dialect, cells)) is not None:
+    if len(head) > 1 and (row := _angles_in_names(source, dialect, cells)) is not None:
         head[0] = head[0]._replace(text=row)
         rows = chain(head[:1], islice(rows, 1, None))
         return _read_numbers(source, reading, head, rows, dialect, None)
@@ -465,7 +465,7 @@ def _read_columns(
 ) -> Recording:
     """Rows whose columns the Reading names."""
     if "ranges" in given:
-        return read_scans(source, reading, rows, dialect, given[:-1])
+        return read_scans(source, reading, rows, dialect, *around_ranges(given))
     return read_beams(source, reading, rows, dialect, [Name(word) for word in given], guess_direction=False)
 
 
