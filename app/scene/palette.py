@@ -50,7 +50,7 @@ LIGHT = Theme(
     predicted=(110, 70, 215), other=(0, 119, 187),
     pinned=(140, 147, 158), changed=(178, 102, 210),
     matched=(0, 119, 187), missed=(20, 22, 26), false=(222, 105, 20), ghost=(110, 70, 215),
-    past=(142, 147, 154), past_line=(95, 145, 190), trajectory=(222, 105, 20), mapped=(16, 62, 105),
+    past=(136, 141, 148), past_line=(95, 145, 190), trajectory=(222, 105, 20), mapped=(16, 62, 105),
     second=(200, 30, 150), third=(0, 130, 140), fourth=(135, 105, 0),
 )  # fmt: skip
 DARK = Theme(
@@ -60,7 +60,7 @@ DARK = Theme(
     predicted=(170, 140, 255), other=(51, 160, 238),
     pinned=(100, 106, 118), changed=(150, 88, 190),
     matched=(51, 160, 238), missed=(245, 246, 248), false=(255, 140, 70), ghost=(170, 140, 255),
-    past=(100, 106, 115), past_line=(66, 112, 155), trajectory=(255, 140, 70), mapped=(150, 205, 250),
+    past=(112, 118, 127), past_line=(74, 122, 167), trajectory=(255, 140, 70), mapped=(150, 205, 250),
     second=(250, 120, 215), third=(60, 205, 215), fourth=(215, 190, 70),
 )  # fmt: skip
 # In place of both themes: the colour of a field is its number, as no segment has it.

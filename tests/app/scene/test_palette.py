@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -10,18 +11,19 @@ from lineseg_app.scene.palette import DARK, LIGHT, Theme
 
 from lineseg.colours import SEGMENTS
 
-BASE = Path(__file__).parents[3] / "static" / "base.css"
+STATIC = Path(__file__).parents[3] / "static"
+BASE = STATIC / "base.css"
 # They help the eye, and tell nothing by themselves.
 QUIET = {"grid", "axis"}
 
 
-def luminance(colour: tuple[int, int, int]) -> float:
+def luminance(colour: tuple[float, ...]) -> float:
     """Relative luminance of sRGB (WCAG 2)."""
     red, green, blue = (c / 12.92 if (c := each / 255) <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for each in colour)
     return 0.2126 * red + 0.7152 * green + 0.0722 * blue
 
 
-def contrast(one: tuple[int, int, int], other: tuple[int, int, int]) -> float:
+def contrast(one: tuple[float, ...], other: tuple[float, ...]) -> float:
     low, high = sorted((luminance(one), luminance(other)))
     return (high + 0.05) / (low + 0.05)
 
@@ -52,3 +54,52 @@ def test_text_has_a_contrast_of_4_5_to_what_it_lies_on(ground: str, number: int)
         for name in ("ink", "muted", "accent", "trouble", "good")
     }
     assert {name: round(value, 2) for name, value in texts.items() if value < 4.5} == {}
+
+
+# Axes, edges and planes; what is drawn over a plane has its colour.
+HELPERS = {
+    "line",
+    "line-strong",
+    "grid",
+    "grid-axis",
+    "ground",
+    "surface",
+    "raised",
+    "hover",
+    "accent-soft",
+    "on-accent",
+}
+
+
+def test_legends_and_overlays_have_the_colours_of_the_scene():
+    said = re.findall(r"--scene-([\w-]+):", BASE.read_text("utf-8"))
+    pairs = {name: (vars(LIGHT)[name.replace("-", "_")], vars(DARK)[name.replace("-", "_")]) for name in said}
+    assert {name: declared(f"scene-{name}") for name in said} == pairs
+
+
+def drawn() -> Iterator[tuple[str, str, float]]:
+    """What the page draws with SVG and on canvases: where, the name of its colour, its opacity."""
+    for sheet in sorted(STATIC.rglob("*.css")):
+        for selector, block in re.findall(r"([^{}]+)\{([^{}]*)\}", sheet.read_text("utf-8")):
+            opacity = re.search(r"(?<![-\w])opacity: ([\d.]+)", block)
+            if "stroke:" not in block:
+                opacity = opacity or re.search(r"fill-opacity: ([\d.]+)", block)
+            for name in re.findall(
+                r"(?:(?:stroke|fill|--mark|--line-colour): |gradient\([^;]*?)var\(--([\w-]+)\)", block
+            ):
+                yield f"{sheet.name} {selector.strip()}", name, float(opacity[1]) if opacity else 1.0
+    for script in sorted(STATIC.rglob("*.js")):
+        for name in re.findall(r'"--([\w-]+)"', script.read_text("utf-8")):
+            yield script.name, name, 1.0
+
+
+@pytest.mark.parametrize("number", [0, 1], ids=["light", "dark"])
+def test_marks_of_the_page_have_a_contrast_of_3_to_what_they_lie_on(number: int):
+    known = set(re.findall(r"--([\w-]+): light-dark", BASE.read_text("utf-8"))) - HELPERS
+    low = {}
+    for where, name, opacity in drawn():
+        for ground in (declared(each)[number] for each in ("ground", "surface", "raised") if name in known):
+            seen = [opacity * c + (1 - opacity) * g for c, g in zip(declared(name)[number], ground, strict=True)]
+            if contrast(tuple(seen), ground) < 3:
+                low[where, name] = round(contrast(tuple(seen), ground), 2)
+    assert low == {}
