@@ -24,13 +24,14 @@ MOST_SEGMENTS = 256
 
 
 @entry_kernel
-def compare_frames(segments, offsets, views, start, stop, votes, brief, gone, jump, jolt, cancelled):
-    """Write four scores of the frames start..stop − 1; views: (frames, 2), see `views_of`; votes: (VOTES,) memory.
+def compare_frames(segments, offsets, views, start, stop, votes, brief, gone, jump, jolt, turn, cancelled):
+    """Write five scores of the frames start..stop − 1; views: (frames, 2), see `views_of`; votes: (VOTES,) memory.
 
     brief: total length of the segments that neither the previous nor the next frame has, after correcting for motion
     [m]; gone: of those that both have and this frame lacks although it looks there [m]. jump: how many more, or fewer,
-    segments the frame has than both. jolt: see `turned_back`; 0 unless the lines show that it turned so, see
-    `explains`. All are 0 for the first and the last frame.
+    segments the frame has than both. turn: angle by which the sensor turned since the previous frame
+    [rad]; jolt: see `turned_back`; both 0 unless the lines show that it turned so, see `explains`. All are 0 for the
+    first and the last frame.
     """
     known = -1
     forth = (1.0, 0.0, 0.0, 0.0)
@@ -57,8 +58,10 @@ def compare_frames(segments, offsets, views, start, stop, votes, brief, gone, ju
                         past, sought = motion_between(before, behind, votes), True
                     if is_among(before[i], behind, past):
                         gone[frame] += before[i].length
-            if explains(come, before, here) and explains(forth, here, behind):
-                jolt[frame] = turned_back(come, forth)
+            if explains(come, before, here):
+                turn[frame] = abs(math.asin(come[1]))
+                if explains(forth, here, behind):
+                    jolt[frame] = turned_back(come, forth)
 
 
 @entry_kernel

@@ -108,8 +108,14 @@ SCORES = {
         ),
         Score(
             "jolt", "jolt", "rad",
-            "Angle by which the sensor turned to this frame and back again to the next, estimated from the segments.",
+            "Angle by which the sensor turned to this frame and back again to the next, estimated from the segments. "
+            "It is suspicious by how much it exceeds the usual turns of the recording.",
             "higher", least=0.1, weight=6.0,
+        ),
+        Score(
+            "turn", "turn", "rad",
+            "Angle by which the sensor turned since the previous frame, estimated from the segments.",
+            "higher", least=0.1, weight=0.0,
         ),
         Score(
             "unstable", "unstable segments", "",
@@ -127,7 +133,8 @@ SCORES = {
         Score(
             "lapsed", "undisputed lines interrupted", "m",
             "Total length of the interrupted lines that three of the same five extractions find in the previous frame, "
-            "and of which this frame shows enough: nothing nearer hides a part of them.",
+            "and of which this frame shows enough: nothing nearer hides a part of them, and its own segments do not "
+            "cover most of their beams.",
             "higher", least=0.5, weight=3.0,
         ),
         Score(

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
-from .scores import SCORES
+from .scores import COLUMN, SCORES
 
 # A tenth of normally distributed numbers lie more than this many standard deviations above the median.
 TENTH = 1.2816
@@ -32,11 +32,14 @@ def doubts(scores: NDArray[np.floating]) -> NDArray[np.float64]:
     how far the score stands out from the whole recording, and from the AROUND frames around it. Each is
     min(max((d − least) / spread, 0), MOST_DOUBT), where d is how much worse the score is than the median of the
     recording or of the frames around, `least` the smallest difference of this score that matters, and
-    spread = max(the d that a tenth of all frames exceed / 1.2816, least).
+    spread = max(the d that a tenth of all frames exceed / 1.2816, least). A jolt is first lessened by the turn that a
+    tenth of all frames exceed.
     """
     scores = np.nan_to_num(np.asarray(scores, np.float64))
     if not len(scores):
         return np.zeros(scores.shape)
+    # A robot that turns far between scans also turns back: only what exceeds that is a knock.
+    scores[:, COLUMN.jolt] = np.maximum(scores[:, COLUMN.jolt] - np.quantile(scores[:, COLUMN.turn], 0.9), 0.0)
     signs = np.array([1.0 if score.worse == "higher" else -1.0 for score in SCORES.values()])
     worse = signs * scores
     outstanding = 0.5 * (_standing_out(worse - np.median(worse, axis=0)) + _standing_out(worse - _around(worse)))

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import math
+
 from ..kernel import entry_kernel, kernel
 from ..region_growing.points import is_valid
+from .neighbours import SAME_ANGLE, SAME_DISTANCE
 
 # Lines of P_min points or L_min metres come and go as the robot moves: this many times as much counts.
 AMPLE = 1.5
@@ -30,21 +33,48 @@ def shows_enough(ends, rays, ranges, range_min, range_max, min_points, min_lengt
     return ample or (nearer > ALL_HIDDEN * beams and length >= AMPLE * min_length)
 
 
+@entry_kernel
+def is_there(ends, segments, rays, ranges):
+    """Whether most of the beams that point at a line are in segments of this frame that show the same wall.
+
+    A segment shows it where its returns lie on the line, or if it is parallel to it. So nothing is missing where a wall
+    is cut elsewhere in this frame, such as at a bend, or where the motion between the frames is misjudged.
+    """
+    n, pointing, told = len(ranges), 0, 0
+    dx, dy = ends[2] - ends[0], ends[3] - ends[1]
+    length = math.sqrt(dx * dx + dy * dy)
+    for k in range(n):
+        pointing += meeting(ends, rays[k], rays[n + k]) > 0.0
+    for i in range(len(segments)):
+        row = segments[i]
+        parallel = abs(dx * row.a + dy * row.b) < SAME_ANGLE * length
+        for step in range((row.last - row.first) % n + 1):
+            k = (row.first + step) % n
+            expected = meeting(ends, rays[k], rays[n + k])
+            told += expected > 0.0 and (parallel or abs(ranges[k] - expected) < SAME_DISTANCE)
+    return 2 * told > pointing
+
+
 @kernel
 def beams_at(ends, rays, ranges, range_min, range_max):
     """How many beams point at a line, and how many of them return from before it, and from beyond it."""
-    x1, y1, dx, dy = ends[0], ends[1], ends[2] - ends[0], ends[3] - ends[1]
     n, beams, nearer, beyond = len(ranges), 0, 0, 0
     for k in range(n):
-        cos, sin, found = rays[k], rays[n + k], ranges[k]
-        across = cos * dy - sin * dx
-        if across == 0.0:
-            continue
-        # The beam and the line meet at this range, and at this share of the line.
-        expected, along = (x1 * dy - y1 * dx) / across, (x1 * sin - y1 * cos) / across
-        if expected > 0.0 and 0.0 <= along <= 1.0:
+        expected, found = meeting(ends, rays[k], rays[n + k]), ranges[k]
+        if expected > 0.0:
             beams += 1
             if is_valid(found, range_min, range_max):
                 nearer += found < expected - OFF_LINE
                 beyond += found > expected + OFF_LINE
     return beams, nearer, beyond
+
+
+@kernel
+def meeting(ends, cos, sin):
+    """The range at which a beam meets a line between its ends, or −1."""
+    x1, y1, dx, dy = ends[0], ends[1], ends[2] - ends[0], ends[3] - ends[1]
+    across = cos * dy - sin * dx
+    if across == 0.0:
+        return -1.0
+    along = (x1 * sin - y1 * cos) / across
+    return (x1 * dy - y1 * dx) / across if 0.0 <= along <= 1.0 else -1.0

@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 from ..arguments import need_recording
 from ..doubt.neighbours import VOTES, mark_frame, moved, views_of
 from ..doubt.scores import COLUMN
-from ..doubt.visible import shows_enough
+from ..doubt.visible import is_there, shows_enough
 from ..kernel import entry_kernel, kernel
 from ..params import Params
 from ..proposal import propose, rescaled
@@ -315,7 +315,8 @@ def confirm_gone(
 ):  # fmt: skip
     """Leave in `lapsed`, at first the score "gone", what so many judges find in the previous frame [m].
 
-    Only lines of which the frame shows enough. beams: where the ranges of each frame begin; place: see `Geometry`.
+    Only lines of which the frame shows enough, and which it does not have in another way. beams: where the ranges of
+    each frame begin; place: see `Geometry`.
     """
     for frame in range(1, len(offsets) - 2):
         if lapsed[frame] > 0.0:
@@ -330,5 +331,6 @@ def confirm_gone(
             for i in range(len(before)):
                 if marks[1, i] and votes[offsets[frame - 1] + i] >= confirming:
                     ends = moved(before[i], to_here)
-                    if shows_enough(ends, sight, seen, low, high, min_points, min_length):
+                    missing = shows_enough(ends, sight, seen, low, high, min_points, min_length)
+                    if missing and not is_there(ends, here, sight, seen):
                         lapsed[frame] += before[i].length

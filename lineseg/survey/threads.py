@@ -23,7 +23,7 @@ from .result import Survey, joined
 from .stretch import Stretch, Workspace, flattened
 
 # Scores that need the next frame.
-BESIDE = ("brief", "gone", "jump", "jolt")
+BESIDE = ("brief", "gone", "jump", "jolt", "turn")
 # A chunk takes a few milliseconds: long enough to hide the cost of Python, short enough to balance the threads.
 CHUNK_BEAMS = 200_000
 # Smaller recordings are not worth another thread.

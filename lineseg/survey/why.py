@@ -14,7 +14,7 @@ from ..doubt.misses import misses, why_none
 from ..doubt.neighbours import VOTES, mark_frame, moved, views_of
 from ..doubt.scores import LOOSER, NEAR_EPSILON, SCORES, find_splits
 from ..doubt.suspicion import AROUND, WEIGHTS, doubts
-from ..doubt.visible import shows_enough
+from ..doubt.visible import is_there, shows_enough
 from ..extractors import extract, trace
 from ..knobs import Thresholds
 from ..params import Params
@@ -106,11 +106,12 @@ class _Scene:
         beams = (row["first"] + np.arange((row["last"] - row["first"]) % len(self.scan) + 1)) % len(self.scan)
         return beams[self._in_lines[beams]]
 
-    def shows_enough(self, ends: tuple[float, float, float, float]) -> bool:
-        """Whether the frame should have a line between these ends."""
+    def misses(self, ends: tuple[float, float, float, float]) -> bool:
+        """Whether the frame should have a line between these ends, and does not have it in another way."""
         scan, wanted = self.scan, demands_of(self.params)
         limits = scan.range_min, scan.range_max, float(wanted.min_points), wanted.min_length
-        return bool(shows_enough(ends, np.ravel(scan.rays), scan.ranges, *limits))
+        rays = np.ravel(scan.rays)
+        return bool(shows_enough(ends, rays, scan.ranges, *limits)) and not is_there(ends, self.rows, rays, scan.ranges)
 
     @cached_property
     def _in_lines(self) -> NDArray[np.bool_]:
@@ -187,7 +188,7 @@ def _beside(scene: _Scene) -> Iterator[Remark]:
         because = f" – {reason}" if reason else ""
         text = f"a {row['length']:.1f} m line of both neighbouring frames is missing, {place}{because}"
         span = (int(beams[0]), int(beams[-1])) if len(beams) else (-1, -1)
-        sure = confirmed(row, walls, scene.params, beams_before) and scene.shows_enough(ends)
+        sure = confirmed(row, walls, scene.params, beams_before) and scene.misses(ends)
         yield Remark("lapsed" if sure else "gone", text, *span, ghosts=(ends,))
     if scene.score("jump") > SCORES["jump"].least:
         counts = f"{len(before)} in the previous frame, {len(behind)} in the next"

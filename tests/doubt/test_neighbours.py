@@ -32,7 +32,7 @@ def rows_of(*sweeps):
 def scores_of(*sweeps):
     """The scores of the second of three frames."""
     found = survey(Recording.from_scans(sweeps))
-    return {name: float(found.score(name)[1]) for name in ("brief", "gone", "jump", "jolt")}
+    return {name: float(found.score(name)[1]) for name in ("brief", "gone", "jump", "jolt", "turn")}
 
 
 @given(st.floats(-0.3, 0.3), st.floats(-0.3, 0.3), st.floats(-0.7, 0.7))
@@ -125,10 +125,11 @@ def test_a_knock_is_a_jolt_and_a_steady_turn_is_none():
     assert scores_of(seen_from(0, 0, 0), seen_from(0, 0, 0.15), seen_from(0, 0, 0))["jolt"] == pytest.approx(
         0.15, abs=0.02
     )
-    assert scores_of(seen_from(0, 0, -0.15), seen_from(0, 0, 0), seen_from(0, 0, 0.15))["jolt"] < 0.02
+    steady = scores_of(seen_from(0, 0, -0.15), seen_from(0, 0, 0), seen_from(0, 0, 0.15))
+    assert (steady["jolt"], steady["turn"]) == pytest.approx((0.0, 0.15), abs=0.02)
     assert scores_of(seen_from(0, 0, 0), seen_from(0, 0, 0), seen_from(0, 0, 0.3))["jolt"] < 0.02
 
 
 def test_the_first_and_the_last_frame_do_not_stand_out():
     found = survey(Recording.from_scans([seen_from(0, 0, 0), seen_from(0, 0, 0.3, WALLS[:2])]))
-    assert all(not found.score(name).any() for name in ("brief", "gone", "jump", "jolt"))
+    assert all(not found.score(name).any() for name in ("brief", "gone", "jump", "jolt", "turn"))

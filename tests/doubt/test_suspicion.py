@@ -132,6 +132,13 @@ def test_unknown_scores_count_for_nothing():
     assert suspicion(unknown).tolist() == suspicion(scores).tolist()
 
 
+def test_a_jolt_counts_by_how_much_it_exceeds_the_usual_turns():
+    knocked = np.zeros(30)
+    knocked[12] = 0.4
+    assert suspicion(column("jolt", knocked) + column("turn", np.full(30, 0.05)))[12] > 10
+    assert suspicion(column("jolt", knocked) + column("turn", np.full(30, 0.45)))[12] == 0
+
+
 def test_weights_choose_what_counts():
     scores = column("gap", [0, 0, 5, 0]) + column("jump", [0, 9, 0, 0])
     assert worst_first(scores, {"gap": 1.0})[0] == 2

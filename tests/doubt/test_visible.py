@@ -4,7 +4,9 @@ import numpy as np
 import pytest
 from scenes import wall_ahead
 
-from lineseg.doubt.visible import shows_enough
+from lineseg import Recording, extract
+from lineseg.doubt.visible import is_there, shows_enough
+from lineseg.survey import survey
 
 WALL = wall_ahead(distance=2.0)
 
@@ -48,3 +50,16 @@ def test_a_wall_that_is_barely_long_enough_or_seen_by_few_beams_comes_and_goes()
 
 def test_points_beyond_the_line_show_that_it_ended():
     assert not asked(np.where(WALL.ranges > 0, WALL.ranges + 1.0, WALL.ranges))
+
+
+def shown(ends):
+    """Whether a wall ahead of the laser, from (2, −1) to (2, 1) and beyond, shows a line between these ends."""
+    segments = survey(Recording.from_scans([WALL])).segments
+    assert len(segments) == len(extract(WALL).segments) == 1
+    return bool(is_there(ends, segments, np.ravel(WALL.rays), WALL.ranges))
+
+
+def test_a_wall_that_is_cut_or_placed_otherwise_is_there():
+    assert shown((2.0, -1.0, 2.0, 1.0))
+    assert shown((2.3, -1.0, 2.3, 1.0))
+    assert not shown((3.0, -1.0, 2.2, 1.0))
