@@ -32,7 +32,8 @@ LINES = {
     "missed": 7.0,
     "ghosts": 8.0,
     "matched": 3.0,
-    "false": 5.0,
+    "neither": 2.0,
+    "false": 9.0,
     "normals": 1.5,
     "laser": 2.0,
     "growing": 3.5,
@@ -45,8 +46,8 @@ LINES = {
 # Each lies over those before it.
 ORDER = (
     "grid", "past", "all lines", "line map", "trajectory",
-    "other lasers", "pinned", "invalid", "truth", "laser", "ray", "selected ray", "dropped", "band", "missed", "ghosts",
-    "points", "segments", "matched", "false", "normals", "other", "bent", "growing",
+    "other lasers", "pinned", "invalid", "truth", "laser", "ray", "selected ray", "dropped", "band", "missed", "false",
+    "ghosts", "points", "segments", "neither", "matched", "normals", "other", "bent", "growing",
     "seeds", "endpoints", "window", "predicted",
     "candidate", "selected",
 )  # fmt: skip

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from lineseg.line_map import LineMap
 
 DASH = 0.10
-FALSE_DASH = 0.04
+FALSE_DASH = 0.08
 MISSED_DASH = 0.20
 GHOST_DASH = 0.25
 NORMAL = 0.3
@@ -218,13 +218,19 @@ def pinned_lines(pinned: Findings, found: Findings, theme: Theme) -> Lines:
 
 
 def verdicts(found: Findings, judged: Judged, theme: Theme) -> dict[str, Lines]:
-    """Matched segments solid, false ones dotted, missed true lines dashed, so that no colour is needed."""
+    """Matched segments solid, false ones broad and dotted, missed true lines dashed, so that no colour is needed.
+
+    A segment on a wall just short of P_min or L_min is neither right nor false, and is thin and grey.
+    """
     segments = found.extraction.segments
     starts, ends = (np.array([getattr(s, name) for s in segments]).reshape(-1, 2) for name in ("start", "end"))
     matched, missed = judged.matching.line_of >= 0, judged.matching.segment_of < 0
+    false = ~matched & ~judged.matching.neutral
+    neither = ~matched & ~false
     return {
+        "neither": lines_between(starts[neither], ends[neither], theme.point),
         "matched": lines_between(starts[matched], ends[matched], theme.matched),
-        "false": dashed(starts[~matched], ends[~matched], FALSE_DASH, theme.false),
+        "false": dashed(starts[false], ends[false], FALSE_DASH, theme.false),
         "missed": dashed(judged.ends[missed, 0], judged.ends[missed, 1], MISSED_DASH, theme.missed),
     }
 

@@ -65,6 +65,7 @@ class Truth {
         verdictKey("matched", text.matched),
         verdictKey("false", text.false),
         verdictKey("missed", text.missed),
+        verdictKey("neither", text.neither),
       ),
       this.#table.element,
       this.#explained,

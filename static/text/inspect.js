@@ -51,6 +51,7 @@ export const inspectText = {
     matched: "matched",
     missed: "missed",
     false: "false",
+    neither: "just short or unknown",
     frame: "this frame",
     all: "all frames",
     labelled: "labelled frames",

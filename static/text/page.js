@@ -221,7 +221,7 @@ export const pageText = {
     numbers: { label: "Beam numbers", help: "The number of each beam at its point, as many as there is room for (I)" },
     verdicts: {
       label: "Right and wrong",
-      help: "If the truth is known: matched segments solid, false ones dotted, missed true lines dashed",
+      help: "If the truth is known: matched segments solid, false ones broad and dotted, missed true lines dashed; thin and grey: neither right nor false",
     },
     replay: { label: "Replay geometry", help: "The window, line, ε band and candidate of the current decision" },
     trajectory: { label: "Trajectory", help: "The way of the laser through the world" },

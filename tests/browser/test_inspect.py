@@ -153,7 +153,7 @@ def test_segments_are_judged_by_the_truth_in_numbers_and_in_the_scene(new_tab, h
     tab.eventually(lambda: row.locator("td").nth(1).inner_text() == shown, f"TR of all frames is not {shown}")
     tab.page.get_by_role("checkbox", name="Show in the scene").check()
     tab.until("s.layers.verdicts")
-    assert tab.page.locator(".verdict-key").all_inner_texts() == ["matched", "false", "missed"]
+    assert tab.page.locator(".verdict-key").all_inner_texts() == ["matched", "false", "missed", "just short or unknown"]
 
 
 def test_a_truth_is_made_from_poses_marked_and_forgotten(new_tab):

@@ -252,6 +252,12 @@ def test_verdicts_replace_the_segments_only_on_request(corners):
     assert "segments" not in drawn
     matched = verdict.matching.line_of >= 0
     assert len(drawn["matched"].xyz) == matched.sum() > 0
+    # Taken for just short, a segment without a true line is no false one.
+    for short in (False, True):
+        none = replace(verdict.matching, shared=0 * verdict.matching.shared, neutral=np.full(len(matched), short))
+        unmatched = verdict._replace(matching=none)
+        lines = picture(View(layers=Layers(verdicts=True)), known, found, bounds_of(known), judged=unmatched).lines
+        assert (len(lines["neither"].xyz) > 0, len(lines["false"].xyz) > 0) == (short, not short)
     assert "segments" in picture(View(), known, found, bounds_of(known), judged=verdict).lines
     assert judged(findings(corners, 0, "region-growing", Params())) is None
 
