@@ -70,8 +70,8 @@ def open_recording(
 
     reading: how to read it, where the file does not say it or says it wrongly.
     progress: called with (done, total) while reading; may raise `Cancelled`, which is passed on.
-    so_far: called now and then, while a long bag, MCAP file or CARMEN log is read, with a `partial` Recording of its
-    first scans, which share the memory of the whole.
+    so_far: called now and then, while a long bag, MCAP file, CARMEN log or file of JSON is read, with a `partial`
+    Recording of its first scans.
     given: fields of the Reading, as in open_recording("scan.csv", unit="mm").
     Raises ValueError or OSError, with one sentence, if the file cannot be read.
     """

@@ -6,6 +6,7 @@ import re
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
+from functools import partial
 from itertools import chain
 from typing import Any, TypeGuard
 
@@ -32,6 +33,8 @@ OF_SCANS = re.compile(
 OF_OTHERS = re.compile(r"intens|qualit|remission|reflect|rssi|signal|time|stamp|angle|bearing|theta|azimuth")
 LIST_KEYS = ("ranges", "distances", "range", "distance")
 LEAST_BEAMS = 8
+# A part is shown after as many scans.
+PART = 64
 STAMP_NAMES = NAMES["stamp"]
 # Texts that may look like numbers.
 TEXTS = {*LASERS, *NAMES["frame_id"], "child_frame_id"}
@@ -132,7 +135,10 @@ def recording_of_values(source: Source, values: Iterable[tuple[str, Any]], forma
                 except ValueError as error:
                     source.notes.skip(place, str(error))
                 else:
-                    found.setdefault(topic, []).append(scan)
+                    scans = found.setdefault(topic, [])
+                    scans.append(scan)
+                    if len(scans) % PART == 0:
+                        source.offer(len(scans), partial(_part, found, format))
     if not found and len(beams) >= LEAST_BEAMS:
         return replace(_beams(source, beams), format=format)
     if not found and not tables and rows:
@@ -155,6 +161,12 @@ def _of_lists(source: Source, lists: list[tuple[str, Floats]], format: str) -> R
     rows = [ranges for name, ranges in lists if laser in ("", name)]
     recording = scans_of(source, source.reading, list(range(1, len(rows) + 1)), rows, 0, None, format)
     return replace(recording, frame_ids=(laser,) * len(recording)) if laser else recording
+
+
+def _part(found: dict[str, list[LaserScan]], format: str, source: Source) -> Recording:
+    """The scans so far."""
+    copied = {topic: list(scans) for topic, scans in found.items()}
+    return replace(recording_of(source, copied, format), partial=True)
 
 
 def _long_lists(value: Any, name: str = "", depth: int = 0) -> Iterator[tuple[str, Floats]]:

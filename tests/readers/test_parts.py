@@ -1,5 +1,6 @@
 """The first scans of a long file, shown while the rest is read."""
 
+import json
 import sqlite3
 from contextlib import closing
 
@@ -59,6 +60,22 @@ def test_parts_are_the_first_scans_of_the_whole_in_the_same_memory(tmp_path, wri
         assert part.frame_ids == whole.frame_ids[: len(part)]
         assert (part.poses is None) == (whole.format != "CARMEN log")
         assert part.account.line.startswith(whole.account.line.split(" · ")[0])
+
+
+def test_the_first_of_many_lines_of_json_are_shown_as_they_are_in_the_whole(tmp_path):
+    path = tmp_path / "long.jsonl"
+    lines = [
+        {"ranges": [1.0 + k / 400] * 40, "angle_min": -1.0, "angle_increment": 0.05, "stamp": stamp}
+        for k, stamp in enumerate(STAMPS)
+    ]
+    path.write_text("\n".join(map(json.dumps, lines)))
+    whole, shown = parts_of(path)
+    assert (len(whole), whole.partial) == (400, False)
+    assert len(shown) > 2
+    for part, ranges in shown:
+        assert part.partial
+        assert ranges == whole.ranges[: len(ranges)].tolist()
+        assert part.stamps.tolist() == whole.stamps[: len(part)].tolist()
 
 
 def test_parts_stay_as_they_are_when_scans_grow_longer_than_the_first(tmp_path):
