@@ -163,6 +163,11 @@ def recording_of_arrays(source: Source, arrays: Mapping[str, NDArray], format: s
     if len(found) != 1:
         raise ValueError(_which(source, arrays, f"{len(found)} of them may be the ranges"))
     ((name, array),) = found.items()
+    if array.dtype.itemsize == 1 and array.ndim == 2 and min(array.shape) > MOST_COLUMNS and not source.reading.columns:
+        raise ValueError(
+            f"{source.name} has {name} {array.shape} of one byte a value, as pictures and maps have, not ranges; open "
+            "the scans themselves. If these are ranges after all, say so with --columns ranges."
+        )
     said = name_of(name)
     array = array.astype(np.float64) * said.scale
     if unit := LENGTHS.get(said.unit):

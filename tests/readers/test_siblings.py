@@ -61,6 +61,19 @@ def test_json_with_texts_or_geometry_has_the_scan(tmp_path, name):
     right(open_recording(path), 1)
 
 
+def test_an_array_of_bytes_is_no_recording(tmp_path):
+    np.save(tmp_path / "grid.npy", np.tile(np.arange(541) % 251, (200, 1)).astype(np.uint8))
+    with pytest.raises(ValueError, match="one byte a value, as pictures and maps have"):
+        open_recording(tmp_path / "grid.npy")
+
+
+def test_quantities_with_other_rows_are_refused(tmp_path):
+    path = tmp_path / "long.csv"
+    path.write_text("time,field,value\n" + "".join(f"{at},angle,{at}\n{at}.5,range,2\n" for at in range(20)))
+    with pytest.raises(ValueError, match="not with the same rows for each"):
+        open_recording(path)
+
+
 def test_columns_after_the_ranges_can_be_named(tmp_path):
     path = tmp_path / "made.txt"
     path.write_text("".join(f"7,{row()},{at}.5,{stamp}\n" for at, stamp in enumerate(STAMPS)))
@@ -108,6 +121,16 @@ FORMS = {
     "tuples of the package rplidar": (
         beams(lambda angle, each: f"(False, 15, {-angle % 360:.4f}, {each * 1000:.2f})\n"),
         1, None, {"columns", "unit", "direction"}),
+    "echoes beside each other": (
+        "angle,range_1,range_2,range_3\n"
+        + beams(lambda angle, each: f"{angle:.1f},{each:.3f},{each * 1.2:.3f},0\n"), 1, None, {"angle_unit"}),
+    "quantities one below the other": (
+        "beam,variable,value\n" + beams(lambda angle, each: f"{angle:.1f},angle,{angle:.1f}\n")
+        + beams(lambda angle, each: f"{angle:.1f},distance,{each:.3f}\n"), 1, None, {"angle_unit"}),
+    "beams from InfluxDB": (
+        "#datatype,string,long,double,long\n,result,table,_value,beam\n"
+        + "".join(f",,0,{0 if np.isnan(each) else each},{at}\n" for at, each in enumerate(ROOM)),
+        1, None, {"angle_min"}),
     "units behind numbers": (
         "angle,range\n" + beams(lambda angle, each: f"{angle:.1f}°,{each:.3f} m\n"), 1, None, {"direction"}),
     "colours of a terminal": (

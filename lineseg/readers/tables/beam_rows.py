@@ -302,7 +302,8 @@ def columns_beside(
     source: Source, reading: Reading, table: NDArray[np.float64], angle: int, columns: list[int], format: str = "text"
 ) -> Recording:
     """The scans of a table whose columns have a scan each, beside one of angles."""
-    tell_columns(source.notes, len(columns))
+    if len(columns) > 1:
+        tell_columns(source.notes, len(columns))
     source.notes.guesses = [guess for guess in source.notes.guesses if guess.field != "columns"]
     source.notes.found.pop("columns", None)
     if "unit" not in source.notes.found:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -16,6 +18,8 @@ from .headers import Name, column_of, is_angle, is_beam
 # Scans of one place differ by less than this share of their ranges; other quantities beside them differ by more.
 ALIKE = 0.15
 EVEN = 1e-5
+# Fewer beams may be farther by chance.
+FEW = 20
 
 
 def alike(columns: NDArray[np.float64]) -> bool:
@@ -36,6 +40,29 @@ def named_columns(names: list[Name]) -> tuple[int, list[int]] | None:
             stems.setdefault(name.plain, []).append(at)
     columns = max(stems.values(), key=len, default=[])
     return (beam, columns) if beam is not None and len(columns) > 1 else None
+
+
+def first_echoes(
+    source: Source, table: NDArray[np.float64], names: list[Name], beam: int, columns: list[int]
+) -> list[int]:
+    """The columns, or the first alone, which is told, if they are echoes of one scan: each farther than the last."""
+    words = set(names[columns[0]].plain.split("_"))
+    if not words & {"echo", "return", "pulse"} and not all(
+        _is_farther(table[:, one], table[:, other]) for one, other in pairwise(columns)
+    ):
+        return columns
+    others = ["angle" if at == beam else "distance" if at == columns[1] else "-" for at in range(len(names))]
+    source.notes.notice(
+        "echoes", f"Each row has {len(columns)} echoes of a beam; the first was read. Use the second?",
+        columns=",".join(others),
+    )  # fmt: skip
+    return columns[:1]
+
+
+def _is_farther(first: Floats, second: Floats) -> bool:
+    """Whether the second echo, where a beam has one, is always farther than the first."""
+    both = (first > 0) & (second > 0)
+    return bool((second[both] > first[both]).all() and not ((second > 0) & ~(first > 0)).any() and len(first) > FEW)
 
 
 def tell_columns(notes: Notes, scans: int) -> None:

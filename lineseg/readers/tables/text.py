@@ -49,9 +49,10 @@ from .headers import (
     units_as_names,
 )
 from .interleaved import interleaved, read_interleaved
+from .long_table import widened
 from .numbered import read_numbered
 from .numbers import all_numbers, split
-from .scan_columns import alike, named_columns, tell_columns
+from .scan_columns import alike, first_echoes, named_columns, tell_columns
 from .scan_rows import parsed, read_scans, scans_of
 from .spanning import scans_over_lines
 from .table import echo_columns, read_table
@@ -338,6 +339,7 @@ def _read_named(
     if reading.columns is not None:
         given = columns_of(reading.columns)
         return _read_columns(source, reading, rows, dialect, given)
+    rows, names = widened(source, rows, dialect, names)
     if (groups := groups_of(names)) is not None:
         return read_groups(source, reading, rows, dialect, names, groups)
     if len(names) < FEW_COLUMNS:
@@ -421,6 +423,7 @@ def _read_columns_of_scans(
         if (turn := TURNS.get(names[beam].unit)) and reading.angle_unit is None:
             source.notes.found["angle_unit"] = turn
         table[:, beam] *= names[beam].scale
+        columns = first_echoes(source, table, names, beam, columns)
         return columns_beside(source, reading, table, beam, columns)
     tell_columns(source.notes, len(columns))
     return scans_of(source, reading, list(range(len(columns))), list(table[:, columns].T), 0, ())
