@@ -16,7 +16,8 @@ from .source import Source
 from .tables.dialect import Dialect, seconds_of
 from .tables.headers import LENGTHS, TIMES, TURNS, Name, is_angle, is_distance, name_of
 from .tables.numbers import all_numbers, is_number
-from .tables.scan_rows import tell_unknown_direction, tell_usual_angles, usual_angles
+from .tables.scan_columns import tell_unknown_direction
+from .tables.scan_rows import tell_usual_angles, usual_angles
 
 # What the fields of a scan are called elsewhere.
 NAMES = {

@@ -89,6 +89,13 @@ def need_laser(file: str, wanted: str, names: list[str]) -> None:
         raise ValueError(f"{file} has no frame_id {wanted!r}; it has {', '.join(map(repr, names[:MOST_LASERS]))}.")
 
 
+def laser_of(source: Source, reading: Reading, counts: dict[str, int], what: str, where: str = "the file") -> str:
+    """`choose_laser` as the Reading says. Raises ValueError if the wanted laser does not exist."""
+    if reading.frame_id is not None:
+        need_laser(source.name, reading.frame_id, list(counts))
+    return choose_laser(counts, what, where, reading.frame_id, source.notes)
+
+
 def choose_laser(counts: dict[str, int], what: str, where: str, wanted: str | None, notes: Notes) -> str:
     """The frame_id that is wanted, or else the first of several, which is told. counts: of scans or beams, by name."""
     taken = next(iter(counts)) if wanted is None else wanted

@@ -15,7 +15,7 @@ import numpy as np
 from ..scan import Floats, Recording, Topic
 from .json_scans import NAMES, as_list, is_even, json_values, number_in, parsed, scan_of
 from .laser_scan import LaserScan, decode_json
-from .lasers import choose_laser, need_laser, rows_of_one_laser
+from .lasers import laser_of, rows_of_one_laser
 from .source import Reader, Source, Sweeps
 from .stamping import in_seconds
 from .tables.beam_rows import beams_of, read_beams
@@ -155,9 +155,7 @@ def _of_lists(source: Source, lists: list[tuple[str, Floats]], format: str) -> R
     """The scans of (name, ranges); of one laser, if the names recur and differ."""
     counts, laser = Counter(name for name, _ in lists), ""
     if 1 < len(counts) < len(lists):
-        if source.reading.frame_id is not None:
-            need_laser(source.name, source.reading.frame_id, list(counts))
-        laser = choose_laser(counts, "scans", "the file", source.reading.frame_id, source.notes)
+        laser = laser_of(source, source.reading, counts, "scans")
     rows = [ranges for name, ranges in lists if laser in ("", name)]
     recording = scans_of(source, source.reading, list(range(1, len(rows) + 1)), rows, 0, None, format)
     return replace(recording, frame_ids=(laser,) * len(recording)) if laser else recording

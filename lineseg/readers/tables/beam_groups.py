@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from ...scan import Recording
-from ..lasers import choose_laser, need_laser
+from ..lasers import laser_of
 from ..reading import Reading
 from ..source import Source
 from .beam_rows import beams_of, table_of
@@ -98,9 +98,7 @@ def _of_one_laser(source: Source, reading: Reading, groups: Groups, first: np.nd
     lasers = dict.fromkeys(groups.labels)
     if len(lasers) < 2:
         return first, second, ""
-    if reading.frame_id is not None:
-        need_laser(source.name, reading.frame_id, list(lasers))
     counts = {laser: groups.labels.count(laser) for laser in lasers}
-    taken = choose_laser(counts, "scans", "the table", reading.frame_id, source.notes)
+    taken = laser_of(source, reading, counts, "scans", "the table")
     these = [label == taken for label in groups.labels]
     return first[these], second[these], taken

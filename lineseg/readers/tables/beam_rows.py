@@ -30,7 +30,7 @@ from .headers import (
     distance_of,
     is_angle,
 )
-from .scan_columns import alike, tell_columns, with_angles
+from .scan_columns import alike, tell_columns, tell_unknown_direction, with_angles
 from .scan_rows import scans_of
 from .turns import regularity, turns
 
@@ -234,11 +234,8 @@ def with_roles(
     elif roles.polar and (clockwise := notes.clockwise or _why_clockwise(notes)) and reading.direction is None:
         notes.found["direction"] = "clockwise"
         notes.guess("direction", "clockwise", clockwise, direction="counter-clockwise")
-    elif roles.polar and guess_direction and reading.direction is None:
-        notes.guess(
-            "direction", "counter-clockwise", "the file does not say in which sense its angles count",
-            direction="clockwise",
-        )  # fmt: skip
+    elif roles.polar and guess_direction:
+        tell_unknown_direction(notes, reading)
     notes.radians = True
     notes.unstated.add("range_max")
     return replace(_recording(source, table, roles, bearings, ranges, names), format=format)

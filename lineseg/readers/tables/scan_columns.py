@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from ...scan import Floats, Recording, Topic
 from ..account import Notes
 from ..guessing import guess_angle_unit
-from ..reading import RADIANS
+from ..reading import RADIANS, Reading
 from ..source import Source, Sweeps
 from ..stamping import in_seconds
 from .headers import Name, column_of, is_angle, is_beam
@@ -78,9 +78,7 @@ def with_angles(
         raise ValueError(f"{source.name}: an angle is not a finite number; each beam needs its own.")
     bearings = angles * RADIANS[guess_angle_unit(angles, reading, notes)]
     notes.radians = True
-    if reading.direction is None:
-        notes.guess("direction", "counter-clockwise", "the file does not say in which sense its angles count",
-                    direction="clockwise")  # fmt: skip
+    tell_unknown_direction(notes, reading)
     notes.unstated.add("range_max")
     step = (bearings[-1] - bearings[0]) / max(len(bearings) - 1, 1)
     even = np.allclose(np.diff(bearings), step, rtol=0, atol=EVEN)
@@ -92,3 +90,10 @@ def with_angles(
         sweeps.add(row, bearings[0], step, stamp=time, bearings=None if even else bearings)
     topics = (Topic("ranges", len(sweeps)),)
     return sweeps.recording(source, topic=source.choose(list(topics), "array"), topics=topics, format=format)
+
+
+def tell_unknown_direction(notes: Notes, reading: Reading) -> None:
+    """Tells, once, that nothing says in which sense the angles count."""
+    if reading.direction is None and not any(guess.field == "direction" for guess in notes.guesses):
+        why = "the file does not say in which sense its angles count"
+        notes.guess("direction", "counter-clockwise", why, direction="clockwise")

@@ -14,13 +14,13 @@ import numpy as np
 from ...scan import Floats, Recording, Topic
 from ..account import Notes
 from ..guessing import angle_unit_of
-from ..lasers import choose_laser, need_laser
+from ..lasers import laser_of
 from ..plausible import unwrapped, wrap_of
 from ..reading import RADIANS, Reading
 from ..source import Source, Sweeps
 from ..stamping import in_seconds
 from .dialect import Dialect, Row, text_of
-from .scan_columns import alike, tell_columns
+from .scan_columns import alike, tell_columns, tell_unknown_direction
 
 # angle_min and angle_increment, in degrees, of common lasers by number of beams.
 LASERS = {
@@ -306,9 +306,7 @@ def _of_one_length(
     if len(sizes) != 2 or min(sizes.values()) < LEAST_ALTERNATE or 2 * changes < len(values) or large < 1.2 * small:
         return numbers, values, ""
     counts = {f"{size} numbers": count for size, count in sizes.items()}
-    if source.reading.frame_id is not None:
-        need_laser(source.name, source.reading.frame_id, list(counts))
-    taken = choose_laser(counts, "rows", "the file", source.reading.frame_id, source.notes)
+    taken = laser_of(source, source.reading, counts, "rows")
     these = [f"{len(row)} numbers" == taken for row in values]
     return list(compress(numbers, these)), list(compress(values, these)), taken
 
@@ -469,13 +467,6 @@ def _angles(source: Source, reading: Reading, beams: int, geometry: Geometry | N
     else:
         tell_unknown_direction(source.notes, reading)
     return low, step
-
-
-def tell_unknown_direction(notes: Notes, reading: Reading) -> None:
-    """Tells, once, that nothing says in which sense the angles count."""
-    if reading.direction is None and not any(guess.field == "direction" for guess in notes.guesses):
-        why = "the file does not say in which sense its angles count"
-        notes.guess("direction", "counter-clockwise", why, direction="clockwise")
 
 
 def tell_usual_angles(notes: Notes, reading: Reading, where: str, beams: int, low: float, step: float) -> None:
