@@ -7,11 +7,10 @@ import logging
 import select
 import socket
 import subprocess
-import tempfile
+import sys
 import threading
 import time
 from collections.abc import Iterator
-from pathlib import Path
 from uuid import uuid4
 
 import numpy as np
@@ -19,6 +18,7 @@ import rerun as rr
 
 from lineseg import Recording
 from lineseg.rerun import dropped_strips, hue_of_beams, hues_of, raised, segment_strips
+from lineseg.unfinished import held_folder
 
 from ..frame.findings import Findings
 from ..scene.replay import state_at
@@ -177,12 +177,20 @@ def live_rerun(port: int = PORT) -> Iterator[LiveRerun]:
 
 def start_viewer(port: int) -> None:
     """Start rerun's native viewer, on the loopback only. Raises OSError if it does not start."""
-    folder = Path(tempfile.mkdtemp(prefix="lineseg-rerun-viewer-"))
-    flags = ["--bind", "127.0.0.1", "--port", str(port), "--expect-data-soon"]
-    silent, environment = subprocess.DEVNULL, quiet_environment(folder)
-    program = subprocess.Popen(
-        [executable(), *flags], env=environment, stdout=silent, stderr=silent, start_new_session=True
-    )
+    folder, lock = held_folder()
+    # The viewer, which outlives this process, holds the lock of its settings: once it ends they are left, and removed.
+    with lock:
+        flags = ["--bind", "127.0.0.1", "--port", str(port), "--expect-data-soon"]
+        silent, environment = subprocess.DEVNULL, quiet_environment(folder)
+        held = [] if sys.platform == "win32" else [lock.fileno()]
+        program = subprocess.Popen(
+            [executable(), *flags],
+            env=environment,
+            stdout=silent,
+            stderr=silent,
+            start_new_session=True,
+            pass_fds=held,
+        )
     late = time.monotonic() + START_SECONDS
     while not answers(port):
         if program.poll() is not None or time.monotonic() > late:

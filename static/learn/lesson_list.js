@@ -113,6 +113,8 @@ export class LessonList {
     // The same link may be read more than once.
     if ([...this.#broken.children].some(({ textContent }) => textContent === why)) return;
     this.#broken.append(h("p", {}, why));
+    // Whoever came by a link may be in another mode.
+    if (!this.#broken.checkVisibility()) toast(why);
   }
 
   show() {

@@ -144,8 +144,9 @@ export class Lessons {
     if (this.#fetched.has(id)) return;
     this.#fetched.add(id);
     fetchText(`/api/lessons/one?${new URLSearchParams({ id })}`).then(({ words, trouble }) => {
-      if (trouble !== null) return this.#list.complain(this.#words.learn.lesson.unknown(id));
-      this.#list.add([JSON.parse(words)]);
+      const found = trouble === null ? JSON.parse(words) : null;
+      if (!found) return this.#list.complain(trouble ?? this.#words.learn.lesson.unknown(id));
+      this.#list.add([found]);
       return this.#view && this.#adopt(this.#view);
     });
   }

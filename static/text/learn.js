@@ -58,7 +58,7 @@ export const learnText = {
       `${first ? "Begin with" : "Go on with"} ${number} · ${title}`,
     missing: "The lessons could not be loaded. You can step through any frame without them.",
     again: AGAIN,
-    unknown: (/** @type {string} */ id) => `There is no lesson “${id}”. Choose one of these.`,
+    unknown: (/** @type {string} */ id) => `There is no lesson “${id.slice(0, 60)}”. Choose one in Learn.`,
     overviewHint:
       "The method, block by block (Fig. 3 of the paper), with the lessons about each. The lit block is what you see now: press → to step through this frame.",
     make: "Make a lesson from here",

@@ -53,6 +53,12 @@ def test_a_link_never_makes_the_page_unusable(new_tab, odd, named):
     assert named in tab.page.locator(NOTICE).first.inner_text()
 
 
+def test_a_link_to_a_lesson_that_is_gone_says_so_in_every_mode(new_tab):
+    tab = new_tab("#recording=sample:hallway&frame=3&lesson=zz&page=2")
+    assert tab.until("s.frame === 3")["segments"]
+    tab.page.get_by_text("There is no lesson “zz”").locator("visible=true").first.wait_for()
+
+
 def test_a_link_to_a_presenter_with_too_long_a_name_says_that_it_is_gone(new_tab):
     tab = new_tab("#follow=" + "a" * 100)
     assert tab.until("s.following === 'gone'")["segments"]

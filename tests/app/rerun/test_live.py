@@ -14,8 +14,9 @@ from pathlib import Path
 
 import pytest
 from lineseg_app.frame.findings import findings
-from lineseg_app.rerun.live import LiveRerun, answers
+from lineseg_app.rerun.live import LiveRerun, answers, start_viewer
 from lineseg_app.rerun.viewer import executable, quiet_environment
+from lineseg_app.shelf.scratch import remove_leftovers
 from lineseg_app.view import View
 from live import Address, page_of
 from rrd import rows_of
@@ -120,3 +121,38 @@ def test_a_viewer_that_never_answers_is_told_once_and_does_not_hold_up_the_end(t
     assert server.returncode == 0
     assert said.count("does not take what it is sent") == 1
     assert "Traceback" not in said
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="files are locked in another way")
+@pytest.mark.filterwarnings("ignore:subprocess .* is still running:ResourceWarning")
+def test_the_settings_of_a_viewer_stay_while_it_runs_and_are_removed_after_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
+    """A stand-in for rerun's viewer, which needs a display: it listens, and waits to be told to end."""
+    viewer = tmp_path / "viewer"
+    viewer.write_text(f"""#!{sys.executable}
+import socket, sys
+if "--port" in sys.argv:
+    with socket.create_server(("127.0.0.1", int(sys.argv[sys.argv.index("--port") + 1]))) as server:
+        while server.accept()[0].recv(1) != b"q":
+            pass
+""")
+    viewer.chmod(0o755)
+    monkeypatch.setenv("RERUN_CLI_PATH", str(viewer))
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path / "temporary"))
+    (tmp_path / "temporary").mkdir()
+    with socket.create_server(("127.0.0.1", 0)) as free:
+        port = free.getsockname()[1]
+    start_viewer(port)
+    (folder,) = (tmp_path / "temporary").iterdir()
+    os.utime(folder, (0, 0))
+    remove_leftovers(tmp_path / "user")
+    assert folder.exists()
+    with socket.create_connection(("127.0.0.1", port)) as viewer_told:
+        viewer_told.send(b"q")
+
+    def gone() -> bool:
+        remove_leftovers(tmp_path / "user")
+        return not folder.exists()
+
+    eventually(gone, "the settings of a viewer that has ended are left")
