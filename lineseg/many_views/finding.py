@@ -20,7 +20,7 @@ from .checks import check, trust
 from .growing import BEND, grown_walls
 from .merging import merged_walls, pieces_of, without_shadows
 from .openings import divided_at_openings
-from .profiles import Profiles, calmed, is_even, is_straight, profiles_of, scatter_by_range, stretches_of
+from .profiles import Profiles, calmed, doubled, is_even, is_straight, profiles_of, scatter_by_range, stretches_of
 from .refining import refined
 from .steps import FINE, divided_at_steps
 
@@ -170,8 +170,9 @@ class Known:
     """What is known of the pieces of walls, by which each return gets its piece.
 
     firm: (w,) whether a piece is straight and even; smooth: (w,) whether it is even in single scans, so that only its
-    bends or the poses blur it; profiles: of the pieces; height, scatter: (s,) of
-    their stretches [m]; by_range: how much points scatter, metre by metre of their range [m]; places: what was seen.
+    bends or the poses blur it; profiles: of the pieces; height, scatter: (s,) of their stretches [m]; doubled: (s,)
+    whether a stretch has another close in front or behind; by_range: how much points scatter, metre by metre of their
+    range [m]; places: what was seen.
     """
 
     walls: Walls
@@ -180,6 +181,7 @@ class Known:
     profiles: Profiles
     height: Floats
     scatter: Floats
+    doubled: NDArray[np.bool_]
     by_range: Floats
     places: Places
 
@@ -202,7 +204,8 @@ class Known:
         both = np.flatnonzero((np.diff(found[near]) == 0) & (np.diff(scan[near]) == 0))
         step = np.abs(np.diff(over[near])[both]) / np.sqrt(2)
         smooth = is_even(stretch[both], step, away[both], by_range, profiles)
-        return cls(walls, firm, smooth, profiles, height, scatter, by_range, Places.of(placed, views[scan]))
+        twice, places = doubled(profiles, walls, firm), Places.of(placed, views[scan])
+        return cls(walls, firm, smooth, profiles, height, scatter, twice, by_range, places)
 
     def labels(
         self, placed: NDArray[np.float32], scan: NDArray[np.int32], poses: Floats
@@ -211,8 +214,8 @@ class Known:
         (n,) its height over the piece [m].
 
         Returns that lie a little farther from their wall than others do are UNKNOWN, and so are long surfaces that bend
-        or that the poses blur: whoever finds lines there is neither right nor wrong. Surfaces that are rough in single
-        scans, such as a hedge, are no walls.
+        or that the poses blur or show twice: whoever finds lines there is neither right nor wrong. Surfaces that are
+        rough in single scans, such as a hedge, are no walls.
         """
         walls, profiles = self.walls, self.profiles
         found, height = nearest_walls(placed, scan, poses, walls, BENT)
@@ -229,7 +232,7 @@ class Known:
             wall[near[good & (off >= limit)]] = UNKNOWN
             wall[near[good & ~self.firm[own]]] = -1
             wall[near[(~self.firm & self.smooth & long)[own] & good]] = UNKNOWN
-            wall[near[(profiles.views[stretch] < LEAST_VIEWS) & good]] = UNKNOWN
+            wall[near[((profiles.views[stretch] < LEAST_VIEWS) | self.doubled[stretch]) & good]] = UNKNOWN
         elsewhere = wall == -1
         wall[elsewhere & on_the_way(placed, scan, poses, walls.only(self.firm))] = UNKNOWN
         wall[elsewhere & (self.places.views_at(placed) < LEAST_VIEWS)] = UNKNOWN

@@ -20,6 +20,8 @@ FEW = 200
 # Median absolute deviation of a normal distribution, in standard deviations.
 MAD = 0.6745
 FINEST = 1_000_000
+# Two walls are one that poses show twice if they are less than this apart [m], with a cosine of the angle above that.
+TWICE, ALIKE = 0.25, np.cos(np.radians(8))
 # Of all points, so many tell how the laser scatters at each range.
 MOST_POINTS = 400_000
 
@@ -64,6 +66,23 @@ def calmed(values: Floats, profiles: Profiles) -> Floats:
     place = np.clip(np.arange(len(values)), np.minimum(first + 1, last), np.maximum(last - 1, first))
     sides = [filled[np.clip(place + step, first, last)] for step in (-1, 0, 1)]
     return np.median(sides, axis=0)
+
+
+def doubled(profiles: Profiles, walls: Walls, firm: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """(s,) whether the surface of a stretch is there twice: another firm wall that faces the same way lies so close.
+
+    Nobody sees both of two such surfaces, except past an end of the one in front, so poses that were off made two of
+    one.
+    """
+    wall = profiles.wall
+    middle = walls.normal[wall] * walls.offset[wall, None] + walls.along[wall] * profiles.at[:, None]
+    twice = np.zeros(len(wall), bool)
+    for other in np.flatnonzero(firm):
+        at, across = middle @ walls.along[other], middle @ walls.normal[other] - walls.offset[other]
+        inside = (at > walls.low[other] + STRETCH / 2) & (at < walls.high[other] - STRETCH / 2)
+        close = np.flatnonzero(inside & (np.abs(across) < TWICE) & (wall != other))
+        twice[close] |= walls.normal[wall[close]] @ walls.normal[other] > ALIKE
+    return twice & firm[wall]
 
 
 def starts_of(walls: Walls, length: float) -> NDArray[np.int64]:

@@ -53,7 +53,7 @@ def main(first: int, stop: int) -> None:
         here = off[:, number]
         share = np.mean(np.abs(here) <= NEAR, axis=0)
         sure = np.mean(np.abs(here[trusted]) <= NEAR, axis=0) if any(trusted) else np.full(3, np.nan)
-        print(f"{method:26}{share.round(2)} trusted {sure.round(2)} {np.median(here, axis=0).round(1)}")
+        print(f"{method:26}{share.round(2)} trusted {sure.round(2)} {np.nanmedian(here, axis=0).round(1)}")
 
 
 if __name__ == "__main__":

@@ -9,7 +9,9 @@ import pytest
 from lineseg import Recording, Scan, simulate
 from lineseg.many_views import truth_by_many_views
 from lineseg.many_views.checks import trust
+from lineseg.many_views.profiles import doubled, profiles_of
 from lineseg.posed.returns import Returns
+from lineseg.posed.walls import Walls
 from lineseg.poses import PoseSource, Track, in_world
 from lineseg.simulate import PAINT, PLASTER, ROUGH, UTM_30LX, box, circle, door, polyline, room
 from lineseg.truth import UNKNOWN, true_lines
@@ -115,6 +117,20 @@ def test_poses_that_drift_are_corrected():
     found = truth_by_many_views(with_poses(recording, recording.poses + drift))
     assert found.thickness < 0.8 * found.thickness_before
     assert differing(recording, found.recording) < 0.03
+
+
+@pytest.mark.parametrize(("apart", "facing", "expected"), [(0.15, 1, True), (0.4, 1, False), (0.15, -1, False)])
+def test_a_wall_that_poses_show_twice_is_doubled_where_both_are(apart, facing, expected):
+    walls = Walls(
+        np.array([(0.0, 1.0), (0.0, float(facing))]), np.array([0.0, facing * apart]), np.array([-4.0, -2.0]),
+        np.array([4.0, 2.0]), np.full(2, 0.01),
+    )  # fmt: skip
+    nothing = np.empty(0)
+    profiles = profiles_of(np.empty((0, 2)), nothing.astype(np.int32), nothing, nothing.astype(int), walls)
+    both = (np.abs(profiles.at) < 1.85) & expected
+    inner = (np.abs(profiles.at) < 1.85) | (np.abs(profiles.at) > 2.05)
+    assert np.array_equal(doubled(profiles, walls, np.ones(2, bool))[inner], both[inner])
+    assert not doubled(profiles, walls, np.array([True, False])).any()
 
 
 def test_what_one_place_alone_saw_is_unknown():
