@@ -24,7 +24,8 @@ VALUES = 60
 RANGES = 5
 # A slower method would take minutes for all results, so that its thresholds stand [s].
 SLOWEST = 0.03
-DIGITS = 6
+# A micrometre; places of views to 0.1 mm, and directions finer, because a plan may be stretched 50 times across them.
+DIGITS, PLACE_DIGITS, NORMAL_DIGITS = 6, 4, 6
 
 
 class Content:
@@ -54,6 +55,7 @@ class Content:
         for name, column in columns.items():
             if isinstance(column, list) and name not in ("x", "y"):
                 del column[steps:]
+                columns[name] = rounded(column)
         columns["jumps"] = {name: [k for k in jumps if k < steps] for name, jumps in columns["jumps"].items()}
         starts = columns["starts"]
         starts["phase"], starts["line"] = ([k for k in starts[name] if k < steps] for name in ("phase", "line"))
@@ -113,7 +115,9 @@ class Content:
         if framing is None:
             return None
         tells = [number for number, name in enumerate(framing.names) if name.tells]
-        return {"framing": rounded(framing_told(framing)), "tells": tells}
+        told = framing_told(framing)
+        placed = rounded(told, PLACE_DIGITS) | {"normal": rounded(told["normal"], NORMAL_DIGITS)}
+        return {"framing": placed, "tells": tells}
 
 
 def usual_ranges(params: Thresholds) -> list[str]:
@@ -121,10 +125,10 @@ def usual_ranges(params: Thresholds) -> list[str]:
     return [name for name, kind, knob in params.knobs() if kind is not bool and not knob.extension][:RANGES]
 
 
-def rounded(told: Any) -> Any:
-    """The same with all numbers rounded to a micrometre."""
+def rounded(told: Any, digits: int = DIGITS) -> Any:
+    """The same with all numbers rounded to so many digits after the point."""
     if isinstance(told, float):
-        return round(told, DIGITS)
+        return round(told, digits)
     if isinstance(told, dict):
-        return {name: rounded(value) for name, value in told.items()}
-    return [rounded(each) for each in told] if isinstance(told, list | tuple) else told
+        return {name: rounded(value, digits) for name, value in told.items()}
+    return [rounded(each, digits) for each in told] if isinstance(told, list | tuple) else told

@@ -6,19 +6,45 @@ import { h } from "../widgets/dom.js";
 
 const TALL_PX = 420;
 
-/** @param {HTMLElement} holder the stage @param {Text} text */
-export function createKey(holder, text) {
+const ROOM_PX = 12;
+// So far beside the line its band and its names still are.
+const BESIDE_PX = 30;
+// A place with a name counts as much as this many places of the line.
+const NAMED = 4;
+
+/**
+ * It lies in the lower right corner of the stage, or in the upper left one if there it covers less.
+ * @param {HTMLElement} holder the stage @param {Text} text
+ * @param {{project: (x: number, y: number) => [number, number] | null, onMove: (listener: () => void) => void}} view
+ */
+export function createKey(holder, text, view) {
   const list = h("ul");
   const element = h("details", { class: "scene-key", hidden: true }, h("summary", {}, text.label), list);
   // Whoever opens or closes it decides for the rest.
   let chosen = false;
   element.firstElementChild?.addEventListener("click", () => (chosen = true));
+  /** @type {import("../wire.js").Framing | null} */
+  let shown = null;
+  view.onMove(place);
+  element.addEventListener("toggle", place);
+
+  function place() {
+    if (!shown || element.hidden) return;
+    const { clientWidth: right, clientHeight: bottom } = holder;
+    const spots = spotsOf(shown).flatMap(([x, y]) => [view.project(x, y) ?? []]);
+    const [wide, tall] = [element.offsetWidth + ROOM_PX, element.offsetHeight + ROOM_PX];
+    const above = spots.filter(([x, y]) => x < wide + BESIDE_PX && y < tall + BESIDE_PX);
+    const below = spots.filter(([x, y]) => x > right - wide - BESIDE_PX && y > bottom - tall - BESIDE_PX);
+    element.classList.toggle("low", below.length <= above.length);
+  }
+
   return {
     element,
     /** @param {import("../wire.js").State} state */
     setState({ framing, nodes }) {
       const marks = framing ? Object.keys(text.marks).filter((name) => nodes.includes(name)) : [];
       element.hidden = !marks.length;
+      shown = framing ?? null;
       if (element.hidden) return;
       if (!chosen) element.open = holder.clientHeight >= TALL_PX;
       list.replaceChildren(
@@ -26,6 +52,19 @@ export function createKey(holder, text) {
           h("li", {}, h("i", { class: `mark mark-${name}`, "aria-hidden": "true" }), text.marks[name]),
         ),
       );
+      place();
     },
   };
+}
+
+/** Places that a step speaks of, and its line. @param {import("../wire.js").Framing} framing @returns {[number, number][]} */
+function spotsOf({ box: [x1, y1, x2, y2], normal: [a, b], at: [x, y], names, measures }) {
+  const long = Math.hypot(x2 - x1, y2 - y1) / 2;
+  const line = Array.from({ length: 41 }, (_, k) => long * (k / 20 - 1));
+  return [
+    ...Array(NAMED)
+      .fill([...names.map(({ at }) => at), ...measures.flatMap(({ start, end }) => [start, end])])
+      .flat(),
+    ...line.map((along) => /** @type {[number, number]} */ ([x - b * along, y + a * along])),
+  ];
 }

@@ -36,8 +36,8 @@ export function mountScene(
 ) {
   const stage = createStage(holder, text.stage, { onKey, onFrame, onPick: createPick(page) });
   const notices = mountNotices(holder, text.stage, { onCancel, onRetry });
+  const key = createKey(holder, text.stage.key, stage);
   const names = createNames(holder, stage);
-  const key = createKey(holder, text.stage.key);
   const camera = createCamera(page, stage, text.stage, {
     drawing,
     names: isNamed,
@@ -71,9 +71,8 @@ export function mountScene(
     onChange: (params) => page.change({ params }),
   });
   const tools = h("div", { class: "stage-tools" }, ...camera.buttons, ruler.button, world.button, layers.button);
-  notices.add(key.element);
   notices.add(lasers.element);
-  holder.append(tools, world.list, layers.list, explanation.element);
+  holder.append(tools, key.element, world.list, layers.list, explanation.element);
   stage.keepClearOf([tools]);
   holder.setAttribute("aria-label", text.stage.label);
   return {

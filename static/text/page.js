@@ -107,7 +107,7 @@ export const pageText = {
         seeds: "seed of a line",
         candidate: "point under test, P",
         predicted: "predicted point P′",
-        growing: "line at this step; red: refused",
+        growing: "line; red: refused or stopped",
         other: "second line",
         bent: "line fitted with P",
         band: "band of ±ε",

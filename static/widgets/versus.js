@@ -1,6 +1,7 @@
 // @ts-check
 import { h, setText } from "./dom.js";
 import { clamp } from "./scale.js";
+import { symbols } from "./symbols.js";
 
 /** A bar of a measured value against its limit. */
 export function createVersus() {
@@ -23,7 +24,7 @@ export function createVersus() {
     set(compared) {
       const known = compared && compared.value !== null && compared.limit !== null;
       element.classList.toggle("blank", !known);
-      if (!known) return setText(words, "");
+      if (!known) return void setText(words, "");
       const { symbol, unit, least } = compared;
       const value = Number(compared.value);
       const bound = Number(compared.limit);
@@ -33,10 +34,16 @@ export function createVersus() {
       fill.style.width = `${100 * clamp(value / whole, 0, 1)}%`;
       limit.style.left = `${100 * clamp(bound / whole, 0, 1)}%`;
       const sign = value === bound ? "=" : value < bound ? "<" : ">";
-      const text = `${number(value)} ${sign} ${symbol ? `${symbol} ` : ""}${number(bound)}${unit ? ` ${unit}` : ""}`;
-      return setText(words, text);
+      const told = unit === "rad" ? degrees : (/** @type {number} */ it) => `${number(it)}`;
+      const after = unit && unit !== "rad" ? ` ${unit}` : "";
+      words.replaceChildren(...symbols(`${told(value)} ${sign} ${symbol ? `${symbol} ` : ""}${told(bound)}${after}`));
     },
   };
+}
+
+/** As sentences tell angles. @param {number} value [rad] */
+function degrees(value) {
+  return `${((180 * value) / Math.PI).toFixed(1)}°`;
 }
 
 /** @param {number} value */

@@ -204,11 +204,11 @@ function paint(canvas, frame, wrong) {
     pen.lineTo(x2, y2);
     pen.stroke();
     pen.setLineDash([]);
-    // Beside the line, on the side of the laser.
+    // Beside the line, on the far side from the laser: walls that face each other keep their numbers apart.
     const [laser] = [on([0, 0])];
     const [mx, my] = [(x1 + x2) / 2, (y1 + y2) / 2];
     const far = Math.hypot(x2 - x1, y2 - y1) || 1;
-    const side = Math.sign((y1 - y2) * (laser[0] - mx) + (x2 - x1) * (laser[1] - my)) || 1;
+    const side = -Math.sign((y1 - y2) * (laser[0] - mx) + (x2 - x1) * (laser[1] - my)) || 1;
     pen.fillText(String(k + 1), mx + (11 * side * (y1 - y2)) / far, my + (11 * side * (x2 - x1)) / far);
   });
 }

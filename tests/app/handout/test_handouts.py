@@ -63,8 +63,17 @@ def opened(html: str) -> Page:
     whole = gzip.decompress(base64.b64decode(data))
     begin = 4 + int.from_bytes(whole[:4], "little")
     head = json.loads(whole[4:begin])
-    arrays = {name: np.frombuffer(whole, kind, n, begin + at) for name, (kind, at, n) in head["arrays"].items()}
+    arrays = {name: array_in(whole, kind, n, begin + at) for name, (kind, at, n) in head["arrays"].items()}
     return Page(html, head["content"], arrays)
+
+
+def array_in(whole: bytes, kind: str, n: int, at: int) -> np.ndarray:
+    if kind == "uint8":
+        return np.frombuffer(whole, kind, n, at)
+    planes = np.frombuffer(whole, np.uint8, 4 * n, at).reshape(4, n)
+    steps = [int.from_bytes(bytes(step), "little") for step in planes.T]
+    sums = np.cumsum([(step >> 1) ^ -(step & 1) for step in steps], dtype=np.int64)
+    return sums.astype(np.int32).astype(kind)
 
 
 @pytest.fixture(scope="module")

@@ -45,8 +45,8 @@ RULES = (
     "at an ever smaller angle",
     "with points on both surfaces becomes a seed",
     "Both lie on the same beam",
-    "with each step the line gets longer and has more points",
-    "Whether later points would fit again",
+    "with each point the line gets longer and has more points",
+    "Later points are not tried, even if they would fit",
     "the overlap is resolved later",
     "Use “by line” to move",
     "so they are the same wall",
@@ -59,7 +59,7 @@ RULES = (
     "Endpoints are the last decisions",
     "S_num = {seed_points}. A seed must now be",
     "A distant wall has few points",
-    "P_min depends on distance",
+    "So whether a wall has P_min points",
     "more than you want in a map",
     "Change one threshold so that",
     "Or limit how much",
@@ -68,7 +68,11 @@ RULES = (
     "takes all points of a stretch",
     "Finally it merges",
     "splitting looks at all points of a stretch again",
-    "Break it: make the two pieces one line",
+    "Make it go wrong: join the two pieces",
+    "too far, along its beam, from the place where this beam meets the line",
+    "This is a later window",
+    "Noise turns the lines of one straight wall by far less",
+    "because glass and black surfaces often give none",
     "Every point has such an answer",
     "If it is too large",
     "different things become one line",
@@ -77,7 +81,7 @@ RULES = (
     "The formula gives the foot",
     "The lower left chart",
     "Every line begins with a few neighbouring points",
-    "or at its button below",
+    "or at its button",
     "Overlapping lines with nearly the same direction are merged into one",
     "Where two walls meet, the points near the corner fit both",
     "the first points of a line limit which later points can join",
@@ -92,7 +96,7 @@ RULES = (
     "How far would beam 512 be",
     "it must be larger than the noise",
     "The picture below shows the noise",
-    "stands back by less than ε is the same as the wall",
+    "stands back by less than ε is taken for the wall",
     "[Lesson 7](lesson:07_epsilon)",
     "The sentence below the picture says how many",
     "You say which lines there are, in ten frames",
@@ -257,7 +261,7 @@ def _():
 @claim(
     "02_delta",
     "fewer than P_min = {min_points}, so both were dropped",
-    "no line runs across the step",
+    "no line joins the door leaf with the wall",
     "so is the wall at the end",
 )
 def _():
@@ -291,7 +295,7 @@ def _():
 @claim(
     "03_growth",
     "is less than ε = {limit}, so it joins",
-    "The first point of the niche that is far from the line",
+    "beam {beam} is the first point that is not near the line",
 )
 def _():
     added = next(d for d in traced("03_growth") if d.kind == "point added" and d.direction == 1)
@@ -402,7 +406,7 @@ def _():
     assert one.last - two.first >= 4
 
 
-@claim("05_corner", "each point was measured on one wall only", "turn a line away from its wall")
+@claim("05_corner", "each point was measured on one wall only", "turn each line a little away from its own wall")
 def _():
     grown = [kept.line for kept in decisions("05_corner", "line kept")]
     refitted = [d.line for d in decisions("05_corner", "endpoints")]
@@ -419,7 +423,7 @@ def _():
     "05_corner",
     "at the first point that is not nearer to the first line",
     "All shared points before beam {cut.beam} are nearer to the first line",
-    "Select the first point of the second line after the cut",
+    "Select the first point of the second line (the left one) after the cut",
 )
 def _():
     (cut,) = decisions("05_corner", "overlap cut")
@@ -683,7 +687,7 @@ def _():
     "The two pieces lie on the same line but share no point",
     "The doorway is {value} beams wide",
     "{stop.value} beams in a row have no return",
-    "make the two pieces one line across the open doorway",
+    "join the two pieces to one line across the open doorway",
     "Now it is one line",
 )
 def _():
