@@ -29,13 +29,13 @@ from .bridge import Told, hand_all
 from .dds_domain import join
 from .dds_types import serialised_type
 from .outgoing import Message, full_type
-from .topics import LASER_SCAN, Offer, chosen_topic, of_lasers
+from .topics import LASER_SCAN, LOOK_SECONDS, Offer, awaited_topic, of_lasers
 
 PREFIX = "rt"
 MOST_WAITING = 1000
-LOOK_SECONDS = 0.1
 # After so long without a match, two participants that know of each other do not fit.
 MATCH_SECONDS = 1.0
+QUIET_SECONDS = 3.0
 LEAVE_SECONDS = 1.0
 POLICIES = {2: "durability", 4: "deadline", 5: "latency budget", 6: "ownership", 8: "liveliness", 10: "partition",
             11: "reliability", 12: "destination order", 23: "data representation"}  # fmt: skip
@@ -111,7 +111,7 @@ class Dds:
 
     def scans(self, topic: str | None, told: Told) -> None:
         while not self._closing.is_set():
-            offers = self._wait_for(topic, told)
+            offers = self._lasers(awaited_topic(topic, self.offers, self._closing, told.waits))
             if offers:
                 told.topic_is(offers[0].topic)
                 told.waits(f"subscribed to {offers[0].topic}; waiting for its first scan")
@@ -134,16 +134,8 @@ class Dds:
             if error.code != DDSException.DDS_RETCODE_TIMEOUT:  # a slow receiver, which misses this one
                 raise ValueError(f"nothing can be published to {topic}: {error.msg}") from None
 
-    def _wait_for(self, wanted: str | None, told: Told) -> list[DdsOffer]:
-        """The offers of the topic, or of the first laser topic, as soon as there are some; [] on closing."""
-        while not self._closing.is_set():
-            offers = self.offers()
-            chosen, why = chosen_topic(wanted, offers)
-            if chosen is not None:
-                return [offer for offer in offers if offer.is_laser and offer.topic == chosen]
-            told.waits(why)
-            self._closing.wait(LOOK_SECONDS)
-        return []
+    def _lasers(self, topic: str | None) -> list[DdsOffer]:
+        return [offer for offer in self.offers() if offer.is_laser and offer.topic == topic]
 
     def _receive(self, offers: list[DdsOffer], told: Told) -> None:
         """Hand over scans until the topic is offered in another way, or on closing."""
@@ -158,12 +150,12 @@ class Dds:
                 arrived = time.perf_counter()
                 samples = [each for each in reader.take(MOST_WAITING) if each.sample_info.valid_data]
                 hand_all(told, [partial(decode_cdr, sample.data) for sample in samples], arrived)
-                watch.said = ""
+                watch.said, watch.heard = "", watch.heard or bool(samples)
             now = time.monotonic()
             if now < watch.looks:
                 continue
             watch.looks = now + LOOK_SECONDS
-            there = [offer for offer in self.offers() if offer.is_laser and offer.topic == topic]
+            there = self._lasers(topic)
             if there and _asked(there) != asked:
                 break
             watch.tell(bool(there), reader, told, now)
@@ -180,23 +172,39 @@ class Dds:
 
 @dataclass
 class _Watch:
-    """Tells when the publisher of a topic is gone, or does not fit."""
+    """Tells when the publisher of a topic is gone, does not fit, or sends nothing that can be read.
+
+    since: when it last fitted; fits_since: since when it does, 0 if it does not; heard: whether a scan came.
+    """
 
     topic: str
     since: float
+    fits_since: float = 0.0
     looks: float = 0.0
     said: str = ""
+    heard: bool = False
 
     def tell(self, offered: bool, reader: DataReader[Any], told: Told, now: float) -> None:
         matched = bool(reader.get_matched_publications())
         if matched or (offered and now - self.since < MATCH_SECONDS):
             self.said = ""
-            self.since = now if matched else self.since
+            if matched:
+                self.since, self.fits_since = now, self.fits_since or now
+                self._tell_quiet(told, now)
             return
+        self.fits_since = 0.0
         why = _why_no_match(self.topic, reader) if offered else f"{self.topic} is no longer published; waiting for it"
         if why != self.said:
             self.said = why
             told.misses(why)
+
+    def _tell_quiet(self, told: Told, now: float) -> None:
+        """Cyclone DDS drops what it cannot decode, and says so on stderr only."""
+        if not self.heard and now - self.fits_since > QUIET_SECONDS:
+            told.waits(
+                f"{self.topic} has a publisher, but no scan comes from it; if lines with `deserialization` follow on "
+                "stderr, it does not send LaserScan as plain CDR"
+            )
 
 
 def _offer(found: Any) -> DdsOffer:

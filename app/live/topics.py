@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+import threading
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import TypeVar
 
 from lineseg.readers.laser_scan import TYPES
 
 LASER_SCAN = TYPES[1]
+LOOK_SECONDS = 0.1
 
 
 @dataclass(frozen=True)
@@ -38,6 +40,22 @@ def chosen_topic(wanted: str | None, offers: Sequence[Offer]) -> tuple[str | Non
     if chosen in lasers:
         return chosen, ""
     return None, why_none(wanted, [(offer.topic, offer.type) for offer in offers], lasers)
+
+
+def awaited_topic(
+    wanted: str | None, offers: Callable[[], Sequence[Offer]], closing: threading.Event, waits: Callable[[str], None]
+) -> str | None:
+    """The topic of scans that is wanted, or the first, as soon as it is published; None on closing.
+
+    waits: called with the reason while there is none.
+    """
+    while not closing.is_set():
+        chosen, why = chosen_topic(wanted, offers())
+        if chosen is not None:
+            return chosen
+        waits(why)
+        closing.wait(LOOK_SECONDS)
+    return None
 
 
 def why_none(topic: str | None, offers: Sequence[tuple[str, str]], lasers: Sequence[str]) -> str:

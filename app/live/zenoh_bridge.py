@@ -29,7 +29,7 @@ from lineseg.readers.laser_scan import decode_cdr
 
 from .bridge import OPEN_SECONDS, Told, hand_all
 from .outgoing import Message, dds_type, full_type, typestore
-from .topics import LASER_SCAN, Offer, chosen_topic, of_lasers
+from .topics import LASER_SCAN, LOOK_SECONDS, Offer, awaited_topic, of_lasers
 
 SPACE = "@ros2_lv"
 PUBLISHER, NODE, SUBSCRIPTION = "MP", "NN", "MS"
@@ -39,7 +39,6 @@ QOS = "::,10:,:,:,,"
 TRANSIENT_LOCAL = "1"
 # What ROS 2 Humble has in place of the hash of a definition.
 HASHLESS = "TypeHashNotSupported"
-LOOK_SECONDS = 0.1
 # Tokens and messages come in any order.
 GONE_SECONDS = 0.5
 MOST_WAITING = 1000
@@ -123,7 +122,7 @@ class Zenoh:
         return list(self._offers.copy().values())
 
     def scans(self, topic: str | None, told: Told) -> None:
-        chosen = self._wait_for(topic, told)
+        chosen = awaited_topic(topic, self.offers, self._closing, told.waits)
         if chosen is None:
             return
         told.topic_is(chosen)
@@ -203,16 +202,6 @@ class Zenoh:
             return self._arrived.get_nowait()
         except queue.Empty:
             return None
-
-    def _wait_for(self, wanted: str | None, told: Told) -> str | None:
-        """The topic, or the first laser topic, as soon as it is published; None on closing."""
-        while not self._closing.is_set():
-            chosen, why = chosen_topic(wanted, self.offers())
-            if chosen is not None:
-                return chosen
-            told.waits(why)
-            self._closing.wait(LOOK_SECONDS)
-        return None
 
     def _hand_over(self, topic: str, told: Told) -> None:
         gone, heard = False, time.monotonic()

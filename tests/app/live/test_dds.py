@@ -162,6 +162,13 @@ def test_a_quality_of_service_that_does_not_fit_is_told(peer: Obedient, topic: s
         said(told, f"{topic} is published, but its ownership does not fit")
 
 
+def test_a_publisher_that_sends_nothing_that_can_be_read_is_told(peer: Obedient, topic: str):
+    with running(Address(f"ros2:{topic}"), topic) as told:
+        opened(peer, topic)
+        said(told, f"{topic} has a publisher, but no scan comes from it")
+        assert segments_back(peer, topic, ranges=wall(2.0))[1]["width"] == 1
+
+
 def test_another_definition_of_the_type_is_told(peer: Obedient, topic: str):
     with running(Address(f"ros2:{topic}"), topic) as told:
         peer.ask("open", topic=topic, kind="OtherScan", write=True)
