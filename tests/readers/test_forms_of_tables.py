@@ -108,6 +108,7 @@ FORMS = {
     "angles and ranges in a log": "".join(
         f"[{('INFO', 'WARN')[at]}] [17.5]: {name}: [{row(each, ', ')}]\n" for at, ranges in enumerate(SCANS)
         for name, each in (("angles", DEGREES), ("ranges", ranges))),
+    "numbered labels": "".join(f"Scan {at}: {row(each, ' ')}\n" for at, each in enumerate(SCANS)),
     "numbers beside points": "".join(f"{beam} {x:g} {y:g}\n" for beam, (x, y) in
                                      enumerate(np.array([points(each) for each in SCANS]).reshape(-1, 2))),
     "names above each row": "".join(f"angle,{','.join(f'range_{beam}' for beam in range(181))}\n0.5,{row(each)}\n"

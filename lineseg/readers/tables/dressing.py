@@ -148,7 +148,7 @@ def _undressing(lines: list[bytes], notes: Notes) -> Callable[[bytes], bytes] | 
     lines = lines[-ENOUGH:]
     worn = (dress for dress in DRESSES if 2 * sum(map(bool, map(dress.fits, lines))) > len(lines))
     dress = next(worn, None)
-    return _of_one_word(lines) or _of_one_field(lines, notes) if dress is None else dress.off
+    return _of_one_field(lines, notes) or _of_one_word(lines) if dress is None else dress.off
 
 
 def _of_one_field(lines: list[bytes], notes: Notes) -> Callable[[bytes], bytes] | None:
