@@ -13,6 +13,7 @@ from scenes import wall_ahead
 
 from lineseg import Recording, open_recording, save_npz
 from lineseg.poses import in_world, said_of, seen_from
+from lineseg.readers.poses.trajectory import trajectory_of
 
 STAMPS = np.arange(5) * 0.1 + 100.05
 # Turned by half a turn around the x axis.
@@ -281,3 +282,10 @@ def test_opening_a_file_finds_neither_its_poses_nor_what_it_was_taken_for(name: 
     recording = open_recording(Path(__file__).parents[2] / "sample_scans" / name)
     assert "findings" not in vars(recording.account)
     assert recording.track is None or "found" not in vars(recording.track)
+
+
+def test_a_line_of_opening_brackets_is_refused_at_once(tmp_path):
+    """Each bracket once looked for its partner to the end of the line: this test would not end."""
+    (tmp_path / "poses.txt").write_text("[" * 1_000_000)
+    with pytest.raises(ValueError, match="has no row of numbers"):
+        trajectory_of(tmp_path / "poses.txt", STAMPS)

@@ -109,7 +109,7 @@ def _meanings(text: str) -> tuple[str, ...]:
     """What each column means, "" if it is not needed; () if the names are no poses."""
     found = []
     for cell in _cells(text):
-        word = re.sub(r"[^a-z]", "", re.sub(r"\[.*?\]|\(.*?\)", "", cell.lower()))
+        word = re.sub(r"[^a-z]", "", re.sub(r"\[[^\[\]]*\]|\([^()]*\)", "", cell.lower()))
         exact = [name for name, words in NAMES.items() if word in words]
         ending = [name for name, words in NAMES.items() if any(len(each) > 5 and word.endswith(each) for each in words)]
         found.append(next((name for name in (*exact, *ending) if name not in found), ""))
