@@ -5,6 +5,7 @@ A new format is one small class in one file, and one line in READERS.
 
 from __future__ import annotations
 
+import errno
 from collections.abc import Callable
 from contextlib import ExitStack
 from dataclasses import replace
@@ -48,6 +49,8 @@ __all__ = [
 ]  # fmt: skip
 
 HEAD_BYTES = 1 << 16
+# The file may be whole, but cannot be had.
+LOST = (errno.EIO, errno.ENODEV, errno.ENXIO, errno.ESTALE, errno.ETIMEDOUT)
 MOST_LINES = 100
 
 
@@ -134,6 +137,10 @@ def _whole(source: Source, reader: type[Reader]) -> Recording:
     except (Cancelled, PermissionError, MemoryError):
         raise
     except Exception as error:  # what a library over a damaged file may raise
+        if isinstance(error, OSError) and error.errno in LOST:
+            raise OSError(
+                f"{source.name}: its disk or network failed ({error.strerror}); copy the file first."
+            ) from error
         why = " ".join(str(error).split()) or type(error).__name__
         raise ValueError(
             f"{source.name}: a damaged {reader.format} ({why}); a whole one has {reader.expects}."

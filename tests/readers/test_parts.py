@@ -1,5 +1,6 @@
 """The first scans of a long file, shown while the rest is read."""
 
+import errno
 import json
 import sqlite3
 from contextlib import closing
@@ -105,3 +106,13 @@ def test_scans_that_are_to_be_sorted_are_not_shown_before(tmp_path):
     whole, shown = parts_of(path)
     assert whole.stamps[0] == pytest.approx(STAMPS[99])
     assert max(len(part) for part, _ in shown) < 100
+
+
+def test_a_disk_that_fails_does_not_make_a_damaged_file(tmp_path):
+    path = log(tmp_path / "run.log", ("/scan", [2.0] * 30), stamps=STAMPS)
+
+    def fails(done, total):
+        raise OSError(errno.EIO, "Input/output error", str(path))
+
+    with pytest.raises(OSError, match=r"^run\.log: its disk or network failed \(Input/output error\); copy the file"):
+        open_recording(path, progress=fails)
