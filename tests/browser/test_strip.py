@@ -192,6 +192,20 @@ def test_a_recording_of_one_frame_says_why_there_is_no_strip(tab):
     tab.eventually(note.is_hidden, "the note stays")
 
 
+def test_while_a_score_is_computed_the_strip_says_so(tab):
+    strip_of(tab)
+    tab.page.evaluate("""() => {
+        const note = document.querySelector(".strip-note");
+        window.noted = [];
+        new MutationObserver(() => window.noted.push(note.textContent)).observe(note, { childList: true });
+    }""")
+    tab.page.get_by_label("Score of the frames").select_option("unstable")
+    strip_of(tab, "t.score === 'unstable'")
+    tab.eventually(tab.page.locator(".strip-note").is_hidden, "the note stays")
+    noted = tab.page.evaluate("window.noted")
+    assert (set(noted), noted[-1]) == ({"computing scores…", ""}, "")
+
+
 class Held:
     """Bags that are read part by part, as a test lets them."""
 
