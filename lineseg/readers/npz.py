@@ -17,11 +17,11 @@ from ..poses import PoseSource, Track
 from ..scan import Recording, Topic
 from ..unfinished import temporary_folder, whole_file
 from .arrays import header_of, is_exchange, loaded, recording_of_arrays
-from .containers.bounded import too_large
+from .containers.bounded import limit_of, too_large
 from .containers.cut_zip import unpack_cut
 from .source import Reader, Source
 
-MOST_BYTES = 8 << 30
+ENTRY = ".npy"
 SHAPES = "ranges (frames, beams) or (beams,), angle_min and angle_increment scalars or (frames,)"
 
 LONGEST_SOURCE = 2000
@@ -129,11 +129,12 @@ def _unless_equal(names: tuple[str, ...]) -> str | tuple[str, ...]:
 def _load(file: Path | BinaryIO, source: Source) -> dict[str, NDArray]:
     try:
         with zipfile.ZipFile(file) as archive:
-            size = sum(each.file_size for each in archive.infolist())
-        if size > MOST_BYTES:
-            raise ValueError(too_large(source.name, MOST_BYTES).rstrip("."))
+            entries = [each for each in archive.infolist() if each.filename.endswith(ENTRY)]
+        limit = limit_of(sum(each.compress_size for each in entries))
+        if sum(each.file_size for each in entries) > limit:
+            raise ValueError(too_large(source.name, limit).rstrip("."))
         with np.load(file, allow_pickle=False) as archive:
-            return {name: _array(archive, name) for name in archive.files}
+            return {name: _array(archive, name) for name in (each.filename.removesuffix(ENTRY) for each in entries)}
     except (zipfile.BadZipFile, zlib.error, EOFError, OSError) as error:
         if isinstance(file, Path) and (arrays := _of_cut(file, source)):
             return arrays
@@ -147,7 +148,7 @@ def _of_cut(path: Path, source: Source) -> dict[str, NDArray]:
     arrays: dict[str, NDArray] = {}
     with temporary_folder() as folder:
         for part in unpack_cut(path, folder, source.name):
-            name = part.name.removesuffix(".npy")
+            name = part.name.removesuffix(ENTRY)
             try:
                 arrays[name] = np.array(loaded(part.file, source.notes))
             except (ValueError, OSError, EOFError, MemoryError):

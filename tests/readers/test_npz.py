@@ -108,6 +108,18 @@ def test_a_zip_archive_that_states_more_than_memory_holds_is_refused(tmp_path):
         open_recording(path)
 
 
+def test_arrays_that_would_become_too_large_are_refused_and_what_is_no_array_is_not_unpacked(tmp_path):
+    path = tmp_path / "hall.npz"
+    np.savez(path, ranges=np.ones((2, 11), np.float32), **GEOMETRY)
+    with zipfile.ZipFile(path, "a", zipfile.ZIP_DEFLATED) as archive, archive.open("about.json", "w") as entry:
+        for _ in range(300):
+            entry.write(bytes(1 << 20))
+    assert len(open_recording(path)) == 2
+    np.savez_compressed(path, ranges=np.zeros((300, 1 << 18), np.float32), **GEOMETRY)
+    with pytest.raises(ValueError, match=r"^hall.npz would have more than 256 MB unpacked, which is not allowed"):
+        open_recording(path)
+
+
 @pytest.mark.parametrize("form", ["complex", "pairs", "planes", "angles"])
 def test_pairs_of_numbers_are_points_or_angles_and_distances_of_each_scan(tmp_path, form):
     bearings = np.linspace(-1.5, 1.5, 181)
