@@ -17,7 +17,7 @@ from ..poses import PoseSource, Track
 from ..scan import Recording, Topic
 from ..unfinished import temporary_folder, whole_file
 from .arrays import header_of, is_exchange, loaded, recording_of_arrays
-from .containers.bounded import limit_of, too_large
+from .containers.bounded import TooLargeError, limit_of, too_large
 from .containers.cut_zip import unpack_cut
 from .source import Reader, Source
 
@@ -132,9 +132,11 @@ def _load(file: Path | BinaryIO, source: Source) -> dict[str, NDArray]:
             entries = [each for each in archive.infolist() if each.filename.endswith(ENTRY)]
         limit = limit_of(sum(each.compress_size for each in entries))
         if sum(each.file_size for each in entries) > limit:
-            raise ValueError(too_large(source.name, limit).rstrip("."))
+            raise TooLargeError(too_large(source.name, limit))
         with np.load(file, allow_pickle=False) as archive:
             return {name: _array(archive, name) for name in (each.filename.removesuffix(ENTRY) for each in entries)}
+    except TooLargeError:
+        raise
     except (zipfile.BadZipFile, zlib.error, EOFError, OSError) as error:
         if isinstance(file, Path) and (arrays := _of_cut(file, source)):
             return arrays
