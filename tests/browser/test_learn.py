@@ -299,6 +299,7 @@ def test_leaving_a_lesson_gives_back_what_was_set_before_it(new_tab):
     assert tab.state["params"]["epsilon"] == 0.05
 
 
+@pytest.mark.own_tab
 def test_predictions_are_asked_before_the_decision_and_counted(new_tab):
     tab = learn(new_tab, "lesson:1_perfect_corner", step=0)
     tab.page.get_by_role("button", name="Predict").click()
