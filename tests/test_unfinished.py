@@ -3,7 +3,7 @@
 import json
 import os
 import subprocess
-import time
+import sys
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -14,7 +14,6 @@ from lineseg_app.__main__ import main
 from lineseg_app.server import Settings
 from lineseg_app.shelf.recent import Recent
 from live import page_of, serving
-from processes import lineseg
 
 from lineseg import FrameLabels, Recording, Scan, open_recording, read_labels, save_labels
 from lineseg.readers import save_npz
@@ -35,14 +34,22 @@ def tiny(tmp_path) -> Iterator[Path]:
     subprocess.run(["umount", "-l", folder], check=True)
 
 
-def test_what_a_killed_command_left_is_removed_by_the_next(tmp_path, capsys):
-    process = lineseg("extract", WALLS, "-o", tmp_path / "out.jsonl")
-    late = time.monotonic() + 120
-    while not any(part.stat().st_size for part in tmp_path.glob(FILES)) and time.monotonic() < late:
-        assert process.poll() is None
-        time.sleep(0.002)
-    process.kill()
-    process.communicate(timeout=60)
+HOLD = """
+import sys
+from pathlib import Path
+from lineseg.unfinished import whole_file
+with whole_file(Path(sys.argv[1])) as part:
+    part.write_text("half")
+    print("written", flush=True)
+    input()
+"""
+
+
+def test_what_a_killed_process_left_is_removed_by_the_next_command(tmp_path, capsys):
+    command = [sys.executable, "-c", HOLD, tmp_path / "out.jsonl"]
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True) as process:
+        assert process.stdout.readline() == "written\n"
+        process.kill()
     (left,) = tmp_path.iterdir()
     os.utime(left, (0, 0))
     small = tmp_path / "small.npz"
