@@ -12,7 +12,7 @@ from lineseg.sweep.totals import Measure
 from lineseg.what_if import WhatIf
 
 from . import view, view_field, wire
-from .live.node_params import Sent
+from .bridges.node_params import Sent
 from .routes import class_list, labels, lessons, robot, tuning
 from .shelf import lesson
 from .told import answers, drawn, handout, messages, words

@@ -28,9 +28,9 @@ from lineseg.failing import mistake
 from lineseg.readers import Reading
 
 from .body_limit import BodyLimit
+from .bridges.address import Address
 from .guard import Guard, is_loopback
 from .listening import listen, server_of
-from .live.address import Address
 from .live.hub import Live
 from .memory import keep_together, settle
 from .places import data_folder, user_folder

@@ -10,10 +10,10 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
-from lineseg_app.live.address import Address
-from lineseg_app.live.node import OWNER, Node
-from lineseg_app.live.running import Running
+from lineseg_app.bridges.address import Address
 from lineseg_app.live.source import Publishing
+from lineseg_app.node.node import OWNER, Node
+from lineseg_app.node.running import Running
 
 from lineseg import Params
 

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from lineseg_app.live.address import Address as RobotAddress
+from lineseg_app.bridges.address import Address as RobotAddress
 from lineseg_app.server import Settings
 from live import Address, serving
 

@@ -24,8 +24,8 @@ from .thresholds import Choice, Flags
 from .token import token_of
 
 if TYPE_CHECKING:
-    from ..live.address import Address
-    from ..live.running import Running
+    from ..bridges.address import Address
+    from ..node.running import Running
 
 
 def node(
@@ -71,8 +71,8 @@ def node(
     running = _running(method, threshold)
     noise = noise_of(range_noise, bearing_noise)
 
-    from ..live.node import OWNER, Node, warm_up
     from ..live.source import Publishing
+    from ..node.node import OWNER, Node, warm_up
 
     to_markers, to_cloud = _topics(markers, cloud)
     publisher = Node(address, Publishing(OWNER, to_markers, *running.now, to_cloud, noise), running, _tell, once)
@@ -115,7 +115,7 @@ def _door(
     token_file: Path | None,
 ) -> AbstractContextManager[None]:
     """Where the page may send thresholds."""
-    from ..live.node_door import open_door
+    from ..node.door import open_door
     from ..places import user_folder
 
     laser = f"{address.place} {address.topic or ''}".strip()
@@ -139,11 +139,11 @@ def _until_signal(stop: Callable[[], None]) -> Iterator[None]:
 
 def _running(method: Choice, flags: Any) -> Running:
     """What runs at first, and again when the file changes."""
-    from ..live.running import Running
+    from ..node.running import Running
 
     if method.params is None:
         return Running(method.name, method.thresholds(flags))
-    from ..live.watched import WatchedParams
+    from ..node.watched import WatchedParams
 
     kind = method.extractor.params_type
     file = WatchedParams(method.params, kind, _tell)

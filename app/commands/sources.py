@@ -7,7 +7,7 @@ from importlib.util import find_spec
 
 from lineseg.installation import install_command
 
-from ..live.address import EXPECTED, Address, domain_of, is_address
+from ..bridges.address import EXPECTED, Address, domain_of, is_address
 
 NEEDED = {"ros2": "cyclonedds", "zenoh": "zenoh"}
 LIST_SECONDS = 2.0
@@ -25,7 +25,7 @@ def address_of(text: str, topic: str | None) -> Address:
     if package and address.domain is None:
         domain_of(os.environ)
     if address.scheme == "ros2":
-        from ..live.dds_domain import discovery
+        from ..bridges.dds_domain import discovery
 
         discovery(os.environ)
     return address
@@ -50,10 +50,10 @@ def list_topics(address: Address) -> bool:
 def _found(address: Address) -> list[tuple[str, str]]:
     """Topics, and what is known of how they are published."""
     if address.scheme == "zenoh":
-        from ..live.zenoh_bridge import zenoh_topics
+        from ..bridges.zenoh_bridge import zenoh_topics
 
         return [(offer.topic, "") for offer in zenoh_topics(address.router, domain_of(os.environ), LIST_SECONDS)]
-    from ..live.dds import laser_topics
+    from ..bridges.dds import laser_topics
 
     reliabilities, durabilities = ("best effort", "reliable"), ("volatile", "transient local")
     return [

@@ -11,8 +11,8 @@ from tyro.conf import OmitArgPrefixes, Positional, arg
 
 from lineseg.readers import Reading
 
-from ..live.address import Address, check_address, is_address
-from ..live.node_offers import is_node
+from ..bridges.address import Address, check_address, is_address
+from ..node.offers import is_node
 from .flag_types import Several, Switch, Unset, lessons_folder
 from .reading import ReadingFlags, files_of, reading_of
 from .sources import address_of, list_topics

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator, Sequence
 from lineseg import Thresholds
 from lineseg.readers import Cancelled
 
-from .address import Address
+from ..bridges.address import Address
 from .ring import LiveRecording, Ring
 from .robot import Robot
 from .source import Source

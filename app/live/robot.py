@@ -16,14 +16,14 @@ from websockets.exceptions import WebSocketException
 from lineseg import EXTRACTORS
 from lineseg.readers.laser_scan import LaserScan
 
+from ..bridges.address import Address, domain_of
+from ..bridges.bridge import Bridge, why_not
+from ..bridges.cloud import Cloud
+from ..bridges.markers import Markers
+from ..bridges.websocket import open_websocket
 from ..stopping import abandon
-from .address import Address, domain_of
-from .bridge import Bridge, why_not
-from .cloud import Cloud
-from .markers import Markers
 from .ring import Ring
 from .source import Published, Publishing, Source, Spent
-from .websocket import open_websocket
 
 log = logging.getLogger(__name__)
 FIRST_PAUSE, LONGEST_PAUSE = 0.5, 15.0
@@ -116,11 +116,11 @@ class Robot(Source):
 
     def _open(self) -> AbstractContextManager[Bridge]:
         if self._address.scheme == "ros2":
-            from .dds import open_dds
+            from ..bridges.dds import open_dds
 
             return open_dds(self._address.domain)
         if self._address.scheme == "zenoh":
-            from .zenoh_bridge import open_zenoh
+            from ..bridges.zenoh_bridge import open_zenoh
 
             return open_zenoh(self._address.router, domain_of(os.environ))
         return open_websocket(self._address.url)

@@ -15,10 +15,10 @@ from starlette.exceptions import HTTPException
 from lineseg import Params
 
 from ..bounds import Name, Values
-from ..live.address import place_of
-from ..live.node_offers import SEND_SECONDS, NodeState, Offer, is_node, named_nodes, running_nodes, send_to_node
-from ..live.node_params import Sent, send_params
+from ..bridges.address import place_of
+from ..bridges.node_params import Sent, send_params
 from ..live.source import Publishing
+from ..node.offers import SEND_SECONDS, NodeState, Offer, is_node, named_nodes, running_nodes, send_to_node
 from ..session.sessions import Sessions
 from ..shelf.library import Library
 from ..told.answers import Robots, RunningNode

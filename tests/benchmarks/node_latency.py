@@ -31,9 +31,9 @@ from cyclonedds.sub import DataReader
 from cyclonedds.topic import Topic
 from cyclonedds.util import duration
 from dds_peer import loopback, qos_of
-from lineseg_app.live.cdr import CdrWriter
-from lineseg_app.live.dds_domain import join
-from lineseg_app.live.dds_types import serialised_type
+from lineseg_app.bridges.cdr import CdrWriter
+from lineseg_app.bridges.dds_domain import join
+from lineseg_app.bridges.dds_types import serialised_type
 
 from lineseg import open_recording
 from lineseg.readers.laser_scan import decode_cdr

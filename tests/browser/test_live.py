@@ -9,8 +9,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from lineseg_app.live.node_door import open_door
-from lineseg_app.live.running import Running
+from lineseg_app.node.door import open_door
+from lineseg_app.node.running import Running
 from live import Address
 from robots import wall, watching
 from rosbridge_peer import RosBridgePeer, scan_message

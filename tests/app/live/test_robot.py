@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 import pytest
-from lineseg_app.live.address import Address as Laser
-from lineseg_app.live.running import Running
+from lineseg_app.bridges.address import Address as Laser
+from lineseg_app.node.running import Running
 from lineseg_app.server import Settings
 from live import Address, Page, page_of, serving
 from obeying import running

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from lineseg_app.live.address import Address
+from lineseg_app.bridges.address import Address
 
 
 @pytest.mark.parametrize(

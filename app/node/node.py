@@ -13,14 +13,14 @@ from lineseg import EXTRACTORS, Thresholds
 from lineseg.covariance import Noise
 from lineseg.readers.laser_scan import LaserScan
 
-from .address import Address
-from .cloud import Cloud
+from ..bridges.address import Address
+from ..bridges.cloud import Cloud
+from ..bridges.markers import Markers
+from ..live.ring import Ring
+from ..live.robot import MOST_SPENT, Robot
+from ..live.source import SILENT, Published, Publishing, Spent
 from .latency import latency
-from .markers import Markers
-from .ring import Ring
-from .robot import MOST_SPENT, Robot
 from .running import Running
-from .source import SILENT, Published, Publishing, Spent
 
 OWNER = "node"
 LOOK_SECONDS = 0.05

@@ -23,7 +23,7 @@ from lineseg import EXTRACTORS, Thresholds
 from ..body_limit import BodyLimit
 from ..guard import Guard, is_any, is_loopback
 from ..listening import listen, server_of
-from .node_offers import FOLDER, PATH, NodeState, Offer, PutAsked
+from .offers import FOLDER, PATH, NodeState, Offer, PutAsked
 from .running import Running
 
 STARTED_SECONDS = 10.0

@@ -10,11 +10,11 @@ from contextlib import contextmanager
 from typing import Any
 
 import pytest
-from lineseg_app.live.address import Address
-from lineseg_app.live.bridge import LARGEST_MESSAGE
-from lineseg_app.live.node import OWNER, Node
-from lineseg_app.live.running import Running
+from lineseg_app.bridges.address import Address
+from lineseg_app.bridges.bridge import LARGEST_MESSAGE
 from lineseg_app.live.source import Publishing
+from lineseg_app.node.node import OWNER, Node
+from lineseg_app.node.running import Running
 from obeying import running, said
 from robots import wall
 from rosbridge_peer import scan_message

@@ -17,7 +17,7 @@ pytest.importorskip("zenoh_ros2_sdk", reason="tests of Zenoh need the package ze
 
 import zenoh_peer
 from lineseg_app.__main__ import main
-from lineseg_app.live.address import Address
+from lineseg_app.bridges.address import Address
 from lineseg_app.live.ring import Ring
 from lineseg_app.live.robot import Robot
 from live import page_of

@@ -22,9 +22,9 @@ import dds_peer
 import rtps_peer
 from dds_peer import DOMAIN, URI, loopback
 from lineseg_app.__main__ import main
-from lineseg_app.live.address import Address, domain_of
-from lineseg_app.live.cdr import CdrWriter
-from lineseg_app.live.dds_domain import discovery, join
+from lineseg_app.bridges.address import Address, domain_of
+from lineseg_app.bridges.cdr import CdrWriter
+from lineseg_app.bridges.dds_domain import discovery, join
 from lineseg_app.live.ring import Ring
 from lineseg_app.live.robot import Robot
 from live import page_of

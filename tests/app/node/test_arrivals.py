@@ -7,11 +7,11 @@ import threading
 import time
 
 import pytest
-from lineseg_app.live.address import Address
-from lineseg_app.live.arrivals import arrivals
-from lineseg_app.live.latency import latency
-from lineseg_app.live.running import Running
+from lineseg_app.bridges.address import Address
+from lineseg_app.bridges.arrivals import arrivals
 from lineseg_app.live.source import Spent
+from lineseg_app.node.latency import latency
+from lineseg_app.node.running import Running
 from obeying import eventually, running, said
 from robots import wall
 from rosbridge_peer import RosBridgePeer, scan_message

@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from lineseg_app.live import watched
-from lineseg_app.live.watched import WatchedParams
+from lineseg_app.node import watched
+from lineseg_app.node.watched import WatchedParams
 
 from lineseg import Params
 from lineseg.writers import params_text

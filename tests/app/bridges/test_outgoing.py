@@ -9,9 +9,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from lineseg_app.live.cloud import POINT, Cloud, own_noise
-from lineseg_app.live.markers import Markers
-from lineseg_app.live.outgoing import as_json, encoded
+from lineseg_app.bridges.cloud import POINT, Cloud, own_noise
+from lineseg_app.bridges.markers import Markers
+from lineseg_app.bridges.outgoing import as_json, encoded
 from robots import wall
 from rosbags.typesys import Stores, get_typestore
 

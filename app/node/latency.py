@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from .source import Spent
+from ..live.source import Spent
 
 
 def latency(spent: Sequence[Spent]) -> str:

@@ -11,9 +11,9 @@ from typing import Any
 
 import httpx
 import pytest
-from lineseg_app.live.node_door import open_door
-from lineseg_app.live.node_offers import FOLDER, PATH, TOKEN, Offer
-from lineseg_app.live.running import Running
+from lineseg_app.node.door import open_door
+from lineseg_app.node.offers import FOLDER, PATH, TOKEN, Offer
+from lineseg_app.node.running import Running
 from lineseg_app.server import Settings
 from live import Address, serving
 
