@@ -126,20 +126,20 @@ SCORES = {
         ),
         Score(
             "disputed", "disputed lines", "",
-            "Lines missed or false, on average, if each of five careful extractions were the truth: they use 0.8 to "
+            "Lines missed or false, on average, if each of six careful extractions were the truth: they use 0.8 to "
             "1.6 times the ε that fits this laser, and join the pieces of a wall.",
             "higher", least=1.0, weight=1.0, counts=True,
         ),
         Score(
             "lapsed", "undisputed lines interrupted", "m",
-            "Total length of the interrupted lines that three of the same five extractions find in the previous frame, "
+            "Total length of the interrupted lines that three of the same six extractions find in the previous frame, "
             "and of which this frame shows enough: nothing nearer hides a part of them, and its own segments do not "
             "cover most of their beams.",
             "higher", least=0.5, weight=3.0,
         ),
         Score(
             "blank", "walls of a frame without lines", "",
-            "Lines that the same five extractions find, on average, in a frame that has no segment.",
+            "Lines that the same six extractions find, on average, in a frame that has no segment.",
             "higher", least=0.5, weight=6.0, counts=True,
         ),
     ]

@@ -12,7 +12,7 @@ from ..knobs import Thresholds
 from ..params import Params
 from ..proposal import scaled
 from ..scan import Recording, Scan
-from ..truth import demands_of
+from ..truth import SHORT, demands_of
 from .committee import CONFIRMING, Committee, judges_of, known_committee
 from .difference import length_of, shared_beams
 from .remark import Ghost, Remark
@@ -30,8 +30,10 @@ def disputes(
     rows: its segments, found with `params`; walls: the lines of each judge there. doubt: the share of the judges.
     """
     beams, own = len(scan), [_span(row) for row in rows]
-    found = [_enough(each, demands_of(params)) for each in walls]
-    missed = _missed(found, own, beams)
+    wanted = demands_of(params)
+    missed = _missed([_enough(each, wanted) for each in walls], own, beams)
+    # A wall that just misses the demands does not make a segment on it false.
+    found = [_enough(each, wanted, 1.0 - SHORT) for each in walls]
     unsure = [
         (k, votes)
         for k, span in enumerate(own)
@@ -82,8 +84,9 @@ def _ghost(wall: np.void) -> Ghost:
     return float(wall["x1"]), float(wall["y1"]), float(wall["x2"]), float(wall["y2"])
 
 
-def _enough(walls: NDArray[np.void], wanted: Params) -> NDArray[np.void]:
-    return walls[(walls["points"] >= wanted.min_points) & (walls["length"] >= wanted.min_length)]
+def _enough(walls: NDArray[np.void], wanted: Params, share: float = 1.0) -> NDArray[np.void]:
+    """The walls that have this share of the points and of the length of a line."""
+    return walls[(walls["points"] >= share * wanted.min_points) & (walls["length"] >= share * wanted.min_length)]
 
 
 def _same(one: Span, other: Span, beams: int) -> bool:
@@ -135,7 +138,7 @@ def _others(scan: Scan, params: Thresholds, judges: Sequence[Params]) -> Iterato
 def _who(names: Sequence[str]) -> str:
     """The subject of a sentence, with its verb."""
     if not names:
-        return "an ε that fits, with longer seeds, finds"
+        return "careful extractions, with an ε that fits this laser, find"
     if len(names) == len(OTHERS):
         return "all other methods find"
     *first, last = names

@@ -1,9 +1,10 @@
 """Scores against the truth."""
 
-from .lines import UNKNOWN, demands_of, near_lines, true_ends, true_lines
+from .lines import SHORT, UNKNOWN, demands_of, near_lines, true_ends, true_lines
 from .matching import Agreement, Matching, agreement, agreements, match, quality
 
 __all__ = [
+    "SHORT",
     "UNKNOWN",
     "Agreement",
     "Matching",
