@@ -32,7 +32,7 @@ Setting = Literal["installed", "proposed", "tuned"]
 class Row:
     """The result of a method on the judged half of a recording.
 
-    setting: the defaults, or what was best on the other half, by the lines of `judges` ("proposed") or by the truth
+    setting: the defaults, or what was best on the other half, by the lines of `judge_of` ("proposed") or by the truth
     ("tuned"). evaluations: number of settings tried there. about: the laser of the recording in a few words.
     agreement: None if no truth is known. times: (frames,) [µs], None until timed; reference: times of region growing
     with its defaults, measured in alternation.

@@ -13,7 +13,7 @@ from ..knobs import Thresholds
 from ..params import Params
 from ..scan import Recording, Scan
 from ..truth import Agreement, agreement, near_lines, true_ends, true_lines
-from ..tuning.judges import judges
+from ..tuning.judge import judge_of
 from ..tuning.parts import BLOCKS, stretches
 
 
@@ -59,9 +59,7 @@ class Judge:
     fitting: thresholds of region growing that fit the noise; None if they were not looked for.
     """
 
-    def __init__(
-        self, scans: Sequence[Scan], expected: Sequence[Sequence[Lines]], fitting: Params | None = None
-    ) -> None:
+    def __init__(self, scans: Sequence[Scan], expected: Sequence[Lines], fitting: Params | None = None) -> None:
         self._scans, self._expected, self.fitting = scans, expected, fitting
 
     @classmethod
@@ -71,22 +69,20 @@ class Judge:
         labels = [true_lines(scan) for scan in scans]
         return cls(
             scans,
-            [[Lines(each, true_ends(scan, each), near_lines(scan))] for scan, each in zip(scans, labels, strict=True)],
+            [Lines(each, true_ends(scan, each), near_lines(scan)) for scan, each in zip(scans, labels, strict=True)],
         )
 
     @classmethod
     def blind(cls, recording: Recording, frames: Sequence[int]) -> Self:
-        """Compares with the lines of `judges`, found from these frames alone. Raises ValueError if nothing fits."""
+        """Compares with the lines of `judge_of`, found from these frames alone. Raises ValueError if nothing fits."""
         part = recording.only(np.array(frames))
-        panel, scans = judges(part), list(part)
-        lines = [[Lines(extract(scan, params).labels) for params in panel] for scan in scans]
-        return cls(scans, lines, panel[len(panel) // 2])
+        judge, scans = judge_of(part), list(part)
+        return cls(scans, [Lines(extract(scan, judge).labels) for scan in scans], judge)
 
     def agreement(self, method: Extractor, params: Thresholds, ends: bool = True) -> Agreement:
         """The agreement over all scans; ends: whether to compute endpoint errors, which takes time."""
         found = [method.extract(scan, params) for scan in self._scans]
         return Agreement.of_all(
             agreement(each, lines.labels, lines.ends if ends else None, lines.near)
-            for each, expected in zip(found, self._expected, strict=True)
-            for lines in expected
+            for each, lines in zip(found, self._expected, strict=True)
         )

@@ -61,12 +61,12 @@ class Chunk:
 
 @dataclass(frozen=True)
 class Task:
-    """A chunk and some settings; scored, judges: see `Batch`."""
+    """A chunk and some settings; scored, judge: see `Batch`."""
 
     chunk: Chunk
     settings: tuple[Params, ...]
     scored: bool
-    judges: tuple[Params, ...] = ()
+    judge: Params | None = None
 
 
 def describe(place: tuple[str, Reading]) -> Source:
@@ -86,15 +86,15 @@ def measure_task(task: Task) -> NDArray[np.float64]:
     if (status.st_mtime_ns, status.st_size) != (source.changed, source.size):
         raise ValueError(f"{source.file} has changed since the sweep began, or differs on this machine; start again")
     with _reading:
-        batch = _batch(task.chunk, task.scored, task.judges)
+        batch = _batch(task.chunk, task.scored, task.judge)
     return batch.measure(task.settings).sums
 
 
 @lru_cache(maxsize=BATCHES_KEPT)
-def _batch(chunk: Chunk, scored: bool, judges: tuple[Params, ...]) -> Batch:
+def _batch(chunk: Chunk, scored: bool, judge: Params | None) -> Batch:
     source = chunk.source
     lead = scored and chunk.start > 0
-    return Batch(opened(source).only(np.arange(chunk.start - lead, chunk.stop)), scored, lead, judges)
+    return Batch(opened(source).only(np.arange(chunk.start - lead, chunk.stop)), scored, lead, judge)
 
 
 def opened(source: Source) -> Recording:

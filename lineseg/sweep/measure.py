@@ -42,11 +42,16 @@ class Truth:
         """
         if recording.wall is None:
             return None
-        return cls.of_lines([true_lines(scan, Params()) for scan in recording])
+        return cls._of_lines([true_lines(scan, Params()) for scan in recording])
 
     @classmethod
-    def of_lines(cls, labels: Sequence[NDArray[np.integer]]) -> Truth:
-        """The lines of each frame as the truth: for each beam its line, or −1."""
+    def found_by(cls, judge: Params, recording: Recording) -> Truth:
+        """The lines that region growing finds with this setting."""
+        return cls._of_lines([extract(scan, judge).labels for scan in recording])
+
+    @classmethod
+    def _of_lines(cls, labels: Sequence[NDArray[np.integer]]) -> Truth:
+        """labels: for each frame and beam its line, or −1."""
         sizes = [np.bincount(frame[frame >= 0]) for frame in labels]
         counts = np.array([len(frame) for frame in sizes], dtype=np.int64)
         return cls(
@@ -61,17 +66,15 @@ class Batch:
 
     scored: whether to compute the label-free scores that cost more than the extraction (totals.MEANS).
     lead: whether the first frame is only used for comparison and not counted.
-    judges: settings whose lines stand in for the truth: each counts as one, and the totals are their mean.
+    judge: a setting whose lines stand in for the truth.
     """
 
-    def __init__(self, recording: Recording, scored: bool, lead: bool = False, judges: Sequence[Params] = ()) -> None:
+    def __init__(self, recording: Recording, scored: bool, lead: bool = False, judge: Params | None = None) -> None:
         self._first = int(lead)
         self._frames, self._beams = len(recording), recording.beams[1]
         self._scored = scored
         self._flat = flattened(recording)
-        known = None if judges else Truth.of(recording)
-        self._truths = [] if known is None else [known]
-        self._truths += [Truth.of_lines([extract(scan, judge).labels for scan in recording]) for judge in judges]
+        self._truth = Truth.of(recording) if judge is None else Truth.found_by(judge, recording)
         self._stretch = Stretch(recording, self._flat, self._first, self._frames, compared=scored)
         counted = slice(self._flat.offsets[self._first], self._flat.offsets[-1])
         near, far = (
@@ -104,9 +107,9 @@ class Batch:
                 row[len(COUNTS) :] = scores[self._first :, MEAN_COLUMNS].sum(axis=0, dtype=np.float64)
             else:
                 row[len(COUNTS) :] = np.nan
-            if self._truths:
-                found = np.mean([self._agreement(each, segments, counts, tally) for each in self._truths], axis=0)
-                row[LINES], row[SEGMENTS] = found[:-1], found[-1]
+            if self._truth is not None:
+                *lines, known = self._agreement(self._truth, segments, counts, tally)
+                row[LINES], row[SEGMENTS] = lines, known
         return Totals(sums)
 
     def _agreement(

@@ -13,7 +13,7 @@ from ..truth import quality
 class Objective:
     """A number in [0, 1] from the totals of some frames, higher is better; NaN if undefined.
 
-    kind: "truth" compares with true lines; "label-free" with lines that fit the noise of the laser, see `judges`.
+    kind: "truth" compares with true lines; "label-free" with lines that fit the noise of the laser, see `judge_of`.
     recall: the weight of TR relative to 1 − FR (β of F_β); 1 gives their harmonic mean.
     completeness: its exponent; 0 ignores it.
     """

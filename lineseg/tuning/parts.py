@@ -16,7 +16,7 @@ from ..sweep.chunks import Chunk, Source, Task, describe, measure_task, opened
 from ..sweep.measure import Batch
 from ..sweep.totals import Totals
 from ..sweep.workers import Pool
-from .judges import judges
+from .judge import judge_of
 
 # Blocks per recording; every other one is held back. A block is a stretch of time, since neighbouring frames are alike.
 BLOCKS = 20
@@ -26,7 +26,7 @@ Split = Literal["frames", "files"]
 class Blocks(Protocol):
     """Stretches of frames that can be measured with a setting.
 
-    truth: whether they are compared with true lines; otherwise they are with those of `judges`.
+    truth: whether they are compared with true lines; otherwise they are with those of `judge_of`.
     """
 
     @property
@@ -56,7 +56,7 @@ def stretches(frames: int, blocks: int, most: int | None) -> list[tuple[int, int
 class RecordingBlocks:
     """Blocks of a recording in memory.
 
-    blind: compare with the lines of `judges`, even if the truth is known; base: thresholds with their P_min and L_min.
+    blind: compare with the lines of the judge, even if the truth is known; base: thresholds with their P_min and L_min.
     """
 
     def __init__(
@@ -70,9 +70,9 @@ class RecordingBlocks:
         self.truth = not blind and recording.wall is not None
         self.name = recording.name
         self._workers = workers
-        panel = judges(recording, base) if blind else ()
+        judge = judge_of(recording, base) if blind else None
         self._batches = [
-            Batch(recording.only(np.arange(start, stop)), scored=False, judges=panel) for start, stop in spans
+            Batch(recording.only(np.arange(start, stop)), scored=False, judge=judge) for start, stop in spans
         ]
 
     def totals(self, params: Params, which: Sequence[int]) -> list[Totals]:
@@ -88,7 +88,7 @@ def _measure(task: tuple[Batch, Params]) -> np.ndarray:
 class FileBlocks:
     """Blocks of files, opened by the workers; split: whether every other block or every other file is held back.
 
-    blind: compare with the lines of `judges`, found for each file, even if the truth is known; None: only if a file has
+    blind: compare with the lines of a judge for each file, even if the truth is known; None: only if a file has
     no truth, not even by many views. base: thresholds with their P_min and L_min. sources: the files as they are read.
     """
 
@@ -129,15 +129,15 @@ class FileBlocks:
         blind = not known if blind is None else blind
         self.truth = known and not blind
         tasks = [(source, base) for source in sources] if blind else []
-        panels = dict(workers.results(_panel, tasks))
-        self._workers, self._panels = workers, [panels.get(number, ()) for number in owner]
+        judges = dict(workers.results(_judge, tasks))
+        self._workers, self._judges = workers, [judges.get(number) for number in owner]
 
     def totals(self, params: Params, which: Sequence[int]) -> list[Totals]:
-        tasks = [Task(self._chunks[block], (params,), False, self._panels[block]) for block in which]
+        tasks = [Task(self._chunks[block], (params,), False, self._judges[block]) for block in which]
         found = sorted(self._workers.results(measure_task, tasks), key=lambda row: row[0])
         return [Totals(sums[0]) for _, sums in found]
 
 
-def _panel(task: tuple[Source, Params | None]) -> tuple[Params, ...]:
+def _judge(task: tuple[Source, Params | None]) -> Params | None:
     source, base = task
-    return judges(opened(source), base) if source.frames else ()
+    return judge_of(opened(source), base) if source.frames else None

@@ -16,7 +16,7 @@ from recordings import recordings
 from lineseg import Params
 from lineseg.sweep import Batch, Totals
 from lineseg.sweep.axes import knob_of
-from lineseg.tuning import Objective, judges
+from lineseg.tuning import Objective, judge_of
 
 PAIRS = 200
 FRAMES = 24
@@ -48,7 +48,7 @@ def main(files: list[str]) -> None:
     for recording in recordings(files):
         chosen = recording.only(np.linspace(0, len(recording) - 1, FRAMES).round().astype(int))
         truth = scores(Batch(chosen, scored=False), settings)
-        blind = scores(Batch(chosen, scored=False, judges=judges(recording)), settings)
+        blind = scores(Batch(chosen, scored=False, judge=judge_of(recording)), settings)
         ahead, by_truth = blind[::2] - blind[1::2], truth[::2] - truth[1::2]
         same = np.where(ahead * by_truth == 0, 0.5, ahead * by_truth > 0)
         clear = np.abs(by_truth) > CLEAR

@@ -1,7 +1,7 @@
 """Auto-tuning: real studies on disk, tested on held-back frames."""
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
@@ -16,7 +16,7 @@ from lineseg.simulate.worlds import WORLDS
 from lineseg.sweep import Batch, Totals, pool
 from lineseg.sweep.workers import Pool
 from lineseg.truth import Agreement
-from lineseg.tuning import FileBlocks, Objective, RecordingBlocks, Tuning, judges
+from lineseg.tuning import FileBlocks, Objective, RecordingBlocks, Tuning, judge_of
 
 SAMPLES = Path(__file__).parents[2] / "sample_scans"
 
@@ -32,8 +32,8 @@ def workers() -> Iterator[Pool]:
         yield workers
 
 
-def totals_of(recording: Recording, params: Params, panel: Sequence[Params] = ()) -> Totals:
-    return Totals(Batch(recording, scored=False, judges=panel).measure([params]).sums[0])
+def totals_of(recording: Recording, params: Params, judge: Params | None = None) -> Totals:
+    return Totals(Batch(recording, scored=False, judge=judge).measure([params]).sums[0])
 
 
 def simulated(name: str, sigma: float, laser: Laser) -> Recording:
@@ -128,19 +128,18 @@ def test_random_settings_have_the_same_order_without_truth_as_with_it():
     limits = np.exp(rng.uniform(np.log([0.005, 0.01]), np.log([0.5, 1.0]), (120, 2))).tolist()
     settings = [Params(epsilon, delta, int(rng.integers(3, 21))) for epsilon, delta in limits]
     with_truth, without = (
-        [Objective().score(Totals(sums)) for sums in Batch(recording, False, judges=panel).measure(settings).sums]
-        for panel in ((), judges(recording))
+        [Objective().score(Totals(sums)) for sums in Batch(recording, False, judge=judge).measure(settings).sums]
+        for judge in (None, judge_of(recording))
     )
     order = np.sign(np.subtract(with_truth[::2], with_truth[1::2])), np.sign(np.subtract(without[::2], without[1::2]))
     assert np.mean(order[0] == order[1]) > 0.9
 
 
-def test_scores_without_truth_are_those_of_all_judges_together(hallway: Recording):
+def test_scores_without_truth_are_those_against_the_lines_of_the_judge(hallway: Recording):
     recording = hallway.only(np.arange(6))
-    panel = [Params(epsilon=0.02), Params(epsilon=0.05)]
-    totals = totals_of(recording, Params(), panel)
-    pairs = [(scan, extract(scan, judge).labels) for judge in panel for scan in recording]
-    expected = Agreement.of_all(agreement(extract(scan), lines) for scan, lines in pairs)
+    judge = Params(epsilon=0.05)
+    totals = totals_of(recording, Params(), judge)
+    expected = Agreement.of_all(agreement(extract(scan), extract(scan, judge).labels) for scan in recording)
     for name in ("true_rate", "false_rate", "completeness"):
         assert float(totals.measure(name)) == pytest.approx(getattr(expected, name))
 
@@ -150,7 +149,7 @@ def test_a_recording_without_walls_cannot_be_judged_without_truth():
     with pytest.raises(
         ValueError, match=r"blank cannot be judged without truth. Proposing thresholds needs at least 4 scans"
     ):
-        judges(Recording.from_scans(nothing, "blank"))
+        judge_of(Recording.from_scans(nothing, "blank"))
 
 
 def test_training_and_held_back_frames_are_disjoint_and_together_complete(hallway: Recording, workers: Pool):
