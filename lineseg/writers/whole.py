@@ -20,45 +20,34 @@ from .segments import COLLECTION_END, COLUMNS, About, cell, collection_head, suf
 CHUNK = 25
 
 
-class _Segment(msgspec.Struct):
-    """A segment in JSON."""
+# What JSON and GeoJSON both say of a segment. Fields of a common base would stand before those of each.
+SHARED = [
+    ("first", int),
+    ("last", int),
+    ("line", tuple[float, float, float]),
+    ("points", int),
+    ("length", float),
+    ("rms", float),
+]
+_POINT = tuple[float, float]
 
-    start: tuple[float, float]
-    end: tuple[float, float]
-    first: int
-    last: int
-    line: tuple[float, float, float]
-    points: int
-    length: float
-    rms: float
+_Segment = msgspec.defstruct("_Segment", [("start", _POINT), ("end", _POINT), *SHARED])
+_Properties = msgspec.defstruct(
+    "_Properties", [("frame", int), ("stamp", float | None), ("frame_id", str), ("segment", int), *SHARED]
+)
 
 
 class _Ends(msgspec.Struct, tag_field="type", tag="LineString"):
     """The geometry of a segment in GeoJSON."""
 
-    coordinates: tuple[tuple[float, float], tuple[float, float]]
-
-
-class _Properties(msgspec.Struct):
-    """What else GeoJSON says of a segment."""
-
-    frame: int
-    stamp: float | None
-    frame_id: str
-    segment: int
-    first: int
-    last: int
-    line: tuple[float, float, float]
-    points: int
-    length: float
-    rms: float
+    coordinates: tuple[_POINT, _POINT]
 
 
 class _Feature(msgspec.Struct, tag_field="type", tag="Feature"):
     """A segment in GeoJSON."""
 
     geometry: _Ends
-    properties: _Properties
+    properties: msgspec.Struct
 
 
 class _Frame(NamedTuple):
