@@ -199,19 +199,18 @@ def policies(embedders: Sequence[str]) -> dict[str, str]:
     found = {"/s/": VISER_POLICY, "/rerun/": RERUN_POLICY, "": PAGE_POLICY}
     if not embedders:
         return found
-    allowed = f"frame-ancestors 'self' {' '.join(checked_origin(each) for each in embedders)}"
+    allowed = f"frame-ancestors 'self' {' '.join(origin.lower() for origin in embedders)}"
     return {start: re.sub(r"frame-ancestors '\w+'", allowed, policy) for start, policy in found.items()}
 
 
-def checked_origin(origin: str) -> str:
-    """The origin in lower case. Raises ValueError if it is none."""
+def check_origin(origin: str) -> None:
+    """Raises ValueError if this is not an origin of HTTP: scheme, name and, if need be, port."""
     parts = ORIGIN.fullmatch(origin)
     if parts is None or place_of(parts["place"]) is None:
         raise ValueError(
             f"--allow-embedding is {origin[:80]!r}; give scheme and name of the other site, with its port if it has "
             "one, and without a path: https://course.example.org"
         )
-    return origin.lower()
 
 
 def _with_headers(scope: Scope, send: Send, policies: Mapping[str, str]) -> Send:

@@ -28,11 +28,12 @@ from lineseg.failing import mistake
 from lineseg.readers import Reading
 
 from .body_limit import BodyLimit
-from .bridges.address import Address
-from .guard import Guard, is_loopback
+from .bridges.address import Address, check_address
+from .guard import Guard, check_origin, is_loopback
 from .listening import listen, server_of
 from .live.hub import Live
 from .memory import keep_together, settle
+from .node.offers import is_node
 from .places import data_folder, user_folder
 from .routes.api import add_api
 from .routes.class_list import add_class
@@ -61,6 +62,7 @@ from .shelf.scratch import remove_leftovers
 from .shelf.uploads import Uploads
 
 WAITING_THREADS = 32
+MOST_KEPT = 20_000
 # A thread that computes lets others go on after this time. The one that answers all tabs lets go of the interpreter at
 # every message, and each time would wait for five times as long if this were left at Python's default.
 SWITCH_SECONDS = 0.001
@@ -76,6 +78,7 @@ class Settings:
     made if none is given. names: other host names of this machine. embedders: origins whose pages may show this one in
     a frame. upload_limit, upload_total: [bytes]. data_folder: for the list of recent files and for labels that cannot
     be next to their recording (default: the user's data folder). watch: gets whatever is drawn in any tab.
+    Raises ValueError, which names the option of `lineseg view`.
     """
 
     files: tuple[Path, ...] = ()
@@ -96,6 +99,15 @@ class Settings:
     sessions: SessionLimits = field(default_factory=SessionLimits)
     data_folder: Path | None = None
     watch: Watch | None = None
+
+    def __post_init__(self) -> None:
+        if not 1 <= self.keep <= MOST_KEPT:
+            raise ValueError(f"--keep is {self.keep}; allowed: 1 to {MOST_KEPT} scans")
+        for address in self.may_send:
+            if not is_node(address):
+                check_address(address)
+        for origin in self.embedders:
+            check_origin(origin)
 
 
 def create_app(settings: Settings) -> FastAPI:

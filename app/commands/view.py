@@ -4,24 +4,23 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 from tyro.conf import OmitArgPrefixes, Positional, arg
 
 from lineseg.readers import Reading
 
-from ..bridges.address import Address, check_address, is_address
-from ..node.offers import is_node
+from ..bridges.address import Address, is_address
 from .flag_types import Several, Switch, Unset, lessons_folder
 from .reading import ReadingFlags, files_of, reading_of
 from .sources import address_of, list_topics
 from .token import token_of
 
 if TYPE_CHECKING:
+    from ..server import Settings
     from ..session.shown import Watch
-
-MOST_KEPT = 20_000
 
 
 def view(
@@ -67,42 +66,33 @@ def view(
     if any(list_topics(laser) for laser in robots):
         return
     files, how = _files(sources, how)
-    _check(keep, robot)
-    with _streaming(rerun) as watch:
-        _serve(
-            allow_embedding,
-            files=files,
-            reading=how,
-            robots=robots,
-            lessons=lessons_folder(lessons),
-            may_send=robot,
-            keep=keep,
-            host=host,
-            port=port,
-            token=token_of(token, token_file),
-            open_browser=not no_browser,
-            watch=watch,
-        )
+    from ..server import Settings
 
-
-def _serve(embedders: Sequence[str], **settings: Any) -> None:
-    """Serve the page, also in frames of these sites."""
-    from ..guard import checked_origin
-    from ..server import Settings, serve
-
-    origins = tuple(checked_origin(origin) for origin in embedders)
-    serve(
-        Settings(embedders=origins, **settings),
-        lambda address: print(f"lineseg is at {address} (Ctrl-C stops it)", flush=True),
+    settings = Settings(
+        files=files,
+        reading=how,
+        robots=robots,
+        lessons=lessons_folder(lessons),
+        may_send=robot,
+        keep=keep,
+        host=host,
+        port=port,
+        token=token_of(token, token_file),
+        open_browser=not no_browser,
+        embedders=allow_embedding,
     )
+    _serve(settings, rerun)
 
 
-def _check(keep: int, robot: Sequence[str]) -> None:
-    if not 1 <= keep <= MOST_KEPT:
-        raise ValueError(f"--keep is {keep}; allowed: 1 to {MOST_KEPT} scans")
-    for address in robot:
-        if not is_node(address):
-            check_address(address)
+def _serve(settings: Settings, rerun: bool) -> None:
+    """Serve until interrupted; rerun: also stream the view to rerun's viewer."""
+    from ..server import serve
+
+    with _streaming(rerun) as watch:
+        serve(
+            replace(settings, watch=watch),
+            lambda address: print(f"lineseg is at {address} (Ctrl-C stops it)", flush=True),
+        )
 
 
 @contextlib.contextmanager

@@ -114,7 +114,7 @@ def test_a_site_may_show_the_page_in_a_frame_only_if_it_is_named():
 @pytest.mark.parametrize("origin", ["*", "null", "course.example.org", "https://a.b/x", "https://a; script-src *", ""])
 def test_an_embedding_site_is_named_by_its_origin(origin: str):
     with pytest.raises(ValueError, match=r"--allow-embedding is .* give scheme and name of the other site"):
-        policies((origin,))
+        Settings(embedders=(origin,))
 
 
 PATHS = [

@@ -308,6 +308,8 @@ def test_a_node_needs_two_topics_for_two_types(run):
         (("ws://",), "'ws://' is not the address of a robot; give one like ws://robot:9090"),
         (("view", "ws://robot:99999"), "not the address of a robot"),
         (("ws://robot:9090", "--keep", "0"), "--keep is 0; allowed: 1 to 20000 scans"),
+        (("view", "--robot", "robot"), "'robot' is not the address of a robot"),
+        (("view", "--allow-embedding", "course.example.org"), "--allow-embedding is 'course.example.org'; give scheme"),
         (("view", "--port", "99999"), "--port is 99999; give one from 1 to 65535"),
         (("view", "--port", "-1"), "--port is -1; give one from 1 to 65535"),
     ],
