@@ -27,6 +27,7 @@ from .clouds import PointCloud
 from .containers.folder import bag_of_metadata, recording_in
 from .containers.wrapping import unwrapped
 from .foreign import foreign, unknown
+from .mat_file import MatFile
 from .matlab import Matlab
 from .messages import EchoYaml, JsonMessages
 from .npz import Npz, save_npz
@@ -38,6 +39,7 @@ from .reading import Reading
 from .sick import SickTelegrams
 from .source import Cancelled, Progress, Reader, Source
 from .tables.dialect import LAST_LIST, LONG_LIST, labels_of
+from .tables.labelled import label_in
 from .tables.text import Text
 from .urgbenri import UrgBenriLog
 from .xml_scans import XmlScans
@@ -57,7 +59,7 @@ MOST_LINES = 100
 # Readers are asked in this order: a failure pack is a zip like NPZ, and text accepts any lines, so it comes last.
 READERS: tuple[type[Reader], ...] = (
     Ros1Bag, Ros2Bag, Mcap, FailurePack, Npz, Npy, PointCloud, CarmenLog, PlayerLog, UrgBenriLog, SickTelegrams,
-    JsonMessages, XmlScans, PrintedMessages, Matlab, EchoYaml, YamlScans, Text,
+    JsonMessages, XmlScans, PrintedMessages, MatFile, Matlab, EchoYaml, YamlScans, Text,
 )  # fmt: skip
 
 
@@ -181,7 +183,7 @@ def _has_numbers(head: bytes) -> bool:
     return (
         labels_of(lines[:MOST_LINES]) is not None
         or LONG_LIST.search(head) is not None
-        or any(LAST_LIST.search(line) for line in lines[:MOST_LINES])
+        or any(LAST_LIST.search(line) or label_in(line) for line in lines[:MOST_LINES])
         or any(line.lstrip(b" \t[(")[:1] in b"+-.0123456789" for line in lines if line.strip())
     )
 

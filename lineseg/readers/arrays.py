@@ -176,7 +176,12 @@ def recording_of_arrays(source: Source, arrays: Mapping[str, NDArray], format: s
         source.notes.unstated.add("unit")
     if angles is not None and (turn := TURNS.get(name_of(angles).unit)):
         source.notes.found["angle_unit"] = turn
-    if angles is not None and rows[angles].shape == (array.shape[-1],):
+    if angles is not None and array.ndim == 2 and array.shape[1] != len(rows[angles]) == array.shape[0]:
+        array = array.T
+    if angles is not None and len(rows[angles]) != array.shape[-1]:
+        raise ValueError(_which(source, arrays, f"{angles} has {len(rows[angles])} values, but a row of {name} "
+                                f"{array.shape[-1]}"))  # fmt: skip
+    if angles is not None:
         times = None if stamps is None else rows[stamps]
         return with_angles(source, np.atleast_2d(array), rows[angles].astype(np.float64), times, format)
     return _guessed(source, name, array, arrays, format)

@@ -10,13 +10,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 ARRAYS = "numpy.savez('scans.npz', ranges=…, angle_min=-1.5708, angle_increment=0.00873)"
+SAVE_AGAIN = "save it in MATLAB with save('scans.mat', '-v7'), or its matrix with writematrix(ranges, 'scans.csv')"
+TO_JSON = "to_json('scans.jsonl', orient='records', lines=True)"
 DRIVER = "record the scans that its driver publishes, or save them as text with angle and distance"
 SLICE = "cut a slice of one height out of it, and save that as PCD or as text with x and y"
 RECORD = "record the scans of the laser"
 LEAST_NUMBERS = 100
 # What files are by their suffix, if their first bytes say nothing.
 BY_SUFFIX = {
-    ".mat": ("a MATLAB file", "save its matrix in MATLAB with writematrix(ranges, 'scans.csv')"),
+    ".mat": ("a MATLAB file of another version", SAVE_AGAIN),
     ".rawlog": ("a rawlog of MRPT", "export its scans with rawlog-edit --export-2d-scans-txt, and open that text"),
     ".pkl": ("a Python pickle, which could run programs", f"load it yourself and save it with {ARRAYS}"),
     ".pickle": ("a Python pickle, which could run programs", f"load it yourself and save it with {ARRAYS}"),
@@ -24,13 +26,12 @@ BY_SUFFIX = {
 }
 # How each begins, what it is, and what to do.
 FOREIGN = (
-    (rb"MATLAB [57]\.\d MAT-file", "a MATLAB file", "save its matrix in MATLAB with writematrix(ranges, "
-     f"'scans.csv'), or load it with scipy.io.loadmat and save it with {ARRAYS}"),
-    (rb"\x89HDF", "an HDF5 file, as MATLAB 7.3 also writes", f"load it with h5py and save it with {ARRAYS}"),
+    (rb"MATLAB 7\.\d MAT-file", "a MATLAB file of version 7.3", SAVE_AGAIN),
+    (rb"\x89HDF", "an HDF5 file", f"load it with h5py and save it with {ARRAYS}"),
     (rb"7\x7f\x06[\x82\x83]", "the log of an SQLite database that is being written",
      "open the .db3 of the same name, with this file beside it"),
-    (rb"PAR1", "a Parquet table", "save it as CSV, with pandas.read_parquet(…).to_csv('scans.csv')"),
-    (rb"ARROW1|FEA1|\xff\xff\xff\xff\x10", "an Arrow table", "save it as CSV"),
+    (rb"PAR1", "a Parquet table", f"save it as JSON, with pandas.read_parquet(…).{TO_JSON}"),
+    (rb"ARROW1|FEA1|\xff\xff\xff\xff\x10", "an Arrow table", f"save it as JSON, with pandas.read_feather(…).{TO_JSON}"),
     (rb"\x80[\x02-\x05]|(?:\([dlt]p\d|ccopy_reg\n|c(?:numpy|__main__|builtins|collections)[\w.]*\n|[}\]]q\0|\}\x94)",
      "a Python pickle, which could run programs", f"load it yourself and save it with {ARRAYS}"),
     (rb"\xdb\x01\xf5\x5b\x7b\x1f\x1d\x7b", "a map of Cartographer (pbstream), and no recording",

@@ -14,29 +14,16 @@ from .guessing import guess_angle_unit
 from .laser_scan import LaserScan, decode_json
 from .source import Source
 from .tables.dialect import Dialect, seconds_of
-from .tables.headers import LENGTHS, TIMES, TURNS, Name, is_angle, is_distance, name_of
+from .tables.headers import LENGTHS, TIMES, TURNS, Name, field_of, is_angle, is_distance, name_of
 from .tables.numbers import all_numbers, is_number
 from .tables.scan_columns import tell_unknown_direction
 from .tables.scan_rows import tell_usual_angles, usual_angles
 
-# What the fields of a scan are called elsewhere.
-NAMES = {
-    "ranges": ("ranges", "distances", "range", "distance"),
-    "angles": ("angles", "bearings", "thetas", "theta"),
-    "angle_min": ("angle_min", "start_angle", "first_angle", "min_angle", "angle_start", "angle_first"),
-    "angle_max": ("angle_max", "end_angle", "last_angle", "max_angle", "angle_end", "angle_last"),
-    "angle_increment": ("angle_increment", "angle_step", "angle_resolution", "angular_resolution", "increment"),
-    "range_min": ("range_min", "min_range"),
-    "range_max": ("range_max", "max_range"),
-    "stamp": ("stamp", "timestamp", "time", "t", "ts"),
-    "frame_id": ("frame_id", "frame"),
-}
 # A text of fewer numbers is none of ranges.
 LEAST_NUMBERS = 8
 NO_DIALECT = Dialect(b";")
 # So much of a step may angles be off their places [1], because they are rounded.
 UNEVEN = 0.1
-FIELD = {name: field for field, names in NAMES.items() for name in names}
 
 
 def parsed(text: bytes | str) -> Any:
@@ -148,7 +135,7 @@ def scan_of(source: Source, message: Mapping[str, Any]) -> LaserScan:
     found: dict[str, tuple[Name, Any]] = {}
     for key, value in message.items():
         name = name_of(key)
-        field = FIELD.get(name.plain) or FIELD.get(name.plain.removeprefix("scan_")) or _listed(name, value)
+        field = field_of(name) or _listed(name, value)
         if field is not None and value is not None:
             found.setdefault(field, (name, value))
     plain = {field: value for field, (_, value) in found.items() if field not in ("angles", "stamp", "frame_id")}
@@ -193,7 +180,7 @@ def _take_units(source: Source, found: Mapping[str, tuple[Name, Any]]) -> None:
         unit = LENGTHS.get(found["ranges"][0].unit)
         if unit is not None:
             notes.found["unit"] = unit
-        elif found["ranges"][0].plain != "ranges" or "angle_min" not in found:
+        elif found["ranges"][0].plain != "ranges" or "angle_min" not in found or found["angle_min"][0].unit == "deg":
             notes.unstated.add("unit")
     turns = [TURNS.get(name.unit) for field, (name, _) in found.items() if field.startswith("angle")]
     if turn := next((turn for turn in turns if turn not in (None, "rad")), None):

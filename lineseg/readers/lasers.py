@@ -62,7 +62,7 @@ def rows_of_one_laser(
 
     what: what a row has, in the plural.
     """
-    column, most = column_of(names, lambda name: name.plain in LASERS), MOST_LASERS
+    column, most = column_of(names, lambda name: name.element < 0 and name.plain in LASERS), MOST_LASERS
     if column is None:
         # Beside a roll or a yaw, a pitch is that of a robot.
         layers = {*LAYERS} - ({"pitch"} if any(name.plain in ("roll", "yaw") for name in names) else set())

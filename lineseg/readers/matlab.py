@@ -6,7 +6,7 @@ import ast
 import operator
 import re
 from collections import ChainMap
-from collections.abc import Iterator, Mapping, MutableMapping
+from collections.abc import Iterable, Iterator, Mapping, MutableMapping
 from dataclasses import replace
 from typing import Any
 
@@ -16,10 +16,10 @@ from numpy.typing import NDArray
 from ..scan import Recording
 from .arrays import is_exchange, recording_of_arrays
 from .containers.bounded import TooLargeError, limit_of, too_large
-from .json_scans import FIELD
 from .npz import recording_of_exchange
+from .reading import RADIANS
 from .source import Reader, Source
-from .tables.headers import name_of
+from .tables.headers import LENGTHS, TURNS, Name, field_of, name_of
 from .tables.numbers import all_numbers
 
 OCTAVE = b"# Created by Octave"
@@ -64,24 +64,42 @@ class Matlab(Reader):
     def read(source: Source) -> Recording:
         text = source.path.read_bytes().decode("utf-8", "replace")
         pairs = _saved(text) if text.startswith(OCTAVE.decode()) else _assigned(text)
-        arrays: dict[str, NDArray[Any]] = {}
         size, limit = 0, limit_of(len(text))
+        found: list[tuple[str, Value]] = []
         for name, value in pairs:
             size += np.asarray(value).nbytes
             if size > limit:
                 raise TooLargeError(too_large(source.name, limit))
-            plain = name_of(name.split(".")[-1]).plain
-            arrays[FIELD.get(plain, name.split(".")[-1])] = np.squeeze(np.asarray(value))
-        if not arrays:
+            found.append((name, value))
+        if not found:
             raise ValueError(f"{source.name} has no matrix; it needs {Matlab.expects}")
-        if not {"angle_increment", "angle_max", "bearings"} & arrays.keys() and (low := arrays.pop("angle_min", None)):
-            # The step is that of a common laser, or given.
-            angle_min = float(low) if source.reading.angle_min is None else source.reading.angle_min
-            source = replace(source, reading=source.reading.but(angle_min=angle_min))
-        if not is_exchange(arrays):
-            return recording_of_arrays(source, arrays, Matlab.format)
-        source.notes.unstated |= {"unit", "range_max"} - ({"range_max"} & arrays.keys())
-        return recording_of_exchange(source, arrays, Matlab.format)
+        return recording_of_variables(source, found, Matlab.format)
+
+
+def recording_of_variables(source: Source, pairs: Iterable[tuple[str, Value]], format: str) -> Recording:
+    """The scans of variables with names, of which fields of structs are joined by points."""
+    arrays: dict[str, NDArray[Any]] = {}
+    for name, value in pairs:
+        last = name.split(".")[-1]
+        arrays[field_of(name_of(last)) or last] = _in_own_unit(source, name_of(last), np.squeeze(np.asarray(value)))
+    if not {"angle_increment", "angle_max", "bearings"} & arrays.keys() and (low := arrays.pop("angle_min", None)):
+        # The step is that of a common laser, or given.
+        angle_min = float(low) if source.reading.angle_min is None else source.reading.angle_min
+        source = replace(source, reading=source.reading.but(angle_min=angle_min))
+    if not is_exchange(arrays):
+        return recording_of_arrays(source, arrays, format)
+    source.notes.unstated |= {"unit", "range_max"} - ({"range_max"} & arrays.keys()) - source.notes.found.keys()
+    return recording_of_exchange(source, arrays, format)
+
+
+def _in_own_unit(source: Source, name: Name, values: NDArray[Any]) -> NDArray[Any]:
+    """Values in radians if their name gives another unit of angles; the unit of ranges is noted."""
+    field = field_of(name)
+    if field == "ranges" and (unit := LENGTHS.get(name.unit)) and source.reading.unit is None:
+        source.notes.found["unit"] = unit
+    if field in ("angle_min", "angle_max", "angle_increment") and name.unit in TURNS:
+        return values * RADIANS[TURNS[name.unit]] * name.scale
+    return values
 
 
 # MATLAB

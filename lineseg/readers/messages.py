@@ -13,14 +13,14 @@ from typing import Any, TypeGuard
 import numpy as np
 
 from ..scan import Floats, Recording, Topic
-from .json_scans import NAMES, as_list, is_even, json_values, number_in, parsed, scan_of
+from .json_scans import as_list, is_even, json_values, number_in, parsed, scan_of
 from .laser_scan import LaserScan, decode_json
 from .lasers import laser_of, rows_of_one_laser
 from .source import Reader, Source, Sweeps
 from .stamping import in_seconds
 from .tables.beam_rows import beams_of, read_beams
 from .tables.dialect import LEFT_OUT, Dialect, Row
-from .tables.headers import LASERS, SCANS, STAMPS, is_angle, is_distance, name_of
+from .tables.headers import LASERS, NAMES, SCANS, STAMPS, array_columns, is_angle, is_distance, name_of
 from .tables.numbers import all_numbers
 from .tables.scan_rows import scans_of
 
@@ -197,6 +197,8 @@ def _messages(value: Any, topic: str, depth: int = 0) -> Iterator[tuple[str, Map
         value = {key: held if key in TEXTS else number_in(as_list(held)) for key, held in value.items()}
         if (records := _records(value)) is not None:
             value = records
+        elif (joined := _joined(value)) is not None:
+            value = joined
     if isinstance(value, Mapping):
         if (beams := _parallel(value)) is not None:
             for beam in beams:
@@ -229,6 +231,20 @@ def _records(value: Mapping[str, Any]) -> list[dict[str, Any]] | None:
     if not rows or not all(isinstance(row, list) and len(row) == len(names) for row in rows):
         return None
     return [dict(zip(names, row, strict=True)) for row in rows]
+
+
+def _joined(value: Mapping[str, Any]) -> dict[str, Any] | None:
+    """An object with a list of ranges instead of a key for each, as a row of a table has them; None for others."""
+    if len(value) < LONG_LIST:
+        return None
+    keys = list(value)
+    names = [name_of(str(key)) for key in keys]
+    columns = array_columns(names)
+    if len(columns) < LONG_LIST or not all(_is_number_or_none(value[keys[at]]) for at in columns):
+        return None
+    others = {key: value[key] for key, name in zip(keys, names, strict=True) if name.element < 0}
+    unit = f"_{names[columns[0]].unit}" if names[columns[0]].unit else ""
+    return {**others, f"ranges{unit}": [value[keys[at]] for at in columns]}
 
 
 def _parallel(value: Mapping[str, Any]) -> list[dict[str, Any]] | None:

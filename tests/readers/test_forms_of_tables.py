@@ -167,7 +167,8 @@ def test_lists_called_after_two_lasers_are_not_mixed(tmp_path: Path):
     recording = read(tmp_path, fields)
     assert recording[1].ranges == pytest.approx(FAR)
     assert recording.account is not None
-    assert any("not those called rear" in notice.text for notice in recording.account.notices)
+    assert any(notice.change == {"frame_id": "rear"} for notice in recording.account.notices)
+    assert read(tmp_path, fields, frame_id="rear")[1].ranges == pytest.approx(FAR * 2)
 
 
 def test_uneven_angles_are_read_whatever_other_lists_stand_beside(tmp_path: Path):
@@ -269,7 +270,7 @@ def test_a_first_angle_that_is_given_is_the_one_of_json_without_angles(tmp_path:
         ("a.p", pickle.dumps({"ranges": [1.5] * 99}, protocol=0), "is a Python pickle"),
         ("a.p", pickle.dumps({"ranges": [1.5] * 99}, protocol=1), "is a Python pickle"),
         ("a.g2o", b"VERTEX_SE2 0 0 0 0\nEDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\n" * 20, "is a pose graph"),
-        ("a.mat", bytes(40), "is a MATLAB file; save its matrix in MATLAB with writematrix"),
+        ("a.mat", bytes(40), "is a MATLAB file of another version; save it in MATLAB with save"),
         ("a.txt", b"ans =\n\n  Columns 1 through 3\n\n    1.5    1.6   1.7\n", "is what MATLAB shows in its window"),
         ("a.csv", b"epoch,loss\n" + b"1,2\n" * 20, "which names no column angle"),
     ],

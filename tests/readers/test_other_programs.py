@@ -186,8 +186,8 @@ def test_the_room_is_read_from_the_files_of_other_programs(tmp_path, name):
     [
         (
             "a.mat",
-            b"MATLAB 5.0 MAT-file, Platform: GLNXA64" + b"\0" * 90,
-            r"is a MATLAB file; save its matrix in MATLAB .*, or load it with scipy",
+            b"MATLAB 7.3 MAT-file, Platform: GLNXA64" + b"\0" * 90,
+            r"is a MATLAB file of version 7.3; save it in MATLAB with save\('scans.mat', '-v7'\)",
         ),
         (
             "a.xlsx",

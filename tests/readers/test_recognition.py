@@ -90,6 +90,7 @@ MAGIC = {
     "JSON": b'{"ranges": [',
     "XML": b"<?xml version='1.0'?>\n<data>",
     "printed messages": b"sensor_msgs.msg.LaserScan(header=std_msgs.msg.Header(",
+    "MAT": b"MATLAB 5.0 MAT-file, Platform: GLNXA64",
     "MATLAB": b"% scans\nangle_min = -pi/2;\nranges = [\n",
     "echo": b"header:\n  stamp:\n    sec: 1\nangle_min: -1.5\n",
     "YAML": b"scan:\n" + b"- 1.5\n" * 60,

@@ -32,7 +32,7 @@ def is_laser(type: str, encoding: str = "cdr", schema: bytes = b"") -> bool:
     """Whether messages of a type are scans. JSON and protobuf have no fixed types: a name or a field tells."""
     if encoding in ("json", "protobuf"):
         last = re.split(r"[./:]", type)[-1].lower()
-        return last in ("laserscan", "lidarscan", "scan") or re.search(rb"\branges\b", schema) is not None
+        return last.endswith("scan") or re.search(rb"\branges\b", schema) is not None
     return type in (*TYPES, *MULTI_ECHO, *FOXGLOVE)
 
 

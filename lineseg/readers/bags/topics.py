@@ -78,6 +78,8 @@ def choose_streams(source: Source, streams: list[Stream]) -> tuple[str, list[Str
         others = ", ".join(sorted({f"{stream.topic} ({_short(stream.type) or stream.encoding})" for stream in streams}))
         clouds = any(stream.type in POINT_CLOUDS for stream in streams)
         way = " A node such as pointcloud_to_laserscan makes scans of a point cloud." if clouds else ""
+        if any(stream.encoding == "json" for stream in streams):
+            way = " If its JSON has scans, `mcap cat --json FILE.mcap > scans.json` writes a file that can be opened."
         way = way if streams else " Record the topic of the laser again."
         sentence = f"{source.name} has no sensor_msgs/LaserScan topic; it has {others or 'no topic at all'}.{way}"
         raise ValueError(sentence)

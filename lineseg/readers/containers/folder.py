@@ -11,6 +11,8 @@ from .wrapping import BAG_PARTS, MOST_NAMED
 
 METADATA = "metadata.yaml"
 MOST_ENTRIES = 10_000
+# Suffixes of recordings that other files have too.
+OF_ANYTHING = (".txt", ".csv", ".log", ".yaml", ".yml", ".json", ".xml", ".dat", ".m")
 LISTED = re.compile(r"^\s*-\s+(\S+\.(?:db3|mcap)(?:\.zstd)?)\s*$", re.MULTILINE)
 
 
@@ -69,7 +71,9 @@ def recording_in(folder: Path) -> Path:
     suffixes = known_suffixes()
     bags = [path for path in _entries(folder) if path.is_dir() and storage_files(path)]
     files = [path for path in _entries(folder) if path.is_file() and path.suffix.lower() in suffixes]
-    found = bags or files
+    # Notes and settings often lie beside the one recording.
+    certain = [path for path in files if path.suffix.lower() not in OF_ANYTHING]
+    found = bags or (certain if len(certain) == 1 else files)
     if len(found) == 1:
         return found[0]
     if found:

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from ...scan import Floats, Recording, Topic
 from ..account import Notes
 from ..guessing import FAR, MOST_DEGREES, angle_unit_of, guess_angle_unit, middle_of, rising, unit_of
-from ..reading import RADIANS, Direction, Reading
+from ..reading import METRES, RADIANS, Direction, Reading
 from ..source import Source, Sweeps
 from ..stamping import in_seconds
 from .dialect import LEFT_OUT, Dialect, Row
@@ -32,7 +32,7 @@ from .headers import (
 )
 from .scan_columns import alike, tell_columns, tell_unknown_direction, with_angles
 from .scan_rows import scans_of
-from .turns import regularity, turns
+from .turns import evenness, regularity, turns
 
 # The steps of real angles are about equal; those of other columns are not.
 LEAST_REGULAR = 0.5
@@ -51,10 +51,14 @@ SPREAD_HEADINGS, ONE_WAY, MOST_MOVES = 0.98, 0.95, 2000
 MOST_OF_PATH, FEW_BELOW, EVEN = 4, 0.05, 0.01
 # Paths begin within so many steps of zero, or have bearings that are less even than this.
 NEAR_ZERO, OF_PATH = 2.5, 0.25
+# No laser reaches so far [m].
+MOST_METRES = 500.0
 # Points of one plane differ less in height [m], but for a few.
 FLAT = 0.05
 # Codes for "no return" are few.
 FEW_CODES = 3
+# Points around a laser are not all in a spot that is so much smaller than its distance.
+FAR_OFF = 0.02
 # Points lie on their beams but for rounding [rad].
 AGREE = 0.02
 # Lower numbers than a laser's quality may be those of scans.
@@ -97,7 +101,7 @@ def beams_of(
     if names is not None or table.shape[1] > 2:
         _check_path(source, table, names)
     if names is not None:
-        return with_roles(source, reading, table, names, _named(names), guess_direction, format)
+        return with_roles(source, reading, table, names, _varied(source, table, names), guess_direction, format)
     if table.shape[1] > 2 and alike(table):
         return scans_of(source, reading, list(range(1, len(table) + 1)), list(table), 0, None, format)
     roles = _guessed(source, table)
@@ -213,6 +217,7 @@ def with_roles(
         table = table[points.any(axis=1) & np.isfinite(points).all(axis=1)]
         if not len(table):
             raise ValueError(f"{source.name} has no point away from the laser; is the file complete?")
+        _check_around(source, table[:, [roles.first, roles.second]])
         if names is not None and (z := column_of(names, lambda name: name.plain.split("_")[-1] == "z")) is not None:
             table = _in_plane(source, table, roles, z)
     if names is not None:
@@ -239,6 +244,20 @@ def with_roles(
     notes.radians = True
     notes.unstated.add("range_max")
     return replace(_recording(source, table, roles, bearings, ranges, names), format=format)
+
+
+def _check_around(source: Source, points: NDArray[np.float64]) -> None:
+    """Raises ValueError if points (n, 2) all lie far away in one direction, as the places on a map do."""
+    if source.reading.columns is not None or len(points) < LEAST_ROWS:
+        return
+    middle = points.mean(axis=0)
+    across = np.quantile(np.hypot(*(points - middle).T), 0.9)
+    if across < FAR_OFF * np.hypot(*middle):
+        x, y = middle
+        raise ValueError(
+            f"{source.name} has points near x = {x:.6g}, y = {y:.6g}, far from zero, where a laser would be; they may "
+            "be places on a map, or in the world. Save x and y as the laser sees them, from its own place."
+        )
 
 
 def _why_clockwise(notes: Notes) -> str:
@@ -321,6 +340,21 @@ def _named(names: list[Name]) -> Roles:
     points = _points(names)
     assert points is not None
     return Roles(False, *points, scan, stamp)
+
+
+def _varied(source: Source, table: NDArray[np.float64], names: list[Name]) -> Roles:
+    """The columns by their names; x and y if the angles are all equal. Raises ValueError if there is no such pair."""
+    roles = _named(names)
+    if not roles.polar or len(table) < FEW_ROWS or np.nanmax(table[:, roles.first]) > np.nanmin(table[:, roles.first]):
+        return roles
+    if (points := _points(names)) is not None:
+        return Roles(False, *points, roles.scan, roles.stamp)
+    if source.reading.columns is not None:
+        return roles
+    raise ValueError(
+        f"{source.name}: column {roles.first + 1}, of angles, has {table[0, roles.first]:.6g} in all rows, but each "
+        "beam of a scan has its own angle; say what the columns hold with --columns, such as angle,distance."
+    )
 
 
 def _points(
@@ -456,7 +490,7 @@ def columns_of_beam(table: NDArray[np.float64]) -> tuple[float, Roles]:
         score = regularity(bearings_of(table, points))
         if score <= LEAST_REGULAR and not any(_counts(table[:, at]) for at in columns[1:3]):
             return score, points
-    found = [(regularity(bearings_of(table, roles)), roles) for roles in possible]
+    found = [(evenness(bearings_of(table, roles)), roles) for roles in possible]
     # The number of a beam counts as evenly as its angle, which is nearer to the distance.
     order = lambda each: (round(each[0], 2), abs(each[1].first - each[1].second))  # noqa: E731
     return min(found, key=order, default=(math.inf, Roles(True, 0, 1)))
@@ -471,8 +505,9 @@ def bearings_of(table: NDArray[np.float64], roles: Roles) -> Floats:
 def _distance_beside(table: NDArray[np.float64], columns: list[int], angle: int) -> int | None:
     """The column of distances: the first after the angle, or else before it, that varies and is not negative."""
     order = sorted((at for at in columns if at != angle), key=lambda at: (at < angle, abs(at - angle)))
-    # A code for "no return" may be negative; distances are not.
-    order = [at for at in order if len(np.unique(table[table[:, at] < 0, at])) <= FEW_CODES]
+    # A code for "no return" may be negative; distances are not, and those of stamps are out of reach.
+    order = [at for at in order if len(np.unique(table[table[:, at] < 0, at])) <= FEW_CODES
+             and not np.nanmedian(table[:, at]) * METRES["um"] > MOST_METRES]  # fmt: skip
     if len(order) > 1:
         order = [at for at in order if not _counts(table[:, at])] or order
     if len(order) < 2:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import re
-from collections import Counter
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from datetime import UTC, datetime
@@ -14,7 +13,6 @@ from typing import NamedTuple
 import numpy as np
 
 from ...scan import Floats
-from ..account import Notes
 from .numbers import all_numbers, is_number, number_of
 
 COMMENTS = (b"#", b"%", b"//")
@@ -42,9 +40,6 @@ NUMBER = rb"(?>[-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?|[-+.]?inf|\.?nan|null|none
 # Two numbers or more in brackets at the end of a line.
 LAST_LIST = re.compile(rb"[\[({]\s*+(%s(?>(?:\s*+,\s*+|\s++)%s)+)\s*+[\])}]\W*$" % (NUMBER, NUMBER), re.IGNORECASE)
 OPENING = re.compile(rb"\[")
-# What lists of ranges are called, and those of their angles.
-RANGES = re.compile(rb"rang|dist|scan|laser|lidar", re.IGNORECASE)
-OF_ANGLES = re.compile(rb"angle|bearing|theta|azimuth", re.IGNORECASE)
 # A list of ten numbers or more.
 LONG_LIST = re.compile(rb"(?:\[|\{\w+ )((?>(?:\s*+%s\s*+,){9}[^\[\]{}]*))[\]}]" % NUMBER, re.IGNORECASE)
 WORDS = {
@@ -61,8 +56,15 @@ MISSING = (
 # What C programs print on Windows.
 OF_WINDOWS = re.compile(rb"[-+]?(?:1\.#(?:inf|ind|qnan|snan)\d*|nan\(\w*\))", re.IGNORECASE)
 TIME = re.compile(
-    rb"(?:(\d{4})[-/.](\d\d?)[-/.](\d\d?)[T /_-])?(\d\d?):(\d\d):(\d\d(?:[.,]\d+)?)\s*(?:Z|UTC|([-+]\d\d):?(\d\d))?"
+    rb"(?:(\d{4})[-/.](\d\d?)[-/.](\d\d?)[T /_-])?(\d\d?):(\d\d):(\d\d(?:[.,]\d+)?)\s*"
+    rb"(?:([AP])\.?M\.?)?\s*(?:Z|UTC|([-+]\d\d):?(\d\d))?",
+    re.IGNORECASE,
 )
+# A date that begins with the day, as in German, and one of which nobody knows whether it begins with the day.
+DAY_FIRST, EITHER_FIRST = re.compile(rb"(\d\d?)\.(\d\d?)\.(\d{4})\b,?"), re.compile(rb"\d\d?[-/]\d\d?[-/]\d{4}\b,?\s*")
+# A time with its unit, as MATLAB writes durations.
+DURATION = re.compile(rb"([-+]?(?:\d+\.?\d*|\.\d+)) ?(s|secs?|seconds?|ms|msec|us|ns)", re.IGNORECASE)
+DURATIONS = {b"s": 1.0, b"m": 1e-3, b"u": 1e-6, b"n": 1e-9}
 # Marks between thousands: of English, of German, and of Swiss or French numbers.
 ENGLISH = re.compile(rb"[-+]?[1-9]\d{0,2}(?:,\d{3})+(?:\.\d*)?")
 GERMAN = re.compile(rb"[-+]?[1-9]\d{0,2}(?:\.\d{3})+(?:,\d*)?")
@@ -172,18 +174,31 @@ def _quoted(text: bytes, mark: bytes) -> list[bytes] | None:
 
 
 def seconds_of(cell: bytes) -> float | None:
-    """A date, a time of day or both, in seconds; None for other text. Without a zone, it is taken for UTC."""
+    """A date, a time of day or both, or a time with its unit, in seconds; None for other text.
+
+    Without a zone, it is taken for UTC. Of a date such as 06/10/2024, which may begin with the day or the month, only
+    the time of day is taken; NaN without one.
+    """
+    if (length := DURATION.fullmatch(cell)) is not None:
+        return float(length[1]) * DURATIONS[length[2][:1].lower()]
+    cell = DAY_FIRST.sub(rb"\3-\2-\1", cell)
+    if (either := EITHER_FIRST.match(cell)) is not None:
+        cell = cell[either.end() :]
+        if not cell:
+            return float("nan")
     found = TIME.fullmatch(cell) or TIME.fullmatch(cell + b" 00:00:00")
     if found is None:
         return None
     hours, minutes, seconds = int(found[4]), int(found[5]), float(found[6].replace(b",", b"."))
+    if found[7] is not None:
+        hours = hours % 12 + 12 * (found[7].upper() == b"P")
     if found[1] is None:
         return 3600.0 * hours + 60 * minutes + seconds
     try:
         day = datetime(int(found[1]), int(found[2]), int(found[3]), hours, minutes, tzinfo=UTC)
     except ValueError:
         return None
-    ahead = 0 if found[7] is None else 3600 * int(found[7]) + int(found[7][:1] + found[8]) * 60
+    ahead = 0 if found[8] is None else 3600 * int(found[8]) + int(found[8][:1] + found[9]) * 60
     return day.timestamp() + seconds - ahead
 
 
@@ -262,37 +277,6 @@ def in_log(lines: list[bytes]) -> re.Pattern[bytes] | None:
     return next(
         (list_ for list_ in (LONG_LIST, LAST_LIST) if 2 * sum(map(bool, map(list_.search, lines))) > len(lines)), None
     )
-
-
-def of_one_label(rows: Iterable[Row], lines: list[bytes], list_: re.Pattern[bytes], notes: Notes) -> Iterable[Row]:
-    """The rows whose lists have the usual words before them, or those that speak of ranges or angles, if words before
-    others do not.
-
-    list_: finds a list, or its bracket.
-    """
-    found = [(_letters(line[: match.start()]), match) for line in lines if (match := list_.search(line))]
-    labels = Counter(label for label, _ in found)
-    usual = {label for label, count in labels.items() if list_ is OPENING and label and 2 * count > len(lines)}
-    of_ranges = {label for label in labels if RANGES.search(label)}
-    kept = usual or of_ranges | {label for label in labels if OF_ANGLES.search(label)}
-    closed = all(b"]" in match.string[match.start() :] for label, match in found if label in kept)
-    if not (usual or of_ranges) or len(kept) == len(labels) or not closed:
-        return rows
-    if not usual:
-        tell_fields(notes, kept, labels.keys() - kept)
-    return (row for row in rows if (match := list_.search(row.text)) and _letters(row.text[: match.start()]) in kept)
-
-
-def _letters(text: bytes) -> bytes:
-    return re.sub(rb"[^A-Za-z]+", b" ", text).strip()
-
-
-def tell_fields(notes: Notes, kept: Iterable[bytes], others: Iterable[bytes]) -> None:
-    """Tells, once, which lists are read and which are not, by what they are called."""
-    if any(notice.kind == "fields" for notice in notes.notices):
-        return
-    read, left = (", ".join(sorted(text_of(field).rstrip(":= ") for field in fields)) for fields in (kept, others))
-    notes.notice("fields", f"Only the lists called {read} were read, and not those called {left}.")
 
 
 def bracketed(rows: Iterable[Row], name: str) -> Iterator[Row]:

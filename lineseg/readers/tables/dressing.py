@@ -8,10 +8,10 @@ from collections.abc import Callable, Iterator
 from itertools import chain, islice
 from typing import NamedTuple
 
-from ..account import Notes
 from ..source import Source
-from .dialect import COMMENTS, OF_ANGLES, RANGES, Row, tell_fields
+from .dialect import COMMENTS, Row
 from .headers import LENGTHS, TURNS
+from .labelled import without_labels
 
 # How most rows begin; nothing is to be done to them.
 PLAIN = frozenset(b"%c" % each for each in b"+-.0123456789")
@@ -22,10 +22,6 @@ REMARK, INLINE = re.compile(rb";+\s*[A-Za-z][^;]*"), re.compile(rb"\s+#\s.*$")
 RECEIVED = re.compile(
     rb"\s*(\[)?((?:\d{4}-\d\d-\d\d[ T])?\d\d:\d\d:\d\d(?:[.,]\d+)?(?:Z|[-+]\d\d:?\d\d)?)(?(1)\]\s+|\s*->\s*)(?=\S)"
 )
-LABEL = re.compile(
-    rb"\s*[A-Za-z_][\w ]{0,40}(?:\([\w\xc2\xb0]+\))?\s*[:=]\s*(?=(?:[-+.]?(?:\d|nan|inf)[^\s,;]*[\s,;]+){10})"
-)
-FIELD = re.compile(rb"\s*[A-Za-z_][\w ]{0,40}\s*[:=]")
 QUOTES = re.compile(rb'\s*"([^"]*[,;\t][^"]*)"\s*[,;]?\s*')
 DASH = re.compile(rb"\s*-\s+(?=[-+]?\.?(?:\d|nan|inf)\S*\s*$)", re.IGNORECASE)
 ROW_END = re.compile(rb"\\\\(?:\[[^\]]*\])?\s*(?:\\\w+\s*)*$|\\(?:tabularnewline|cr)\b.*$")
@@ -39,8 +35,8 @@ RULE = re.compile(rb"[-:= ]*")
 COLOUR = re.compile(rb"\x1b\[[\d;]*[A-Za-z]")
 # The unit of a number.
 WITH_UNIT = re.compile(rb"(?<=\d)\s?(mm|cm|m|deg|rad|\xc2\xb0)(?=[\s,;|\"\])]|$)", re.IGNORECASE)
-WORD = re.compile(rb"\s*([A-Za-z_]+)[-_ ]?\d*[ \t,;]+(?=(?:[-+.]?(?:\d|nan|inf)[^\s,;]*[\s,;]+){10})")
 MANY, ENOUGH, SAMPLE = 10, 16, 40
+MOST_SPANNED = 2000
 
 
 class Dress(NamedTuple):
@@ -88,17 +84,6 @@ def _unit_free(source: Source, lines: list[bytes]) -> Callable[[bytes], bytes] |
     return lambda line: WITH_UNIT.sub(b"", line)
 
 
-def _of_one_word(lines: list[bytes]) -> Callable[[bytes], bytes] | None:
-    """What takes off the word before the numbers of each scan, such as scan0, if all begin with it."""
-    found = [WORD.match(line) for line in lines]
-    words = {each[1] for each in found if each}
-    return (
-        (lambda line: line[each.end() :] if (each := WORD.match(line)) else line)
-        if all(found) and len(words) == 1
-        else None
-    )
-
-
 DRESSES = (
     Dress(BOXED.fullmatch, _of_box),
     Dress(RECEIVED.match, _without_time),
@@ -113,7 +98,7 @@ def rows_of(source: Source) -> Iterator[Row]:
     rows = _lines(source)
     head = list(islice(rows, SAMPLE))
     lines = [row.text for row in head if row.text]
-    off = _undressing(lines, source.notes)
+    off = _undressing(source, lines)
     if (plain := _unit_free(source, [off(line) for line in lines] if off else lines)) is not None:
         dress, off = off, (lambda line: plain(dress(line) if dress else line))
     if off is None:
@@ -125,8 +110,26 @@ def rows_of(source: Source) -> Iterator[Row]:
             yield Row(row.number, text)
 
 
-def _lines(source: Source) -> Iterator[Row]:
+def _whole_lines(source: Source) -> Iterator[tuple[int, bytes]]:
+    """(number, line), where a cell in quotes that spans lines, as pandas writes arrays, is in one line."""
+    held: list[tuple[int, bytes]] = []
     for number, line in source.lines():
+        if not held and (b'"' not in line or line.count(b'"') % 2 == 0):
+            yield number, line
+            continue
+        held.append((number, line))
+        if len(held) > 1 and line.count(b'"') % 2:
+            yield held[0][0], b" ".join(text for _, text in held)
+            held = []
+        elif len(held) > MOST_SPANNED:
+            # A quote that nothing closes is a mark of inches, or a slip.
+            yield from held
+            held = []
+    yield from held
+
+
+def _lines(source: Source) -> Iterator[Row]:
+    for number, line in _whole_lines(source):
         if line[:1] in PLAIN and b"#" not in line:
             yield Row(number, line)
             continue
@@ -142,38 +145,10 @@ def _lines(source: Source) -> Iterator[Row]:
         yield Row(number, stripped if not stripped or stripped.startswith(COMMENTS) else text)
 
 
-def _undressing(lines: list[bytes], notes: Notes) -> Callable[[bytes], bytes] | None:
+def _undressing(source: Source, lines: list[bytes]) -> Callable[[bytes], bytes] | None:
     """What takes off the dress that most of the lines wear; None if they wear none."""
     # Titles may stand above.
     lines = lines[-ENOUGH:]
     worn = (dress for dress in DRESSES if 2 * sum(map(bool, map(dress.fits, lines))) > len(lines))
     dress = next(worn, None)
-    return _of_one_field(lines, notes) or _of_one_word(lines) if dress is None else dress.off
-
-
-def _of_one_field(lines: list[bytes], notes: Notes) -> Callable[[bytes], bytes] | None:
-    """What takes off the labels of long lists, such as "ranges: 1.5 1.6 …", if most lines have one or each line is a
-    field of a message; only lists of one label and of their angles are left."""
-    labels = [match[0].strip() for line in lines if (match := LABEL.match(line))]
-    most = 2 * len(labels) > len(lines)
-    if not labels or not (most or all(map(FIELD.match, lines))):
-        return None
-    recurs = {label for label in labels if labels.count(label) > 1}
-
-    def field_of(label: bytes) -> bytes:
-        # A number that does not recur counts the scans.
-        return label if label in recurs else re.sub(rb"[\W\d]+", b" ", label).strip()
-
-    fields = list(dict.fromkeys(map(field_of, labels)))
-    taken = next(filter(RANGES.search, fields), fields[0])
-    kept = {taken} | {field for field in fields if OF_ANGLES.search(field)}
-    if len(kept) < len(fields):
-        tell_fields(notes, kept, set(fields) - kept)
-
-    def off(line: bytes) -> bytes:
-        match = LABEL.match(line)
-        if match is None:
-            return line if most else b""
-        return line[match.end() :] if field_of(match[0].strip()) in kept else b""
-
-    return off
+    return without_labels(source, lines) if dress is None else dress.off

@@ -19,7 +19,7 @@ DISTANCES = (
     "distancia", "distanza", "距離", "距离", "거리", "расстояние",
 )  # fmt: skip
 # What turns a laser that looks one way; the angle of a robot, in a table with x and y.
-SERVOS = ("yaw", "pan", "servo")
+SERVOS = ("yaw", "pan", "servo", "heading", "direction", "course")
 # What a column beside them holds if its name has one of these words, such as range_min or angle_increment.
 BESIDE = {
     "min", "max", "minimum", "maximum", "limit", "increment", "resolution", "start", "end", "std", "stddev", "sigma",
@@ -45,6 +45,22 @@ SCANS = (
     "revolution",
     "rev",
 )
+# What the fields of a scan are called elsewhere.
+NAMES = {
+    "ranges": ("ranges", "distances", "range", "distance"),
+    "angles": ("angles", "bearings", "thetas", "theta"),
+    "angle_increment": ("angle_increment", "increment"),
+    "stamp": ("stamp", "timestamp", "time", "t", "ts"),
+    "frame_id": ("frame_id", "frame"),
+}
+FIELD = {name: field for field, names in NAMES.items() for name in names}
+# What an angle is to a scan if its name has one of these words, and what a distance is.
+OF_ANGLE = {
+    **dict.fromkeys(("min", "minimum", "start", "starting", "first", "begin", "from"), "angle_min"),
+    **dict.fromkeys(("max", "maximum", "end", "stop", "last", "to"), "angle_max"),
+    **dict.fromkeys(("increment", "inc", "incr", "step", "resolution", "delta", "spacing"), "angle_increment"),
+}
+OF_DISTANCE = {"min": "range_min", "minimum": "range_min", "max": "range_max", "maximum": "range_max"}
 LASERS = (
     "frame_id", "header_frame_id", "laser", "laser_id", "laser_name", "lidar", "lidar_id", "lidar_name", "sensor",
     "sensor_id", "sensor_name", "device", "device_id", "scanner", "scanner_id", "source", "topic",
@@ -169,7 +185,7 @@ def says_angle(name: Name) -> bool:
     """Whether it is the name of an angle, or of one in an array of them."""
     words = name.plain.split("_")
     known = words[-1] in ANGLES or words[0] in ANGLES or words[0].startswith(("angul", "angel")) or words == ["a"]
-    return known and words[-1] not in DISTANCES and not BESIDE & {*words}
+    return known and words[-1] not in DISTANCES and not (BESIDE | OF_ANGLE.keys()) & {*words}
 
 
 def says_distance(name: Name) -> bool:
@@ -183,6 +199,18 @@ def distance_of(names: list[Name]) -> int | None:
     """The column of the distances: the first whose name ends so, such as raw_range, or else begins so."""
     ends = column_of(names, lambda name: is_distance(name) and name.plain.split("_")[-1] in DISTANCES)
     return column_of(names, is_distance) if ends is None else ends
+
+
+def field_of(name: Name) -> str | None:
+    """The field of a scan that a name stands for, such as angle_min for "Start angle [deg]"; None if it is none."""
+    words = name.plain.split("_")
+    if (field := FIELD.get(name.plain) or FIELD.get(name.plain.removeprefix("scan_"))) is not None:
+        return field
+    if name.unit in TURNS or any(word in ANGLES or word.startswith("ang") for word in words):
+        return next((OF_ANGLE[word] for word in words if word in OF_ANGLE), None)
+    if name.unit in LENGTHS or any(word in DISTANCES for word in words):
+        return next((OF_DISTANCE[word] for word in words if word in OF_DISTANCE), None)
+    return None
 
 
 def is_beam(name: Name) -> bool:
@@ -213,8 +241,12 @@ def array_columns(names: list[Name]) -> list[int]:
 
 
 def units_as_names(names: list[Name]) -> list[Name]:
-    """The names, "angle" and "distance" for those that are only units, such as "deg,mm", or name a servo."""
+    """The names, "angle" and "distance" for those that are only units, such as "deg,mm", or name what turns a laser."""
     turns = [at for at, name in enumerate(names) if name.element < 0 and name.plain in (*TURNS, *SERVOS)]
+    if not turns:
+        # What is counted in degrees is an angle, whatever it is called.
+        turns = [at for at, name in enumerate(names)
+                 if name.element < 0 and name.unit in TURNS and field_of(name) is None]  # fmt: skip
     lengths = [at for at, name in enumerate(names) if name.element < 0 and name.plain in LENGTHS and not name.unit]
     found: dict[int, str] = {}
     if len(turns) == 1 and not any(map(is_angle, names)):

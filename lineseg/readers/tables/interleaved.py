@@ -50,6 +50,33 @@ def interleaved(values: list[Floats], reading: Reading) -> Beams | None:
     return None
 
 
+def angles_between(values: list[Floats], reading: Reading) -> bool:
+    """Whether every other row has the angles of the row after it, and these differ from scan to scan."""
+    angles, ranges = values[::2], values[1::2]
+    given = (reading.columns, reading.skip_columns, reading.angle_increment)
+    if len(values) < 4 or len(values) % 2 or any(each is not None for each in given):
+        return False
+    if any(len(one) != len(other) or len(one) < LEAST_BEAMS for one, other in zip(angles, ranges, strict=True)):
+        return False
+    if all(np.array_equal(each, angles[0]) for each in angles[1:]):
+        return False
+    return all(map(_goes_around, angles)) and not any(map(_goes_around, ranges))
+
+
+def _goes_around(numbers: Floats) -> bool:
+    """Whether numbers rise, or fall, at every step but one, where a turn ends."""
+    rises = np.diff(numbers) > 0
+    return bool(min(rises.sum(), (~rises).sum()) <= 1 and np.isfinite(numbers).all())
+
+
+def read_angles_between(source: Source, reading: Reading, values: list[Floats]) -> Recording:
+    """The scans of such rows."""
+    scans = np.repeat(np.arange(len(values) // 2, dtype=np.float64), list(map(len, values[::2])))
+    table = np.column_stack((scans, np.concatenate(values[::2]), np.concatenate(values[1::2]))).astype(np.float64)
+    source.notes.notice("beams", "Every other row was read as the angles of the ranges below it.")
+    return with_roles(source, reading, table, None, Roles(True, 1, 2, 0), True, "text")
+
+
 def _sweeps(table: NDArray[np.float64], roles: Roles) -> bool:
     """Whether the bearings of the beams go on in one sense over a field of view, and their distances vary."""
     if len(np.unique(table[:, roles.second])) <= FEW_VALUES:

@@ -47,19 +47,23 @@ MOST_LASERS = 4
 LEAST_ALTERNATE = 3
 # Rows may vary by this share; those that differ more are broken.
 VARIES = 0.1
-LEAST_BEAMS = 10
+LEAST_BEAMS, MANY_BEAMS = 10, 30
 # So many times farther are ranges from the quantities between them than from the next range.
 LEAST_PAIRS, FAR_APART = 30, 8.0
+# Scans in which the seam shows whether beams go all around, and the leap there as a share of the ranges.
+FEW_SCANS, SEAM_SHARE = 4, 0.15
+# Rows of two lasers differ so many times as much as those of one.
+UNLIKE = 2.0
 
 
 @dataclass(frozen=True)
 class Geometry:
-    """angle_min and increment [rad] of `beams` beams; source: where it comes from."""
+    """angle_min and increment [rad] of `beams` beams; bearings: (beams,) [rad] if they are not evenly spaced."""
 
     angle_min: float
     increment: float
     beams: int
-    source: str
+    bearings: Floats | None = None
 
 
 def read_scans(
@@ -109,19 +113,20 @@ def scans_of(
             others = [at for at, row in enumerate(values) if not np.array_equal(row, values[0], equal_nan=True)]
             numbers, values = [numbers[at] for at in others], [values[at] for at in others]
     numbers, values, laser = _of_one_length(source, numbers, values)
-    numbers, values = _whole(source, numbers, values)
+    numbers, values = _whole(source, numbers, values, geometry is not None and geometry.bearings is not None)
     skip = _skipped(source, reading, values, leading, geometry, double)
     if leading is None and geometry is None and reading.angle_increment is None:
         values = _without_trailing(source, values, skip)
     if min(map(len, values)) <= skip:
         raise ValueError(f"{source.name}:{numbers[0]}: no ranges are left after {skip} leading columns; skip fewer.")
     beams = Counter(len(row) - skip for row in values).most_common(1)[0][0]
-    angle_min, increment = _angles(source, reading, beams, geometry)
+    angle_min, increment = _angles(source, reading, [row[skip:] for row in values], beams, geometry)
     stamps = _stamps(source, values, skip, leading, len(trailing))
     lasers = _lasers(values, skip) if leading is None and not laser else [laser] * len(values)
     sweeps = Sweeps()
+    bearings = None if geometry is None else geometry.bearings
     for row, stamp, laser in zip(values, stamps.tolist(), lasers, strict=True):
-        sweeps.add(row[skip:], angle_min, increment, stamp=stamp, frame_id=laser)
+        sweeps.add(row[skip:], angle_min, increment, stamp=stamp, frame_id=laser, bearings=bearings)
     lengths = [len(row) - skip for row in values]
     if min(lengths) != max(lengths):
         source.notes.notice(
@@ -234,13 +239,15 @@ def _before_double_space(text: bytes) -> int:
 
 
 def _angle_row(source: Source, reading: Reading, values: list[Floats]) -> Geometry | None:
-    """The angles in the first row, if it has evenly rising numbers as long as the other rows, which do not."""
+    """The angles in the first row, if it has numbers that only rise, or only fall, for each of those in the other rows,
+    which do not."""
     first, second = values[0], values[1]
     for lead in range(min(4, len(first))):
         angles, others = first[lead:], second[lead:]
         if len(first) not in (len(second), len(second) - lead) or len(angles) < LEAST_BEAMS:
             continue
-        if not np.isfinite(angles).all() or not _even(angles) or (len(others) == len(angles) and _even(others)):
+        alike = (_even, _goes_one_way) if len(angles) >= MANY_BEAMS else (_even,)
+        if not np.isfinite(angles).all() or not any(is_one(angles) and not is_one(others) for is_one in alike):
             continue
         unit = reading.angle_unit or angle_unit_of(angles)
         turn = RADIANS[unit]
@@ -249,7 +256,7 @@ def _angle_row(source: Source, reading: Reading, values: list[Floats]) -> Geomet
         source.notes.found["angle_unit"] = unit
         source.notes.radians = True
         step = float(angles[-1] - angles[0]) / (len(angles) - 1)
-        return Geometry(float(angles[0]) * turn, step * turn, len(angles), "the first row")
+        return Geometry(float(angles[0]) * turn, step * turn, len(angles), None if _even(angles) else angles * turn)
     return None
 
 
@@ -278,6 +285,12 @@ def _even(numbers: Floats) -> bool:
     return middle != 0 and bool(np.abs(steps - middle).max() <= 0.3 * abs(middle))
 
 
+def _goes_one_way(numbers: Floats) -> bool:
+    """Whether numbers rise, or fall, at every step, as no ranges do from beam to beam."""
+    steps = np.diff(numbers)
+    return bool((steps > 0).all() or (steps < 0).all())
+
+
 def _settings_row(values: list[Floats]) -> Geometry | None:
     """The geometry in a short first row that names the number of beams, and a step or the first and the last angle."""
     first, usual = values[0], len(values[1])
@@ -292,7 +305,7 @@ def _settings_row(values: list[Floats]) -> Geometry | None:
                 in_degrees = abs(high) > 2 * math.pi + 0.2 or abs(low) > 2 * math.pi + 0.2
                 turn = math.radians(1) if in_degrees else 1.0
                 if 0 < step * turn < 0.2 and abs(low + step * (beams - 1) - high) < 2 * step:
-                    return Geometry(float(low) * turn, float(step) * turn, beams, "the first row")
+                    return Geometry(float(low) * turn, float(step) * turn, beams)
     return None
 
 
@@ -311,10 +324,12 @@ def _of_one_length(
     return list(compress(numbers, these)), list(compress(values, these)), taken
 
 
-def _whole(source: Source, numbers: list[int], values: list[Floats]) -> tuple[list[int], list[Floats]]:
-    """The rows whose length is about the usual one; others are skipped."""
+def _whole(
+    source: Source, numbers: list[int], values: list[Floats], exact: bool
+) -> tuple[list[int], list[Floats]]:  # fmt: skip
+    """The rows whose length is about the usual one, or is exactly so long; others are skipped."""
     usual = Counter(map(len, values)).most_common(1)[0][0]
-    near = [abs(len(row) - usual) <= VARIES * usual for row in values]
+    near = [abs(len(row) - usual) <= (0 if exact else VARIES * usual) for row in values]
     for number, row, good in zip(numbers, values, near, strict=True):
         if not good:
             why = f"{len(row)} ranges, but other scans have {usual}; is the line complete?"
@@ -433,22 +448,40 @@ def _stamps(
 
 
 def _lasers(values: list[Floats], skip: int) -> list[str]:
-    """(rows,) the number of each row's laser, if a leading column has a few whole numbers in turn; otherwise ""."""
+    """(rows,) the number of each row's laser, if a leading column has a few whole numbers in turn, and rows of one
+    number are alike while those of two are not; otherwise ""."""
     for lead in range(min(skip, MOST_LEADING)):
         column = np.array([row[lead] for row in values])
         count = len(np.unique(column))
         repeats = column[count:] == column[:-count]
         if 2 <= count <= MOST_LASERS and len(repeats) >= count and repeats.all() and (column == np.floor(column)).all():
-            return [f"{laser:.0f}" for laser in column.tolist()]
+            near, far = (_differ([row[skip:] for row in values], after) for after in (1, count))
+            return [f"{laser:.0f}" for laser in column.tolist()] if near > UNLIKE * far else [""] * len(values)
     return [""] * len(values)
+
+
+def _differ(rows: list[Floats], after: int) -> float:
+    """How much rows differ from those so many rows later; inf if their lengths do."""
+    pairs = list(zip(rows, rows[after:], strict=False))
+    if any(len(one) != len(other) for one, other in pairs):
+        return math.inf
+    return float(np.median([np.nanmedian(np.abs(one - other)) for one, other in pairs]))
 
 
 # Angles
 
 
-def _angles(source: Source, reading: Reading, beams: int, geometry: Geometry | None) -> tuple[float, float]:
-    """angle_min and angle_increment [rad]: as given, as the file says, or of the common laser with so many beams."""
+def _angles(
+    source: Source, reading: Reading, rows: list[Floats], beams: int, geometry: Geometry | None
+) -> tuple[float, float]:
+    """angle_min and angle_increment [rad]: as given, as the file says, or of the common laser with so many beams.
+
+    rows: the ranges of the scans.
+    """
     usual = usual_angles(beams)
+    if usual is not None and abs(usual[1] * beams - 360) < usual[1] / 2 and _leap_at_seam(rows):
+        # No full circle: half of one, at half the steps.
+        usual = (usual[0] / 2, usual[1] / 2)
     low, step = (math.nan, math.nan) if usual is None else map(math.radians, usual)
     if geometry is not None:
         low, step = geometry.angle_min, geometry.increment
@@ -467,6 +500,18 @@ def _angles(source: Source, reading: Reading, beams: int, geometry: Geometry | N
     else:
         tell_unknown_direction(source.notes, reading)
     return low, step
+
+
+def _leap_at_seam(rows: list[Floats]) -> bool:
+    """Whether in nearly all scans the last range is far from the first, where neighbours in a circle would be near."""
+    if len(rows) < FEW_SCANS:
+        return False
+    gaps = np.array([abs(row[0] - row[-1]) for row in rows])
+    steps = np.array([np.nanmedian(np.abs(np.diff(row))) for row in rows])
+    usual = np.array([np.nanmedian(row) for row in rows])
+    known = np.isfinite(gaps)
+    leaps = (gaps > FAR_APART * steps) & (gaps > SEAM_SHARE * usual)
+    return bool(known.sum() >= FEW_SCANS and leaps[known].mean() > 0.9)
 
 
 def tell_usual_angles(notes: Notes, reading: Reading, where: str, beams: int, low: float, step: float) -> None:

@@ -5,17 +5,20 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterable
+from itertools import chain
 from typing import NamedTuple
 
 import numpy as np
 
 from ...scan import Floats, Recording, Topic
-from ..reading import Reading
+from ..guessing import guess_angle_unit
+from ..reading import RADIANS, AngleUnit, Reading
 from ..source import Source, Sweeps
 from ..stamping import in_seconds
 from .dialect import LEFT_OUT, Dialect, Row
-from .headers import LENGTHS, STAMPS, TIMES, Name, array_columns, column_of
+from .headers import LENGTHS, STAMPS, TIMES, TURNS, Name, array_columns, column_of, field_of, is_angle
 from .numbers import all_numbers
+from .scan_columns import tell_unknown_direction
 from .scan_rows import tell_usual_angles, usual_angles
 
 # What precedes the ranges in `ros2 topic echo --csv`.
@@ -25,13 +28,19 @@ BEFORE_RANGES = (
 )  # fmt: skip
 FIELDS = ("angle_min", "angle_max", "angle_increment", "range_min", "range_max")
 SECONDS = ("stamp_sec", "stamp_secs", "secs", "sec")
+# So many numbers in a cell are a list of beams.
+MANY_BEAMS = 30
 NANOSECONDS = ("stamp_nanosec", "stamp_nsecs", "stamp_nsec", "stamp_nanosecs", "nsecs", "nsec", "nanosec", "nanosecs")
 
 
 class Layout(NamedTuple):
-    """Where a row has what: a list of ranges, or a column for each; a field's column, None without it."""
+    """Where a row has what: a list of ranges, or a column for each; a field's column, None without it.
+
+    angles: of lists of angles.
+    """
 
     listed: int | None
+    angles: int | None
     beams: list[int]
     at: dict[str, int]
     frame_id: int | None
@@ -42,9 +51,23 @@ class Layout(NamedTuple):
     names: list[Name]
 
     @property
-    def scale(self) -> float:
-        """Of the ranges, in their unit."""
-        return self.names[self.beams[0] if self.listed is None else self.listed].scale
+    def ranges(self) -> Name:
+        """The name of the ranges, with their unit."""
+        return self.names[self.beams[0] if self.listed is None else self.listed]
+
+    @property
+    def is_of_ros(self) -> bool:
+        """Whether the fields are called as in sensor_msgs/LaserScan, which has metres and radians."""
+        at = self.at.get("angle_min")
+        return at is not None and self.names[at].ends("angle_min") and self.turn in (None, "rad")
+
+    @property
+    def turn(self) -> AngleUnit | None:
+        """The unit that the names of the angles give, None if they give none."""
+        columns = [*(at for field, at in self.at.items() if field.startswith("angle")), self.angles]
+        return next(
+            (TURNS[self.names[at].unit] for at in columns if at is not None and self.names[at].unit in TURNS), None
+        )
 
 
 def echo_columns(dialect: Dialect, head: list[Row]) -> list[Name]:
@@ -69,16 +92,22 @@ def echo_columns(dialect: Dialect, head: list[Row]) -> list[Name]:
 
 def read_table(source: Source, reading: Reading, rows: Iterable[Row], dialect: Dialect, names: list[Name]) -> Recording:
     """The scans of a table, whose columns have these names."""
-    layout = _layout(names)
+    first = next(rows := iter(rows), None)
+    layout = _layout(names, dialect.cells(first.text) if first else [])
+    rows = chain([first] if first else [], rows)
+    notes = source.notes
+    if layout.turn is not None:
+        notes.radians = True
+        notes.found.setdefault("angle_unit", layout.turn)
     sweeps = Sweeps()
     stamps: list[float] = []
     for row in rows:
         try:
             stamps.append(_add(source, reading, sweeps, row, dialect, layout))
         except ValueError as error:
-            source.notes.skip(f"{source.name}:{row.number}", str(error))
+            notes.skip(f"{source.name}:{row.number}", str(error))
     if not sweeps:
-        source.notes.nothing_left()
+        notes.nothing_left()
         raise ValueError(f"{source.name} has column names, but no scans below them.")
     times = np.array(stamps)
     if layout.stamp is not None and layout.seconds is None and layout.header is None:
@@ -88,28 +117,36 @@ def read_table(source: Source, reading: Reading, rows: Iterable[Row], dialect: D
         times = times * unit if unit else in_seconds(times)[0]
     if times.any():
         at = next(place for place in (layout.seconds, layout.header, layout.stamp) if place is not None)
-        source.notes.stamps = f"column {at + 1}"
-    ranges = names[layout.beams[0] if layout.listed is None else layout.listed]
-    if unit := LENGTHS.get(ranges.unit):
-        source.notes.found.setdefault("unit", unit)
-    elif "angle_min" not in layout.at and "unit" not in source.notes.found:
-        source.notes.unstated.add("unit")
-    if "range_max" not in layout.at and "range_max" not in source.notes.found:
-        source.notes.unstated.add("range_max")
+        notes.stamps = f"column {at + 1}"
+    if unit := LENGTHS.get(layout.ranges.unit):
+        notes.found.setdefault("unit", unit)
+    elif not layout.is_of_ros and "unit" not in notes.found:
+        notes.unstated.add("unit")
+    if "range_max" not in layout.at and "range_max" not in notes.found:
+        notes.unstated.add("range_max")
     topics = (Topic("scan", len(sweeps)),)
     topic = source.choose(list(topics))
     return sweeps.recording(source, topic=topic, topics=topics, format="text", stamps=times)
 
 
-def _layout(names: list[Name]) -> Layout:
+def _layout(names: list[Name], first: list[bytes]) -> Layout:
+    """first: the cells of the first row."""
+
     def column(*known: str) -> int | None:
         return column_of(names, lambda name: name.element < 0 and name.ends(*known))
 
-    at = {name: found for name in FIELDS if (found := column(name)) is not None}
+    fields = [field_of(name) if name.element < 0 else None for name in names]
+    at = {name: fields.index(name) for name in FIELDS if name in fields}
     listed = column("ranges")
     stamp = column("header_stamp", "stamp")
+    angles = None
+    if listed is not None:
+        angles = next(
+            (at for at, name in enumerate(names) if is_angle(name) and is_long_list(first[at : at + 1])), None
+        )
     return Layout(
         listed,
+        angles,
         array_columns(names) if listed is None else [],
         at,
         column("frame_id"),
@@ -135,29 +172,68 @@ def _add(source: Source, reading: Reading, sweeps: Sweeps, row: Row, dialect: Di
     needed: int = max([*layout.at.values(), *([] if layout.listed is None else [layout.listed]), *layout.beams[:1]])
     if len(cells) <= needed or (layout.listed is not None and len(cells) not in (len(names), len(names) - 1)):
         raise ValueError(f"{len(cells)} of {len(names)} columns; is the line complete?")
-    ranges = _ranges(dialect, cells, layout) * layout.scale
+    ranges = _ranges(dialect, cells, layout) * layout.ranges.scale
     field = {name: _number(dialect, cells[at], name) for name, at in layout.at.items()}
-    low, step = _angles(source, reading, field, len(ranges))
+    if layout.turn is not None:
+        turn = RADIANS[reading.angle_unit or layout.turn]
+        field = {name: value * turn * names[layout.at[name]].scale if value and name.startswith("angle") else value
+                 for name, value in field.items()}  # fmt: skip
+    bearings = None
+    if layout.angles is not None:
+        bearings = _listed_bearings(source, reading, dialect, cells[layout.angles], names[layout.angles], len(ranges))
+        low, step = bearings[0], (bearings[-1] - bearings[0]) / max(len(bearings) - 1, 1)
+    else:
+        low, step = _angles(source, reading, field, len(ranges))
     frame_id = _frame_id(cells, layout)
-    sweeps.add(ranges, low, step, field.get("range_min") or 0.0, field.get("range_max") or math.inf, 0.0, frame_id)
+    limits = field.get("range_min") or 0.0, field.get("range_max") or math.inf
+    sweeps.add(ranges, low, step, *limits, 0.0, frame_id, bearings)
     return _stamp(dialect, cells, layout)
+
+
+def is_long_list(cells: list[bytes]) -> bool:
+    """Whether each of some cells holds a list of many numbers."""
+    return bool(cells) and all(len(cell) >= 2 * MANY_BEAMS and _is_list(cell) for cell in cells)
+
+
+def _is_list(cell: bytes) -> bool:
+    numbers = all_numbers(cell.strip(b" []()'\""))
+    return numbers is not None and len(numbers) > MANY_BEAMS
+
+
+def _listed_bearings(
+    source: Source, reading: Reading, dialect: Dialect, cell: bytes, name: Name, beams: int
+) -> Floats:  # fmt: skip
+    """The bearings [rad] of a list of angles, one for each beam."""
+    angles = _list(dialect, cell, "angles") * name.scale
+    if len(angles) != beams:
+        raise ValueError(f"{len(angles)} angles, but {beams} ranges; each beam needs its own")
+    if not np.isfinite(angles).all():
+        raise ValueError("an angle is not a finite number; each beam needs its own")
+    turn = RADIANS[guess_angle_unit(angles, reading, source.notes)]
+    source.notes.radians = True
+    tell_unknown_direction(source.notes, reading)
+    return np.unwrap(angles * turn)
+
+
+def _list(dialect: Dialect, cell: bytes, what: str) -> Floats:
+    """The numbers of a list in a cell. what: they are, for errors."""
+    if b"..." in cell:
+        raise ValueError(LEFT_OUT)
+    # array('f', [1.5, …]) and the like
+    text = (cell[cell.index(b"[") :] if b"[" in cell else cell).strip(b" []()'\"")
+    values = all_numbers(text)
+    if values is None:
+        text = re.sub(rb"[\[\](){}'\"]|array|[dD]type=\w+", b" ", text)
+        values = all_numbers(text.replace(b"None", b"nan").replace(b"null", b"nan"))
+    if values is None:
+        wrong = next((word for word in re.split(rb"[\s,;]+", text.strip()) if dialect.number(word) is None), b"?")
+        raise ValueError(f"{wrong[:40].decode('utf-8', 'replace')!r} among the {what} is not a number")
+    return values
 
 
 def _ranges(dialect: Dialect, cells: list[bytes], layout: Layout) -> Floats:
     if layout.listed is not None:
-        cell = cells[layout.listed]
-        if b"..." in cell:
-            raise ValueError(LEFT_OUT)
-        # array('f', [1.5, …]) and the like
-        text = (cell[cell.index(b"[") :] if b"[" in cell else cell).strip(b" []()'\"")
-        values = all_numbers(text)
-        if values is None:
-            text = re.sub(rb"[\[\](){}'\"]|array|[dD]type=\w+", b" ", text)
-            values = all_numbers(text.replace(b"None", b"nan").replace(b"null", b"nan"))
-        if values is None:
-            wrong = next((word for word in re.split(rb"[\s,;]+", text.strip()) if dialect.number(word) is None), b"?")
-            raise ValueError(f"{wrong[:40].decode('utf-8', 'replace')!r} among the ranges is not a number")
-        return values
+        return _list(dialect, cells[layout.listed], "ranges")
     found = [dialect.number(cells[at]) if at < len(cells) else math.nan for at in layout.beams]
     if None in found:
         wrong = cells[layout.beams[found.index(None)]][:40].decode("utf-8", "replace")

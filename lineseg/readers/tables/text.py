@@ -27,7 +27,6 @@ from .dialect import (
     in_log,
     is_list,
     labels_of,
-    of_one_label,
     text_of,
     unlabelled,
 )  # fmt: skip
@@ -39,6 +38,7 @@ from .headers import (
     Name,
     array_columns,
     column_of,
+    field_of,
     is_angle,
     is_beam,
     is_distance,
@@ -48,14 +48,15 @@ from .headers import (
     unit_of,
     units_as_names,
 )
-from .interleaved import interleaved, read_interleaved
+from .interleaved import angles_between, interleaved, read_angles_between, read_interleaved
+from .labelled import of_one_label
 from .long_table import widened
 from .numbered import read_numbered
-from .numbers import all_numbers, split
+from .numbers import split
 from .scan_columns import alike, first_echoes, named_columns, tell_columns
 from .scan_rows import parsed, read_scans, scans_of
 from .spanning import scans_over_lines
-from .table import echo_columns, read_table
+from .table import FIELDS, MANY_BEAMS, echo_columns, is_long_list, read_table
 
 ECHO = re.compile(rb"%time[,;\t]field\.")  # the first line of `rostopic echo -p`
 SETTING = re.compile(rb"(\w+)\s*[=:]\s*([^\s,;]+)")
@@ -67,7 +68,10 @@ OF_RPLIDAR = re.compile(
 # Its driver for ROS turns them.
 OF_ROS = re.compile(rb"(?<![A-Za-z])ros|/scan\b|LaserScan", re.IGNORECASE)
 # An angle as the name of a column, such as -134.5°.
-ANGLE = re.compile("([A-Za-z][A-Za-z_ ]*[@_ ])?([-+]?\\d+(?:[.,]\\d+)?)([\\s_]*(?:deg|rad|°)?)".encode(), re.IGNORECASE)
+ANGLE = re.compile(
+    "([A-Za-z][A-Za-z_ ]*[@_ ])?([-+]?\\d+(?:[.,]\\d+)?)([\\s_]*(?:deg|rad|°)?)\\s*(?:[(\\[](\\w+)[)\\]])?".encode(),
+    re.IGNORECASE,
+)
 MARK = re.compile(rb"[,;\t]")
 MOST_NAMES = 4
 NUMBERS = re.compile(rb"[-+.:\d]+")
@@ -76,8 +80,6 @@ UNNAMED = Name("index")
 # With fewer rows, nothing is a title.
 FEW_ROWS = 6
 SAMPLE = 40
-# So many numbers more than names are ranges.
-MANY_BEAMS = 30
 # Rows with fewer numbers than this are beams, if there are enough of them.
 FEW_COLUMNS, MANY_ROWS = 9, 10
 
@@ -112,7 +114,9 @@ class Text(Reader):
         rest = (row for row in rows if not row.text.startswith(COMMENTS))
         head, rest = _without_headings(source, [first, *islice(rest, SAMPLE)], rest)
         head = _below_titles(source, head)
-        return _read(source, reading, head, chain(head, rest), comments[-1])
+        recording = _read(source, reading, head, chain(head, rest), comments[-1])
+        laser = source.notes.found.get("frame_id", "")
+        return recording if any(recording.frame_ids) else replace(recording, frame_ids=(laser,) * len(recording))
 
 
 def _without_headings(source: Source, head: list[Row], rest: Iterable[Row]) -> tuple[list[Row], Iterable[Row]]:
@@ -177,7 +181,11 @@ def _titles(lines: list[bytes]) -> int:
         return dialect.number((dialect.cells(line) or [b"x"])[0] or b"x") is None
 
     def is_header(line: bytes) -> bool:
-        cells = len(dialect.cells(line))
+        names = dialect.cells(line)
+        cells = len(names)
+        # The last name may be that of all ranges.
+        if 1 < cells < width - MANY_BEAMS and says_distance(name_of(text_of(names[-1]))):
+            return True
         # A header of blanks may seem to have fewer cells than it names, or more.
         return cells == width if dialect.separator == b" " and not _names_beams(line) else cells >= width - (width > 2)
 
@@ -221,12 +229,12 @@ def _read(source: Source, reading: Reading, head: list[Row], rows: Iterable[Row]
     lines = [row.text for row in head]
     source.notes.kind = "text"
     if not is_list(lines[0]) and (pattern := in_log(lines)) is not None:
-        rows = of_one_label(rows, lines, pattern, source.notes)
+        rows = of_one_label(source, rows, lines, pattern)
         lists = (Row(row.number, found[1]) for row in rows if (found := pattern.search(row.text)))
         head = list(islice(lists, SAMPLE))
         return _read_numbers(source, reading, head, chain(head, lists), Dialect(b","), None)
     if is_list(lines[0]):
-        rows, dialect = bracketed(of_one_label(rows, lines, OPENING, source.notes), source.name), Dialect(b" ")
+        rows, dialect = bracketed(of_one_label(source, rows, lines, OPENING), source.name), Dialect(b" ")
         head = list(islice(rows, SAMPLE))
         if not head:
             raise ValueError(f"{source.name} has brackets, but no list of numbers in them; {TEXT_FORMS}")
@@ -247,9 +255,9 @@ def _read(source: Source, reading: Reading, head: list[Row], rows: Iterable[Row]
         _take_unit(source, reading, name_of(text_of(head[below - 1].text)))
         return _read_numbers(source, reading, head[below:], islice(rows, below, None), dialect, None)
     if _is_header(dialect, cells):
-        names = _names(dialect, head, cells)
-        above = 1
-        if len(head) > 1 and (units := _units(dialect, head[1].text, names)) is not None:
+        cells, above = _joined_levels(dialect, head)
+        names = _names(dialect, head, cells) if above == 1 else [name_of(text_of(cell)) for cell in cells]
+        if above == 1 and len(head) > 1 and (units := _units(dialect, head[1].text, names)) is not None:
             names, above = units, 2
         return _read_named(source, reading, islice(rows, above, None), dialect, names)
     names = [name_of(text_of(word)) for word in re.split(rb"[\s,;]+", comment.strip(b"#%/ ,;"))]
@@ -261,6 +269,44 @@ def _is_header(dialect: Dialect, cells: list[bytes]) -> bool:
     """Whether a line has names: its first cell is no number, or is empty and followed by names."""
     cells = [cell for cell in cells if cell]
     return bool(cells) and dialect.number(cells[0]) is None
+
+
+def _joined_levels(dialect: Dialect, head: list[Row]) -> tuple[list[bytes], int]:
+    """The names in the first row, and 1; or those of several rows of names joined by points, and how many these are.
+
+    In the upper of such rows, names recur, or stand once above several columns, as in tables of pandas and Excel.
+    """
+    names, levels, width = dialect.cells(head[0].text), 1, len(dialect.cells(head[-1].text))
+    for row in head[1:-1]:
+        cells = dialect.cells(row.text)
+        cells += [b""] * (width - len(cells))
+        if not _are_names(dialect, cells, dialect.cells(head[-1].text)):
+            break
+        if any(cells[1:]):
+            upper = _filled(names + [b""] * (width - len(names)))
+            if len({*upper}) == len(upper) or len(cells) != len(upper):
+                break
+            names = [b".".join(filter(None, pair)) for pair in zip(upper, cells, strict=True)]
+        levels += 1
+    return names, levels
+
+
+def _filled(names: list[bytes]) -> list[bytes]:
+    """Names, each also in the empty cells after it."""
+    found = list(names)
+    for at in range(1, len(found)):
+        found[at] = found[at] or found[at - 1]
+    return found
+
+
+def _are_names(dialect: Dialect, cells: list[bytes], data: list[bytes]) -> bool:
+    """Whether a row has a word where the data have a number, or only one word in front."""
+    words = [bool(cell) and dialect.number(cell) is None for cell in cells]
+    return any(word and (_has_number(dialect, data, at) or not any(cells[1:])) for at, word in enumerate(words))
+
+
+def _has_number(dialect: Dialect, cells: list[bytes], at: int) -> bool:
+    return at < len(cells) and bool(cells[at]) and dialect.number(cells[at]) is not None
 
 
 def _of_column(dialect: Dialect, head: list[Row]) -> int:
@@ -283,18 +329,22 @@ def _angles_in_names(source: Source, dialect: Dialect, cells: list[bytes]) -> by
     units = {each[3].strip(b" _").lower() for each in found if each}
     words = {each[1] for each in found if each}
     signs = {each[2][:1] == b"-" for each in found if each}
+    lengths = {each[4] for each in found if each}
     if (
         any(dialect.number(cell) is not None for cell in cells[:lead])
         or len(found) < MANY_ROWS
         or None in found
         or len(units) != 1
         or len(words) != 1
+        or len(lengths) != 1
         # Otherwise these are numbers, or the indices of an array.
         or (units == {b""} and (lead == 0 if words == {None} else len(signs) < 2))
     ):
         return None
     if (unit := TURNS.get(text_of(units.pop()))) and source.reading.angle_unit is None:
         source.notes.found["angle_unit"] = unit
+    if (length := lengths.pop()) and (of_ranges := LENGTHS.get(text_of(length))) and source.reading.unit is None:
+        source.notes.found["unit"] = of_ranges
     angles = [each[2] if dialect.comma else each[2].replace(b",", b".") for each in found if each]
     return dialect.separator.join([*[b"nan"] * lead, *angles])
 
@@ -376,18 +426,11 @@ def _with_lists(dialect: Dialect, rows: list[Row], names: list[Name]) -> list[Na
         return names
     held = [dialect.cells(row.text) for row in rows]
     lists = [at for at, name in enumerate(names) if not is_angle(name) and "intens" not in name.plain
-             and held and all(len(cells) > at and _is_long_list(cells[at]) for cells in held)]  # fmt: skip
+             and held and all(is_long_list(cells[at : at + 1]) for cells in held)]  # fmt: skip
     if not lists:
         return names
     at = next((at for at in lists if is_distance(names[at])), lists[0])
     return [*names[:at], names[at]._replace(plain="ranges"), *names[at + 1 :]]
-
-
-def _is_long_list(cell: bytes) -> bool:
-    if len(cell) < 2 * MANY_BEAMS:
-        return False
-    numbers = all_numbers(cell.strip(b" []()'\""))
-    return numbers is not None and len(numbers) > MANY_BEAMS
 
 
 def _read_open_ended(
@@ -395,6 +438,16 @@ def _read_open_ended(
 ) -> Recording:
     """Rows that go on after the columns that a header names: the last name is that of all ranges."""
     lead = len(names) - 1
+    rows = list(rows)
+    if any(field_of(name) in FIELDS for name in names[:lead]):
+        beams = max(dialect.width(row.text) for row in rows) - lead
+        return read_table(
+            source,
+            reading,
+            rows,
+            dialect,
+            [*names[:lead], *(names[-1]._replace(plain="ranges", element=at) for at in range(beams))],
+        )
 
     def plain(row: Row) -> Row:
         cells = dialect.cells(row.text)
@@ -487,6 +540,8 @@ def _read_numbers(
     if few and reading.skip_columns is None and reading.angle_increment is None:
         return read_beams(source, reading, rows, dialect, None)
     numbers, values, double = parsed(source, rows, dialect)
+    if angles_between(values, reading):
+        return read_angles_between(source, reading, values)
     if (beams := interleaved(values, reading)) is not None:
         return read_interleaved(source, reading, values, beams)
     return scans_of(source, reading, numbers, values, double, None)

@@ -13,6 +13,10 @@ from ..guessing import middle_of
 WIDE = np.deg2rad(30)
 # So many steps one after the other in the other sense are a sweep back, and not jitter.
 STEADY = 10
+# Sweeps to and fro have so many beams.
+LONG_SWEEP = 30
+# A motor's steps are more even than those of anything else that goes to and fro.
+OF_SERVO = 0.1
 
 
 def turns(bearings: Floats) -> list[int]:
@@ -67,6 +71,15 @@ def _one_way(bearings: Floats) -> list[int]:
             return [*edges, len(bearings)]
         edges.append(start)
         hard = hard[hard.index(next_hard) :] if next_hard in hard else []
+
+
+def evenness(bearings: Floats) -> float:
+    """`regularity`, also of bearings that sweep to and fro: that of the least regular of its sweeps."""
+    edges = [0, *_reversals(bearings[np.isfinite(bearings)]), len(bearings)]
+    sweeps = [bearings[start:stop] for start, stop in pairwise(edges)]
+    if 1 < len(sweeps) <= len(bearings) // LONG_SWEEP and (worst := max(map(regularity, sweeps))) < OF_SERVO:
+        return worst
+    return regularity(bearings)
 
 
 def regularity(bearings: Floats) -> float:
