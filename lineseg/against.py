@@ -18,6 +18,8 @@ from .writers.finite import finite_or_none
 
 # A frame takes any program far less; one that is silent for longer waits for something else.
 PATIENCE = 30.0
+# A program that has closed its output is about to end.
+END_SECONDS = 10.0
 
 
 class AgainstError(ValueError):
@@ -76,7 +78,7 @@ class Against:
     def _end(self) -> str:
         """What became of a program that gave no answer."""
         try:
-            code = self._program.wait(1)
+            code = self._program.wait(END_SECONDS)
         except subprocess.TimeoutExpired:
             return "closed its output"
         return f"ended with code {code}" if code >= 0 else f"was silent for {self.patience:g} s, or was stopped"

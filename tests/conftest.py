@@ -5,13 +5,15 @@ import os
 from pathlib import Path
 
 import pytest
-from hypothesis import settings
+from hypothesis import HealthCheck, settings
 
 # What is imported stays, so it need not be gone through again and again in search of garbage.
 gc.disable()
 
 # How long an example takes says nothing about its truth, and what passes here is to pass everywhere.
-settings.register_profile("lineseg", settings.default, deadline=None, derandomize=True)
+settings.register_profile(
+    "lineseg", settings.default, deadline=None, derandomize=True, suppress_health_check=[HealthCheck.too_slow]
+)
 # Fewer examples, for `make quick`.
 settings.register_profile("quick", settings.get_profile("lineseg"), max_examples=15)
 settings.load_profile("lineseg")

@@ -21,11 +21,11 @@ from cyclonedds.qos import Policy, Qos
 from cyclonedds.sub import DataReader
 from cyclonedds.topic import Topic
 
-# On the loopback interface alone, apart from every other program, and with little patience for who is gone.
+# On the loopback interface alone, apart from every other program.
 DOMAIN = 5
 URI = (
     "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name='lo' multicast='true'/></Interfaces></General>"
-    "<Discovery><LeaseDuration>2s</LeaseDuration><Tag>lineseg-{}</Tag></Discovery></Domain></CycloneDDS>"
+    "<Discovery><Tag>lineseg-{}</Tag></Discovery></Domain></CycloneDDS>"
 )
 
 

@@ -8,18 +8,20 @@ import json
 import threading
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 import httpx
 import numpy as np
 from lineseg_app.listening import listen, server_of
 from lineseg_app.server import Settings, create_app
-from websockets.sync.client import ClientConnection, connect
+from waiting import SECONDS
+from websockets.sync import client
 
 from lineseg.doubt import SCORES
 
-# The first test on a machine waits for the kernels to be compiled.
-SECONDS = 240
+# However long a handshake or an answer takes.
+connect = partial(client.connect, open_timeout=SECONDS, ping_interval=None, max_size=None, proxy=None)
 
 
 @dataclass(frozen=True)
@@ -58,12 +60,12 @@ def serving(settings: Settings) -> Iterator[Address]:
         thread = threading.Thread(target=lambda: asyncio.run(server.serve([listener])), name="server under test")
         thread.start()
         try:
-            assert listening.wait(SECONDS)
+            assert listening.wait(SECONDS), "the server does not listen"
             yield Address(listener.getsockname()[1])
         finally:
             server.should_exit = True
             thread.join(SECONDS)
-    assert not thread.is_alive()
+    assert not thread.is_alive(), "the server does not end"
     # Compiling a kernel swaps the filters of warnings, which the next test would feel.
     for left in threading.enumerate():
         if left.name == "warm up":
@@ -73,7 +75,7 @@ def serving(settings: Settings) -> Iterator[Address]:
 class Page:
     """Does what the page in the browser does on its socket."""
 
-    def __init__(self, socket: ClientConnection) -> None:
+    def __init__(self, socket: client.ClientConnection) -> None:
         self._socket = socket
         self._rev = 0
         self.welcome: dict[str, Any] = {}
@@ -82,15 +84,20 @@ class Page:
     def say(self, **message: Any) -> None:
         self._socket.send(json.dumps(message))
 
-    def hear(self) -> dict[str, Any]:
-        data = self._socket.recv(timeout=SECONDS)
+    def hear(self, awaited: str = "any message") -> dict[str, Any]:
+        """The next message. awaited: for the failure, if none comes."""
+        try:
+            data = self._socket.recv(timeout=SECONDS)
+        except TimeoutError:
+            heard = {kind: f"{message!r:.1500}" for kind, message in self.last.items()}
+            raise AssertionError(f"waited {SECONDS} s in vain for {awaited}; the last of each kind: {heard}") from None
         message = json.loads(data) if isinstance(data, str) else surveyed(data)
         self.last[message["type"]] = message
         return message
 
     def hear_a(self, *types: str) -> dict[str, Any]:
         """The next message of one of these types."""
-        while (message := self.hear())["type"] not in types:
+        while (message := self.hear(" or ".join(types)))["type"] not in types:
             pass
         return message
 
@@ -156,5 +163,13 @@ def surveyed(message: bytes) -> dict[str, Any]:
 
 @contextlib.contextmanager
 def page_of(address: Address, **options: Any) -> Iterator[Page]:
-    with connect(f"{address.ws}/api/session", max_size=None, proxy=None, **options) as socket:
+    with connect(f"{address.ws}/api/session", **options) as socket:
         yield Page(socket)
+
+
+def leave(address: Address, page: Page) -> None:
+    """Close a page, and wait until the server has noticed: until then its session is given to no other."""
+    with page_of(address) as pupil:
+        pupil.hello(follow=page.welcome["presenter"])
+        page.close()
+        pupil.until(lambda state: state["following"] == "away")

@@ -5,8 +5,7 @@ from __future__ import annotations
 import json
 import subprocess
 import threading
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
@@ -14,10 +13,9 @@ from lineseg_app.bridges.address import Address
 from lineseg_app.live.source import Publishing
 from lineseg_app.node.node import OWNER, Node
 from lineseg_app.node.running import Running
+from waiting import SECONDS, eventually
 
 from lineseg import Params
-
-SECONDS = 120
 
 
 class Obedient:
@@ -30,11 +28,13 @@ class Obedient:
         assert self._process.stdin and self._process.stdout
         self._process.stdin.write(json.dumps({"do": do, **arguments}) + "\n")
         self._process.stdin.flush()
-        return json.loads(self._process.stdout.readline())
+        answer = self._process.stdout.readline()
+        assert answer, f"the program ended with {self._process.wait(SECONDS)} when it was asked to {do}"
+        return json.loads(answer)
 
     def until(self, do: str, **arguments: Any) -> Any:
         """The first answer that is not empty."""
-        return eventually(lambda: self.ask(do, **arguments))
+        return eventually(lambda: self.ask(do, **arguments), f"an answer to {do} {arguments}")
 
     def close(self) -> None:
         self._process.kill()
@@ -55,16 +55,8 @@ def running(address: Address, topic: str, present: Running | None = None, **fiel
     finally:
         node.stop()
         thread.join(SECONDS)
-    assert not thread.is_alive()
-
-
-def eventually(condition: Callable[[], Any]) -> Any:
-    end = time.monotonic() + SECONDS
-    while not (found := condition()):
-        assert time.monotonic() < end, "it never came true"
-        time.sleep(0.02)
-    return found
+    assert not thread.is_alive(), f"the node does not end; it told {told}"
 
 
 def said(told: list[str], words: str) -> None:
-    eventually(lambda: any(words in line for line in told))
+    eventually(lambda: any(words in line for line in told), words, lambda: told)

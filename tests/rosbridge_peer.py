@@ -12,6 +12,7 @@ import queue
 import threading
 from typing import Any
 
+from waiting import SECONDS
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.server import ServerConnection, serve
 
@@ -37,7 +38,7 @@ class RosBridgePeer:
         self._subscribers: dict[ServerConnection, set[str]] = {}
         self._advertised: dict[ServerConnection, dict[str, str]] = {}
         self._lock = threading.Lock()
-        self._server = serve(self._serve, "127.0.0.1", port)
+        self._server = serve(self._serve, "127.0.0.1", port, open_timeout=SECONDS, ping_interval=None)
         self.port = self._server.socket.getsockname()[1]
         self._thread = threading.Thread(target=self._server.serve_forever, name="rosbridge peer")
         self._thread.start()
@@ -52,7 +53,7 @@ class RosBridgePeer:
         self._server.shutdown()
         for socket in open_sockets:
             socket.close()
-        self._thread.join(10)
+        self._thread.join(SECONDS)
 
     def publish(self, topic: str, message: Any) -> None:
         """To every subscriber; NaN and infinities are null in the JSON of rosbridge."""
@@ -61,6 +62,14 @@ class RosBridgePeer:
             to = [socket for socket, topics in self._subscribers.items() if topic in topics]
         for socket in to:
             socket.send(text)
+
+    def wait_until_heard(self) -> None:
+        """Until every subscriber has taken in what was published. It answers the first ping perhaps a moment before."""
+        with self._lock:
+            sockets = list(self._subscribers)
+        for socket in sockets:
+            for _ in range(2):
+                assert socket.ping().wait(SECONDS), "a subscriber does not answer"
 
     # --- one connection -----------------------------------------------------------------------------------------------
 

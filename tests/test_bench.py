@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from lineseg_app.__main__ import main
 from scenes import corner, room
+from waiting import SECONDS
 
 from lineseg import Params, Recording, save_npz
 from lineseg.against import Against, AgainstError
@@ -99,16 +100,16 @@ def test_without_times_of_its_own_the_time_there_and_back_counts(recording, tmp_
 
 
 @pytest.mark.parametrize(
-    ("body", "said"),
+    ("body", "patience", "said"),
     [
-        ("print(json.dumps({'us': -1}))", 'answered "us": -1; expected a time above 0'),
-        ("sys.exit(3)", "ended with code 3; expected one line for each frame"),
-        ("import time; time.sleep(60)", "was silent for 0.3 s"),
+        ("print(json.dumps({'us': -1}))", SECONDS, 'answered "us": -1; expected a time above 0'),
+        ("sys.exit(3)", SECONDS, "ended with code 3; expected one line for each frame"),
+        ("sys.stdin.read()", 0.3, "was silent for 0.3 s"),
     ],
 )
-def test_a_program_that_cannot_be_timed_is_told(body, said, recording, tmp_path):
+def test_a_program_that_cannot_be_timed_is_told(body, patience, said, recording, tmp_path):
     with (
-        Against(program(tmp_path, body), [recording[0]], patience=0.3) as other,
+        Against(program(tmp_path, body), [recording[0]], patience=patience) as other,
         pytest.raises(AgainstError, match=said) as told,
     ):
         other.run()

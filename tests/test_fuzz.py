@@ -9,9 +9,9 @@ from pathlib import Path
 import fuzz
 import pytest
 from lineseg_app.server import Settings
-from live import Address, page_of, serving
+from live import Address, connect, page_of, serving
+from waiting import SECONDS
 from websockets.exceptions import WebSocketException
-from websockets.sync.client import connect
 
 from lineseg import open_recording
 
@@ -73,8 +73,8 @@ def test_a_tab_goes_on_whatever_its_page_sends(server: Address, caplog: pytest.L
         page.say(type="link", rev=10**6, patch=first)
         assert page.drawn_or_told(10**6)["frame"] == 1
     for path in ("/api/tuning?session=x", "/api/scans/lidar", "/api/scans/l%C3%BC", "/s/x/viser"):
-        with contextlib.suppress(WebSocketException), connect(server.ws + path, proxy=None) as socket:
+        with contextlib.suppress(WebSocketException), connect(server.ws + path) as socket:
             for message in (b"\xff\x00", "\U0001f600", "[" * 5000, '{"type": "\\ud800"}', "9" * 5000):
                 socket.send(message)
-            socket.recv(timeout=5)
+            socket.recv(timeout=SECONDS)
     assert [record.getMessage() for record in caplog.records if record.levelname == "ERROR"] == []

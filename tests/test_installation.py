@@ -9,6 +9,8 @@ import sysconfig
 import venv
 from pathlib import Path
 
+from waiting import SECONDS
+
 ROOT = Path(__file__).parents[1]
 SAY = f"import runpy; print(runpy.run_path({str(ROOT / 'lineseg/installation.py')!r})['install_command']('rerun'))"
 
@@ -16,7 +18,12 @@ SAY = f"import runpy; print(runpy.run_path({str(ROOT / 'lineseg/installation.py'
 def said_by(python: Path | str, **environment: str) -> str:
     """The advice that this Python gives."""
     done = subprocess.run(
-        [python, "-c", SAY], env={**os.environ, **environment}, capture_output=True, text=True, check=True, timeout=60
+        [python, "-c", SAY],
+        env={**os.environ, **environment},
+        capture_output=True,
+        text=True,
+        check=True,
+        timeout=SECONDS,
     )
     return done.stdout.strip()
 
@@ -90,7 +97,9 @@ def test_metadata_that_a_build_left_in_the_folder_is_no_way_of_installing(tmp_pa
     left = tmp_path / "laser_lineseg.egg-info"
     left.mkdir()
     (left / "PKG-INFO").write_text("Metadata-Version: 2.4\nName: laser-lineseg\nVersion: 0.1.0\n")
-    done = subprocess.run([python, "-c", SAY], cwd=tmp_path, capture_output=True, text=True, check=True, timeout=60)
+    done = subprocess.run(
+        [python, "-c", SAY], cwd=tmp_path, capture_output=True, text=True, check=True, timeout=SECONDS
+    )
     assert done.stdout.strip() == f"make -C {tmp_path} install EXTRAS=rerun"
 
 

@@ -13,6 +13,7 @@ from pathlib import Path
 
 import httpx
 import pytest
+from waiting import SECONDS
 
 ROOT = Path(__file__).parents[1]
 pytestmark = pytest.mark.server
@@ -66,7 +67,11 @@ def elsewhere(tmp_path: Path) -> Path:
 
 def run(environment: Path, folder: Path, *arguments: str) -> str:
     done = subprocess.run(
-        [environment / "bin" / arguments[0], *arguments[1:]], cwd=folder, capture_output=True, text=True, timeout=240
+        [environment / "bin" / arguments[0], *arguments[1:]],
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        timeout=SECONDS,
     )
     assert done.returncode == 0, done.stderr
     return done.stdout
@@ -120,11 +125,11 @@ def test_the_command_of_the_wheel_shows_the_page(environment: Path, elsewhere: P
         try:
             assert server.stdout is not None
             (address,) = re.findall(r"http://\S+/", server.stdout.readline())
-            page = httpx.get(address, trust_env=False).raise_for_status().text
+            page = httpx.get(address, trust_env=False, timeout=SECONDS).raise_for_status().text
             modules = re.findall(r'<script type="module" src="([^"]+)"', page)
             assert modules
             for module in modules:
-                script = httpx.get(httpx.URL(address).join(module), trust_env=False).raise_for_status()
+                script = httpx.get(httpx.URL(address).join(module), trust_env=False, timeout=SECONDS).raise_for_status()
                 assert script.headers["content-type"].startswith("text/javascript")
         finally:
             server.terminate()

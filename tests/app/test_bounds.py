@@ -27,8 +27,9 @@ from lineseg_app.session.sessions import SessionLimits
 from lineseg_app.shelf import uploads
 from lineseg_app.shelf.scratch import Scratch, remove_leftovers
 from lineseg_app.shelf.uploads import TooManyError, TooSlowError, Uploads
-from live import SECONDS, Address, Page, page_of, serving
+from live import Address, Page, page_of, serving
 from starlette.exceptions import HTTPException
+from waiting import SECONDS, eventually
 
 from lineseg import open_recording
 from lineseg.readers import Progress
@@ -61,6 +62,7 @@ def test_uploads_that_do_not_proceed_make_room_for_others(monkeypatch: pytest.Mo
         with pytest.raises(TooManyError):
             await shelf.receive("next.npz", None, bytes_of(b"x"))
         assert all(isinstance(end, TooSlowError) for end in await asyncio.gather(*slow, return_exceptions=True))
+        monkeypatch.undo()
         assert (await shelf.receive("next.npz", None, bytes_of(b"x"))).size == 1
 
     asyncio.run(run())
@@ -98,13 +100,13 @@ def test_slow_work_is_limited_in_number_and_time_and_counts_until_it_has_ended()
         end.set()
         while work.running:
             await asyncio.sleep(0.01)
-        assert await work.run(lambda: "done") == "done"
+        assert await work.start(lambda: "done") == "done"
 
     asyncio.run(run())
 
 
 def test_told_work_ends_without_a_word_when_its_response_is_closed(caplog: pytest.LogCaptureFixture):
-    slow = SlowWork("line maps", at_once=1, seconds=1.0)
+    slow = SlowWork("line maps", at_once=1, seconds=SECONDS)
 
     def endless(advance: Progress) -> dict:
         while True:
@@ -236,12 +238,13 @@ def test_tabs_that_are_gone_leave_nothing(tmp_path: Path):
             things = (thing for thing in gc.get_objects() if isinstance(thing, kinds) and id(thing) not in others)
             there = [weakref.ref(thing) for thing in things]
         assert len(there) >= len(kinds)
-        late = time.monotonic() + SECONDS
-        while any(thing() is not None for thing in there):
-            assert time.monotonic() < late
-            time.sleep(0.1)
+
+        def left() -> list[object]:
             # The server does this too, once, and may have done it while something still referred to the tab.
             gc.collect()
+            return [thing() for thing in there if thing() is not None]
+
+        eventually(lambda: not left(), "what belongs to the tab to go", left, every=0.1)
 
 
 def test_whoever_leaves_in_the_middle_of_a_request_leaves_no_mistake_in_the_log(server: Address, caplog):

@@ -8,18 +8,19 @@ import socket
 import threading
 import time
 from pathlib import Path
+from types import SimpleNamespace
 from urllib.parse import urlsplit
 from urllib.request import url2pathname
 
 import pytest
 from lineseg_app.guard import policies
-from lineseg_app.keys import COOKIE_SECONDS, GUESSES, Keys, TooManyGuessesError
+from lineseg_app.keys import COOKIE_SECONDS, GUESS_EVERY, GUESSES, Keys, TooManyGuessesError
 from lineseg_app.listening import listen, server_of
 from lineseg_app.routes.page import state_of
 from lineseg_app.server import Settings, create_app, serve
-from live import SECONDS, Address, Page, page_of, serving
+from live import Address, Page, connect, page_of, serving
+from waiting import SECONDS
 from websockets.exceptions import InvalidStatus
-from websockets.sync.client import connect
 
 
 @pytest.mark.parametrize(
@@ -49,14 +50,14 @@ def test_a_foreign_origin_is_refused_on_http(server: Address, origin: str):
 @pytest.mark.parametrize("path", ["/api/session", "/s/whatever/viser"])
 @pytest.mark.parametrize("origin", FOREIGN)
 def test_a_foreign_origin_is_refused_on_sockets(server: Address, origin: str, path: str):
-    with pytest.raises(InvalidStatus) as refused, connect(server.ws + path, origin=origin, proxy=None):  # pyright: ignore
+    with pytest.raises(InvalidStatus) as refused, connect(server.ws + path, origin=origin):  # pyright: ignore
         pass
     assert refused.value.response.status_code == 403
 
 
 def test_a_foreign_host_is_refused_on_sockets(server: Address):
     there = socket.create_connection(("127.0.0.1", server.port))
-    with pytest.raises(InvalidStatus) as refused, connect("ws://evil.example/api/session", sock=there, proxy=None):
+    with pytest.raises(InvalidStatus) as refused, connect("ws://evil.example/api/session", sock=there):
         pass
     assert refused.value.response.status_code == 403
 
@@ -199,8 +200,9 @@ def test_a_link_on_another_site_opens_the_page_too(public: Address):
     assert 'http-equiv="refresh"' in answer.text
 
 
-def test_guesses_of_the_token_are_slowed_for_each_address():
-    keys = Keys("sesame")
+def test_guesses_of_the_token_are_slowed_for_each_address(monkeypatch: pytest.MonkeyPatch):
+    keys, clock = Keys("sesame"), [0.0]
+    monkeypatch.setattr("lineseg_app.keys.time", SimpleNamespace(monotonic=lambda: clock[0]))
     assert not any(keys.fits(str(guess), "10.0.0.1") for guess in range(GUESSES))
     for offered in ("sesame", "wrong"):
         with pytest.raises(TooManyGuessesError, match="try again in 2 s"):
@@ -209,9 +211,12 @@ def test_guesses_of_the_token_are_slowed_for_each_address():
     assert not any(keys.fits(str(guess), f"fd00::{guess}") for guess in range(GUESSES))
     with pytest.raises(TooManyGuessesError):
         keys.fits("sesame", "fd00::77")
+    clock[0] = GUESS_EVERY
+    assert keys.fits("sesame", "fd00::77")
 
 
-def test_whoever_guesses_is_told_to_wait_whatever_address_a_header_claims(tmp_path):
+def test_whoever_guesses_is_told_to_wait_whatever_address_a_header_claims(tmp_path, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr("lineseg_app.keys.GUESS_EVERY", 10 * SECONDS)
     with serving(Settings(token="sesame", data_folder=tmp_path)) as server:
         claims = [{"Authorization": f"Bearer {guess}", "X-Forwarded-For": f"10.0.0.{guess}"} for guess in range(9)]
         answers = [server.get("/api/params", headers=claim).status_code for claim in claims]

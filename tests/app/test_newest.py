@@ -5,6 +5,7 @@ import time
 
 import pytest
 from lineseg_app.newest import Newest
+from waiting import SECONDS, eventually
 
 
 class Bench:
@@ -18,14 +19,11 @@ class Bench:
     def _work(self, piece):
         self.begun.append(piece)
         self.started.set()
-        assert self.go.wait(10)
+        assert self.go.wait(SECONDS)
         self.done.append(piece)
 
-    def until(self, condition):
-        late = time.monotonic() + 10
-        while not condition():
-            assert time.monotonic() < late
-            time.sleep(0.002)
+    def until_done(self, number):
+        eventually(lambda: len(self.done) == number, f"{number} pieces to be done", lambda: self.done)
 
 
 @pytest.fixture
@@ -38,19 +36,19 @@ def bench():
 
 def test_what_waits_is_replaced_and_the_last_is_done(bench):
     bench.newest.put("first")
-    assert bench.started.wait(10)
+    assert bench.started.wait(SECONDS)
     for piece in ("second", "third", "last"):
         bench.newest.put(piece)
     bench.go.set()
-    bench.until(lambda: len(bench.done) == 2)
+    bench.until_done(2)
     assert bench.done == ["first", "last"]
 
 
 def test_a_piece_that_is_due_later_waits_and_gives_way_to_a_newer_one(bench):
     bench.go.set()
-    bench.newest.put("late", due=time.monotonic() + 60)
+    bench.newest.put("late", due=time.monotonic() + 10 * SECONDS)
     bench.newest.put("now")
-    bench.until(lambda: bench.done)
+    bench.until_done(1)
     assert bench.done == ["now"]
 
 
@@ -58,24 +56,24 @@ def test_a_piece_is_not_begun_before_it_is_due(bench):
     bench.go.set()
     due = time.monotonic() + 0.05
     bench.newest.put("piece", due=due)
-    bench.until(lambda: bench.done)
+    bench.until_done(1)
     assert time.monotonic() >= due
 
 
 def test_what_waits_can_be_dropped(bench):
     bench.newest.put("first")
-    assert bench.started.wait(10)
+    assert bench.started.wait(SECONDS)
     bench.newest.put("second")
     bench.newest.drop()
     bench.newest.put("third")
     bench.go.set()
-    bench.until(lambda: len(bench.done) == 2)
+    bench.until_done(2)
     assert bench.begun == ["first", "third"]
 
 
 def test_closing_waits_for_what_is_under_way_and_forgets_the_rest(bench):
     bench.newest.put("first")
-    assert bench.started.wait(10)
+    assert bench.started.wait(SECONDS)
     bench.newest.put("second")
     threading.Timer(0.05, bench.go.set).start()
     bench.newest.close()

@@ -80,7 +80,7 @@ def test_an_erased_line_saves_the_one_behind_it():
     assert {"line erased", "line passed over"} <= kinds
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(scan=scans(full_circle=False))
 def test_without_its_departures_it_is_region_growing(scan):
     """But for a start one beam earlier at the end, the length of a line, and lines that lose points when cut."""

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from scenes import corner, room, scans, wall_ahead
 
@@ -21,7 +21,7 @@ NAMES = [
 TURNING = [name for name in NAMES if name != "hough"]
 methods = pytest.mark.parametrize("method", [EXTRACTORS[name] for name in NAMES], ids=NAMES)
 turning = pytest.mark.parametrize("method", [EXTRACTORS[name] for name in TURNING], ids=TURNING)
-lively = settings(max_examples=30, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+lively = settings(max_examples=30)
 
 
 def spans(method, scan):

@@ -66,7 +66,7 @@ def test_a_wall_behind_the_laser_is_merged_only_if_angles_are_wrapped():
     assert len(extract(turned, REPAIRED).segments) == 1
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(angle=st.floats(-3.0, 3.0), seed=st.integers(0, 1000))
 def test_with_range_noise_alone_the_weighted_line_minimises_its_sum(angle, seed):
     scan = wall_ahead(noise=0.01, seed=seed)

@@ -3,13 +3,13 @@
 import naive
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from scenes import chipped, scans
 
 from lineseg import Params, Scan, extract, trace
 
-lively = settings(max_examples=3 * settings.default.max_examples // 2, suppress_health_check=[HealthCheck.too_slow])
+lively = settings(max_examples=3 * settings.default.max_examples // 2)
 
 
 @st.composite

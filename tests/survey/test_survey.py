@@ -4,18 +4,19 @@ import os
 import subprocess
 import sys
 import threading
-import time
 from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from scenes import chipped, corner, room, scan_of, scans, wall_ahead
 
-from lineseg import Cancelled, Params, Recording, Scan, extract, open_recording, trace
+from lineseg import EXTRACTORS, Cancelled, Params, Recording, Scan, extract, open_recording, trace
 from lineseg.doubt import SCORES
 from lineseg.survey import survey
+from lineseg.survey.frame_by_frame import survey_stretch
+from lineseg.survey.stretch import Stretch, Workspace, flattened
 
 SAMPLES = Path(__file__).parents[2] / "sample_scans"
 FEW = Params(min_points=2, min_length=0.0, seed_points=3, epsilon=0.1, delta=0.5)
@@ -58,13 +59,13 @@ def test_a_survey_and_extract_agree_on_every_frame_of_a_real_recording(data_dir,
     assert_agrees(open_recording(next((data_dir / folder).glob(f"*{suffix}"))))
 
 
-@settings(max_examples=60, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=60)
 @given(st.lists(scans(), max_size=5), st.sampled_from([Params(), FEW, Params(max_dropout=0, merge_angle=0.0)]))
 def test_frames_may_differ_in_beams_and_geometry(sweeps, params):
     assert_agrees(Recording.from_scans(sweeps), params)
 
 
-@settings(max_examples=30, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=30)
 @given(st.lists(scans(), min_size=1, max_size=4), st.integers(0, 1000))
 def test_beams_may_be_unevenly_spaced(sweeps, seed):
     rng = np.random.default_rng(seed)
@@ -72,7 +73,7 @@ def test_beams_may_be_unevenly_spaced(sweeps, seed):
     assert_agrees(Recording.from_scans(uneven * 2))
 
 
-@settings(max_examples=20, deadline=None, suppress_health_check=[HealthCheck.too_slow])
+@settings(max_examples=20)
 @given(st.lists(scans(full_circle=True), min_size=1, max_size=3), st.integers(1, 3))
 def test_beams_may_be_missing_at_the_seam(sweeps, missing):
     chips = [chipped(scan, missing) for scan in sweeps]
@@ -163,29 +164,25 @@ def long_recording(frames=12_000):
     return Recording.from_scans((scans * (frames // len(scans) + 1))[:frames])
 
 
-def test_a_survey_stops_within_20_milliseconds():
-    recording, flag, stopped = long_recording(), np.zeros(1, np.bool_), []
+@pytest.mark.parametrize("method", ["region-growing", "line-tracking"])
+def test_a_survey_stops_before_the_next_chunk_and_a_chunk_before_the_next_frame(method):
+    recording, params, flag, told = long_recording(3000), EXTRACTORS[method].params_type(), np.zeros(1, np.bool_), []
 
-    def run():
-        try:
-            survey(recording, cancelled=flag)
-        except Cancelled:
-            stopped.append(time.perf_counter())
-
-    delays = []
-    for _ in range(5):
-        flag[0] = False
-        stopped.clear()
-        thread = threading.Thread(target=run)
-        thread.start()
-        time.sleep(0.03)
-        asked = time.perf_counter()
+    def stop(done, total):
+        told.append(done)
         flag[0] = True
-        thread.join()
-        assert stopped
-        delays.append(stopped[0] - asked)
-    # Other programs may hold the machine up; they do not each time.
-    assert min(delays) < 0.02
+
+    with pytest.raises(Cancelled):
+        survey(recording, params, cancelled=flag, progress=stop, threads=1)
+    assert len(told) == 1
+    assert told[0] < len(recording) / 2
+    counts, memory = np.full(len(recording), -1), Workspace(recording.beams[1])
+    if isinstance(params, Params):
+        stretch = Stretch(recording, flattened(recording), 0, len(recording), compared=True)
+        stretch.run(params, memory, flag, counts, None)
+    else:
+        survey_stretch(recording, 0, len(recording), params, memory, flag, counts, None)
+    assert (counts == -1).all()
 
 
 def test_an_exception_in_progress_is_passed_on():

@@ -8,7 +8,6 @@ import os
 import re
 import signal
 import threading
-import time
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
@@ -28,9 +27,10 @@ from lineseg_app.bridges.dds_domain import discovery, join
 from lineseg_app.live.ring import Ring
 from lineseg_app.live.robot import Robot
 from live import page_of
-from obeying import SECONDS, Obedient, eventually, running, said
+from obeying import Obedient, running, said
 from processes import lineseg
 from robots import nearest, wall, watching
+from waiting import SECONDS, eventually
 
 from lineseg import Recording, Scan, extract, open_recording
 from lineseg.covariance import Noise, covariances
@@ -65,15 +65,20 @@ def opened(peer: Obedient, topic: str, **qos: bool) -> None:
 
 def segments_back(peer: Obedient, topic: str, **scan: Any) -> tuple[dict[str, Any], dict[str, Any]]:
     """The markers and the cloud that answer a scan, which is sent until they come, for best effort may lose it."""
-    end = time.monotonic() + SECONDS
-    while time.monotonic() < end:
+
+    def came() -> tuple[dict[str, Any], dict[str, Any]] | None:
+        markers, cloud = (peer.ask("take", topic=f"{topic}/{kind}") for kind in ("markers", "cloud"))
+        there["markers"] += markers
+        there["cloud"] += cloud
+        if all(there.values()):
+            return there["markers"][0], there["cloud"][0]
         peer.ask("scan", topic=topic, **scan)
-        for _ in range(20):
-            markers = peer.ask("take", topic=f"{topic}/markers")
-            if markers:
-                return markers[0], peer.until("take", topic=f"{topic}/cloud")[0]
-            time.sleep(0.01)
-    raise AssertionError("no segments came back")
+        return None
+
+    there: dict[str, list[Any]] = {"markers": [], "cloud": []}
+    found = eventually(came, f"segments on {topic}", lambda: there, every=0.1)
+    assert found
+    return found
 
 
 def answer(peer: Obedient, topic: str, second: int) -> dict[str, Any]:
@@ -86,7 +91,9 @@ def answer(peer: Obedient, topic: str, second: int) -> dict[str, Any]:
                 return message
         return None
 
-    return eventually(found)
+    message = eventually(found, f"the message of second {second} on {topic}")
+    assert message
+    return message
 
 
 def test_markers_and_cloud_have_the_segments_the_stamp_and_the_frame_of_their_scan(peer: Obedient, topic: str):
@@ -192,7 +199,7 @@ def test_how_another_vendor_describes_the_type_does_not_matter(peer: Obedient, t
         return robot.ring.total
 
     try:
-        eventually(heard)
+        eventually(heard, "a scan")
     finally:
         robot.close()
         other.close()
@@ -215,8 +222,7 @@ def test_a_robot_that_starts_later_is_found_without_multicast(
     monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
     process = lineseg("node", f"ros2:{topic}", "--markers", f"{topic}/markers", "--cloud", f"{topic}/cloud")
     assert process.stderr is not None
-    while "nobody publishes" not in process.stderr.readline():
-        assert process.poll() is None
+    assert any("nobody publishes" in line for line in process.stderr)
     # With multicast, Cyclone DDS would choose a port that nobody guesses; other implementations do not.
     uri = os.environ["CYCLONEDDS_URI"].replace("<Discovery>", "<Discovery><ParticipantIndex>auto</ParticipantIndex>")
     monkeypatch.setenv("CYCLONEDDS_URI", uri)
@@ -287,10 +293,12 @@ def test_the_page_shows_scans_and_publishes_segments(peer: Obedient, topic: str,
         assert nearest(page.change(frame=0)) == pytest.approx(4.0, abs=1e-3)
         asked = {**session, "on": True, "topic": f"{topic}/segments"}
         server.post("/api/robot/segments", json=asked).raise_for_status()
-        peer.ask("scan", topic=topic, ranges=wall(2.5), second=9)
-        peer.until("matched", topic=f"{topic}/segments")
-        peer.ask("scan", topic=topic, ranges=wall(2.5), second=10)
-        assert peer.until("take", topic=f"{topic}/segments")
+
+        def published() -> Any:
+            peer.ask("scan", topic=topic, ranges=wall(2.5), second=9)
+            return peer.ask("take", topic=f"{topic}/segments")
+
+        eventually(published, "segments on their topic")
 
 
 def test_the_command_follows_its_file_and_ends_on_sigterm(peer: Obedient, topic: str, tmp_path: Path):
@@ -330,8 +338,13 @@ def test_once_publishes_one_scan_and_prints_it(peer: Obedient, topic: str, capsy
 
 def test_the_laser_topics_are_listed(peer: Obedient, topic: str, capsys: pytest.CaptureFixture[str]):
     peer.ask("open", topic=topic, kind="LaserScan", write=True, reliable=True)
-    assert main(["view", "ros2:"]) == 0
-    assert f"ros2:{topic}  reliable, volatile\n" in capsys.readouterr().out
+
+    def listed() -> bool:
+        # Topics show up in a few moments; the command looks for two seconds only.
+        main(["view", "ros2:"])
+        return f"ros2:{topic}  reliable, volatile\n" in capsys.readouterr().out
+
+    eventually(listed, f"a list with {topic}")
 
 
 def test_an_interface_that_is_not_there_is_named(peer: Obedient, monkeypatch: pytest.MonkeyPatch):
@@ -380,8 +393,9 @@ def test_thousands_of_scans_take_no_more_memory_than_a_few(peer: Obedient, topic
     with running(Address(f"ros2:{topic}"), topic):
         opened(peer, topic, reliable=True)
         sizes = []
-        for _ in range(2):
+        for _ in range(4):
             peer.ask("scan", topic=topic, ranges=wall(2.0) * 5, times=1000)
             peer.until("take", topic=f"{topic}/cloud")
             sizes.append(process.memory_info().rss)
-    assert sizes[1] - sizes[0] < 8 << 20
+    # What else is in this process may grow at any time; what is kept of the scans would grow each time.
+    assert min(later - earlier for earlier, later in itertools.pairwise(sizes)) < 8 << 20, sizes

@@ -17,6 +17,7 @@ from live import page_of
 from robots import nearest, wall, watching
 from rosbags.typesys import Stores, get_typestore
 from rosbridge_peer import scan_message
+from waiting import SECONDS
 
 ROS2, ROS1 = get_typestore(Stores.ROS2_HUMBLE), get_typestore(Stores.ROS1_NOETIC)
 SCAN = "sensor_msgs/msg/LaserScan"
@@ -90,7 +91,7 @@ def test_scans_arrive_in_each_encoding_and_segments_go_back(robots: list[Robot],
     with watching(robot.url, tmp_path) as server, page_of(server) as page:
         page.say(type="hello")
         session = page.hear_a("welcome")["session"]
-        assert robot.listener.subscribed.get(timeout=60) == "/scan"
+        assert robot.listener.subscribed.get(timeout=SECONDS) == "/scan"
         channel.log(encoded(encoding, scan_message(wall(3.0), second=7)))
         state = page.hear_a("drawn")["state"]
         assert (nearest(state), state["frameId"]) == (pytest.approx(3.0, abs=1e-3), "laser")
@@ -98,7 +99,7 @@ def test_scans_arrive_in_each_encoding_and_segments_go_back(robots: list[Robot],
         asked = {"session": session, "on": True, "topic": "/walls"}
         assert server.post("/api/robot/segments", json=asked).status_code == 200
         channel.log(encoded(encoding, scan_message(wall(2.0), second=8)))
-        to, data = robot.listener.received.get(timeout=60)
+        to, data = robot.listener.received.get(timeout=SECONDS)
         assert (to.topic, to.encoding, to.schema_name) == ("/walls", back, "visualization_msgs/MarkerArray")
         header, points = decoded(back, data)
         assert header == (8, 123456789, "laser")
@@ -124,7 +125,7 @@ def test_scans_of_foxglove_arrive_with_their_time_also_under_another_name(
         message = json.dumps(plain | {"timestamp": {"sec": 7, "nsec": 250_000_000}, "pose": {}}).encode()
     with watching(robot.url, tmp_path) as server, page_of(server) as page:
         page.say(type="hello")
-        assert robot.listener.subscribed.get(timeout=60) == "/scan"
+        assert robot.listener.subscribed.get(timeout=SECONDS) == "/scan"
         channel.log(message)
         state = page.hear_a("drawn")["state"]
         assert (nearest(state), state["frameId"]) == (pytest.approx(3.0, abs=1e-3), "laser")
@@ -152,7 +153,7 @@ def test_a_topic_that_comes_later_is_waited_for_and_others_are_named(robots: lis
         waiting = page.heard("loading", lambda m: "/chatter" in m["note"])
         assert "has no topic /scan yet; it has /chatter is std_msgs/msg/String as cdr" in waiting["note"]
         channel = robot.channel("/scan", "cdr")
-        assert robot.listener.subscribed.get(timeout=60) == "/scan"
+        assert robot.listener.subscribed.get(timeout=SECONDS) == "/scan"
         channel.log(encoded("cdr", scan_message(wall(3.0))))
         assert page.hear_a("drawn")["state"]["topic"] == "/scan"
         channel.log(b"\x00\x01\x00\x00 this is no scan")
@@ -178,7 +179,7 @@ def test_a_channel_in_an_encoding_that_nobody_reads_is_named_and_hides_no_other(
         assert f"/scan is {SCAN} as cbor; choose a sensor_msgs/LaserScan" in waiting["note"]
         robot.channel("/imu", "cbor", "sensor_msgs/msg/Imu")
         channel = robot.channel("/scan", "json")
-        assert robot.listener.subscribed.get(timeout=60) == "/scan"
+        assert robot.listener.subscribed.get(timeout=SECONDS) == "/scan"
         channel.log(encoded("json", scan_message(wall(3.0))))
         assert page.hear_a("drawn")["state"]["topic"] == "/scan"
 
@@ -189,7 +190,7 @@ def test_segments_for_a_server_that_takes_no_messages_are_refused(robots: list[R
     with watching(robot.url, tmp_path) as server, page_of(server) as page:
         page.say(type="hello")
         session = page.hear_a("welcome")["session"]
-        assert robot.listener.subscribed.get(timeout=60) == "/scan"
+        assert robot.listener.subscribed.get(timeout=SECONDS) == "/scan"
         channel.log(encoded("cdr", scan_message(wall(3.0))))
         page.hear_a("drawn")
         server.post("/api/robot/segments", json={"session": session, "on": True})

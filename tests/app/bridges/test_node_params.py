@@ -7,9 +7,11 @@ import threading
 from collections.abc import Iterator
 
 import pytest
+from lineseg_app.bridges import node_params
 from lineseg_app.server import Settings
 from live import Address, serving
 from rosbridge_peer import RosBridgePeer
+from waiting import SECONDS
 
 from lineseg import Params
 
@@ -30,6 +32,13 @@ def bridge() -> Iterator[RosBridgePeer]:
     peer = RosBridgePeer()
     yield peer
     peer.close()
+
+
+@pytest.fixture(autouse=True)
+def patient(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What is sent is the same."""
+    for name in ("OPEN_SECONDS", "ALL_SECONDS"):
+        monkeypatch.setattr(node_params, name, SECONDS)
 
 
 @pytest.fixture

@@ -6,7 +6,6 @@ import itertools
 import re
 import signal
 import socket
-import time
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -21,9 +20,11 @@ from lineseg_app.bridges.address import Address
 from lineseg_app.live.ring import Ring
 from lineseg_app.live.robot import Robot
 from live import page_of
-from obeying import SECONDS, Obedient, eventually, running, said
+from obeying import Obedient, running, said
+from ports import held_port
 from processes import lineseg
 from robots import nearest, wall, watching
+from waiting import SECONDS, eventually
 
 from lineseg import extract
 from lineseg.readers.laser_scan import LaserScan
@@ -32,10 +33,9 @@ numbers = itertools.count(1)
 
 
 @pytest.fixture(scope="module")
-def port() -> int:
-    with socket.socket() as free:
-        free.bind(("127.0.0.1", 0))
-        return free.getsockname()[1]
+def port() -> Iterator[int]:
+    with held_port() as port:
+        yield port
 
 
 @pytest.fixture(scope="module")
@@ -63,14 +63,15 @@ def opened(peer: Obedient, topic: str, **hash: str) -> None:
 
 def cloud_back(peer: Obedient, topic: str, distance: float, second: int) -> dict:
     """The cloud that answers a scan, which is sent until it comes, for a subscription takes effect after a while."""
-    end = time.monotonic() + SECONDS
-    while time.monotonic() < end:
-        peer.ask("scan", topic=topic, ranges=wall(distance), second=second)
-        time.sleep(0.05)
-        for cloud in peer.ask("take", topic=f"{topic}/cloud"):
-            if cloud["header"]["stamp"]["sec"] == second:
-                return cloud
-    raise AssertionError("no segments came back")
+
+    def came() -> list[dict]:
+        clouds = peer.ask("take", topic=f"{topic}/cloud")
+        mine = [cloud for cloud in clouds if cloud["header"]["stamp"]["sec"] == second]
+        if not mine:
+            peer.ask("scan", topic=topic, ranges=wall(distance), second=second)
+        return mine
+
+    return eventually(came, f"segments of the scan of second {second}", every=0.05)[0]
 
 
 def test_markers_and_cloud_have_the_segments_the_stamp_and_the_frame_of_their_scan(
@@ -122,7 +123,7 @@ def test_scans_that_a_publisher_keeps_are_received_by_who_comes_later(peer: Obed
     robot = Robot(address(port, topic), Ring(10), lambda: None)
     robot.start()
     try:
-        eventually(lambda: robot.ring.total == 3)
+        eventually(lambda: robot.ring.total == 3, "three scans", lambda: robot.ring.total)
         assert robot.ring.snapshot().stamps.tolist() == pytest.approx([5, 6, 7])
         assert robot.lost == 0
     finally:
@@ -130,10 +131,7 @@ def test_scans_that_a_publisher_keeps_are_received_by_who_comes_later(peer: Obed
 
 
 def test_a_router_may_die_and_return(topic: str):
-    with socket.socket() as free:
-        free.bind(("127.0.0.1", 0))
-        port = free.getsockname()[1]
-    with running(address(port, topic), topic) as told:
+    with held_port() as port, running(address(port, topic), topic) as told:
         for second in (1, 2):
             peer = Obedient(zenoh_peer.start(port))
             opened(peer, topic)
@@ -158,11 +156,8 @@ def test_a_publisher_may_go_and_return_and_another_type_is_told(peer: Obedient, 
 
 
 def test_a_router_that_is_not_there_is_named(topic: str):
-    with socket.socket() as taken:
-        taken.bind(("127.0.0.1", 0))
-        port = taken.getsockname()[1]
-        with running(address(port, topic), topic) as told:
-            said(told, f"no Zenoh router answers at 127.0.0.1:{port}")
+    with held_port() as port, running(address(port, topic), topic) as told:
+        said(told, f"no Zenoh router answers at 127.0.0.1:{port}")
 
 
 def test_a_node_ends_on_sigterm_while_a_router_is_silent(topic: str):
@@ -182,8 +177,13 @@ def test_the_page_shows_scans_and_the_topics_are_listed(
     peer: Obedient, port: int, topic: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ):
     peer.ask("publisher", topic=topic)
-    assert main(["view", f"zenoh://127.0.0.1:{port}"]) == 0
-    assert f"zenoh://127.0.0.1:{port}{topic}\n" in capsys.readouterr().out
+
+    def listed() -> bool:
+        # Topics show up in a few moments; the command looks for two seconds only.
+        main(["view", f"zenoh://127.0.0.1:{port}"])
+        return f"zenoh://127.0.0.1:{port}{topic}\n" in capsys.readouterr().out
+
+    eventually(listed, f"a list with {topic}")
     with watching(f"zenoh://127.0.0.1:{port}{topic}", tmp_path, topic=None) as server, page_of(server) as page:
         page.say(type="hello")
         page.heard("loading", lambda message: "waiting for its first scan" in message["note"])
@@ -193,4 +193,4 @@ def test_the_page_shows_scans_and_the_topics_are_listed(
             state = page.until(lambda state: state["topic"] == topic)
             return abs(nearest(state) - 2.0) < 0.01
 
-        eventually(shown)
+        eventually(shown, "the wall on the page")

@@ -9,15 +9,17 @@ import subprocess
 import sys
 import time
 import urllib.request
-from pathlib import Path
+from subprocess import PIPE
 
 import numpy as np
 import platformdirs
 import pytest
 from lineseg_app.__main__ import main
 from lineseg_app.commands import COMMANDS
+from lineseg_app.places import data_folder
 from lineseg_app.stopping import interruptible
 from processes import lineseg
+from waiting import SECONDS, eventually
 
 from lineseg import Params, extract, why_apart
 from lineseg.readers import open_recording
@@ -225,18 +227,16 @@ def test_the_reader_of_a_pipe_may_stop_early(hall):
 
 
 def test_ctrl_c_ends_an_extraction_without_a_trace(tmp_path):
-    path = tmp_path / "long.csv"
-    rng = np.random.default_rng(1)
-    rows = "\n".join(",".join(map(str, rng.uniform(1, 9, 1081).round(3))) for _ in range(20))
-    path.write_text("\n".join([rows] * 400))
-    process = lineseg("extract", path, "-o", tmp_path / "out.jsonl", "--seed-points", "3", "--epsilon", "0.5")
-    deadline = time.monotonic() + 60
-    while not list(tmp_path.glob(FILES)) and process.poll() is None and time.monotonic() < deadline:
-        time.sleep(0.01)
+    folder = tmp_path / "out"
+    # So many files that it is at work when it is stopped.
+    for number in range(5000):
+        (tmp_path / f"{number}.npz").symlink_to(data_folder("sample_scans") / "hallway.npz")
+    process = lineseg("extract", tmp_path / "*.npz", "-o", folder)
+    eventually(lambda: folder.exists() and list(folder.iterdir()), "a first file", process.poll)
     process.send_signal(signal.SIGINT)
-    _, err = process.communicate(timeout=60)
+    _, err = process.communicate(timeout=SECONDS)
     assert (process.returncode, err) == (130, "lineseg: stopped.\n")
-    assert [each.name for each in tmp_path.iterdir()] == ["long.csv"]
+    assert not list(folder.glob(FILES))
 
 
 @pytest.mark.parametrize(("number", "raised"), [(signal.SIGINT, KeyboardInterrupt), (signal.SIGTERM, SystemExit)])
@@ -249,7 +249,7 @@ def test_a_signal_in_a_finaliser_ends_the_work_a_moment_later(capsys, number, ra
     try:
         with pytest.raises(raised), interruptible(0):
             Finalised()
-            time.sleep(60)
+            time.sleep(SECONDS)
     finally:
         signal.signal(signal.SIGINT, before)
     assert capsys.readouterr().err == ""
@@ -264,25 +264,39 @@ def test_a_file_alone_is_viewed_until_ctrl_c(hall, tmp_path, arguments):
     try:
         address = re.search(r"http://\S+", process.stdout.readline())
         assert address
-        with urllib.request.urlopen(address[0], timeout=20) as page:
+        with urllib.request.urlopen(address[0], timeout=SECONDS) as page:
             assert page.status == 200
     finally:
         process.send_signal(signal.SIGINT)
-        _, err = process.communicate(timeout=30)
+        _, err = process.communicate(timeout=SECONDS)
     assert "Traceback" not in err
     assert process.returncode == 130
+
+
+LOADS_NO_FURTHER = """
+import sys
+class Held:
+    def find_spec(self, name, path=None, target=None):
+        if name == "lineseg_app.command_line":
+            print("loading", flush=True)
+            sys.stdin.read()
+sys.meta_path.insert(0, Held())
+import runpy
+runpy.run_module("lineseg_app", run_name="__main__")
+"""
 
 
 @pytest.mark.parametrize(
     ("command", "code"), [("view --port 0 --no-browser", 0), ("node ws://127.0.0.1:1", 0), ("extract -", 143)]
 )
 def test_sigterm_ends_a_command_that_still_loads(command, code):
-    process = lineseg(*command.split())
-    status = Path(f"/proc/{process.pid}/status")
-    while process.poll() is None and not int(re.findall(r"SigCgt:\s*(\w+)", status.read_text())[0], 16) >> 14 & 1:
-        time.sleep(0.005)
-    process.send_signal(signal.SIGTERM)
-    assert (*process.communicate(timeout=60), process.returncode) == ("", "", code)
+    """What it loads is held until the signal comes."""
+    held = [sys.executable, "-c", LOADS_NO_FURTHER, *command.split()]
+    with subprocess.Popen(held, stdin=PIPE, stdout=PIPE, stderr=PIPE, text=True) as process:
+        assert process.stdout and process.stdout.readline() == "loading\n"
+        process.send_signal(signal.SIGTERM)
+        said = process.stdout.read(), process.stderr.read()
+        assert (*said, process.wait(SECONDS)) == ("", "", code)
 
 
 def test_sigterm_ends_the_page_and_the_file_with_its_token_is_gone(tmp_path):
@@ -292,7 +306,7 @@ def test_sigterm_ends_the_page_and_the_file_with_its_token_is_gone(tmp_path):
     process.stdout.readline()
     assert list(tmp_path.rglob("open-*.html"))
     process.send_signal(signal.SIGTERM)
-    _, err = process.communicate(timeout=60)
+    _, err = process.communicate(timeout=SECONDS)
     assert (err, process.returncode) == ("", 0)
     assert not list(tmp_path.rglob("open-*.html"))
 

@@ -14,8 +14,10 @@ from lineseg_app.node.running import Running
 from lineseg_app.server import Settings
 from live import Address, Page, page_of, serving
 from obeying import running
+from ports import held_port
 from robots import nearest, wall, watching
 from rosbridge_peer import TEXT, RosBridgePeer, scan_message
+from waiting import SECONDS
 
 from lineseg import EXTRACTORS
 from lineseg.readers.laser_scan import LaserScan
@@ -30,7 +32,7 @@ def peer() -> Iterator[RosBridgePeer]:
 
 def send(peer: RosBridgePeer, page: Page, *distances: float) -> dict[str, Any]:
     """Publish scans of a wall and return the state that shows the last one."""
-    assert peer.subscribed.wait(60)
+    assert peer.subscribed.wait(SECONDS)
     for second, distance in enumerate(distances):
         peer.publish("/scan", scan_message(wall(distance), second))
     return page.until(lambda state: abs(nearest(state) - distances[-1]) < 0.01)
@@ -89,30 +91,29 @@ def test_the_scores_follow_the_scans(peer: RosBridgePeer, tmp_path: Path):
 
 
 def test_a_lost_robot_is_reported_and_found_again(tmp_path: Path):
-    first = RosBridgePeer()
-    with watching(first.url, tmp_path) as server, page_of(server) as page:
-        page.say(type="hello")
-        send(first, page, 4.0)
-        first.close()
-        lost = page.heard("live", lambda m: m["connection"] == "lost")
-        assert "trying again in" in lost["message"]
-        assert page.change(params={"epsilon": 0.04})["frames"] == 1
-        again = RosBridgePeer(port=first.port)
-        try:
-            state = send(again, page, 2.0)
-            assert state["frames"] == 2
-            assert page.heard("live", lambda m: m["total"] == 2)["connection"] == "open"
-        finally:
-            again.close()
+    with held_port() as port:
+        first = RosBridgePeer(port=port)
+        with watching(first.url, tmp_path) as server, page_of(server) as page:
+            page.say(type="hello")
+            send(first, page, 4.0)
+            first.close()
+            lost = page.heard("live", lambda m: m["connection"] == "lost")
+            assert "trying again in" in lost["message"]
+            assert page.change(params={"epsilon": 0.04})["frames"] == 1
+            again = RosBridgePeer(port=port)
+            try:
+                state = send(again, page, 2.0)
+                assert state["frames"] == 2
+                assert page.heard("live", lambda m: m["total"] == 2)["connection"] == "open"
+            finally:
+                again.close()
 
 
 def test_a_missing_robot_is_named_and_another_recording_can_be_opened(tmp_path: Path):
-    gone = RosBridgePeer()
-    gone.close()
-    with watching(gone.url, tmp_path) as server, page_of(server) as page:
+    with held_port() as port, watching(f"ws://127.0.0.1:{port}", tmp_path) as server, page_of(server) as page:
         page.say(type="hello")
         waiting = page.heard("loading", lambda m: "listens" in m["note"])
-        assert f"nothing listens at 127.0.0.1:{gone.port}; trying again in" in waiting["note"]
+        assert f"nothing listens at 127.0.0.1:{port}; trying again in" in waiting["note"]
         assert page.change(recording="sample:hallway")["live"] is None
 
 
@@ -153,7 +154,7 @@ def test_without_a_topic_the_first_of_laser_scans_is_taken(peer: RosBridgePeer, 
 def test_a_message_that_is_not_a_scan_is_counted_and_skipped(peer: RosBridgePeer, tmp_path: Path):
     with watching(peer.url, tmp_path) as server, page_of(server) as page:
         page.say(type="hello")
-        assert peer.subscribed.wait(60)
+        assert peer.subscribed.wait(SECONDS)
         peer.publish("/scan", {"data": "hello"})
         peer.publish("/scan", scan_message([1.0, 2.0], angle_min=math.nan))
         refused = page.heard("live", lambda m: m["refused"] == 2)
@@ -171,14 +172,14 @@ def test_segments_go_back_with_the_stamp_and_the_frame_of_their_scan(peer: RosBr
         send(peer, page, 4.0)
         assert server.post("/api/robot/segments", json=session | {"on": True, "topic": "/walls"}).status_code == 200
         peer.publish("/scan", scan_message(wall(3.0), second=77))
-        topic, message = peer.received.get(timeout=20)
+        topic, message = peer.received.get(timeout=SECONDS)
         (marker,) = message["markers"]
         assert (topic, marker["header"]["frame_id"], marker["type"], marker["action"]) == ("/walls", "laser", 5, 0)
         assert marker["header"]["stamp"] == {"sec": 77, "nanosec": 123456789}
         assert [point["x"] for point in marker["points"]] == pytest.approx([3.0, 3.0], abs=1e-3)
         page.change(params={"min_length": 30.0})
         peer.publish("/scan", scan_message(wall(3.0)))
-        assert peer.received.get(timeout=20)[1]["markers"][0]["action"] == 2
+        assert peer.received.get(timeout=SECONDS)[1]["markers"][0]["action"] == 2
         assert server.post("/api/robot/segments", json=session | {"on": False}).status_code == 200
 
 
@@ -188,12 +189,12 @@ def test_ros_1_is_answered_in_its_own_words(peer: RosBridgePeer, tmp_path: Path)
     with watching(peer.url, tmp_path, topic=None) as server, page_of(server) as page:
         page.say(type="hello")
         session = page.hear_a("welcome")["session"]
-        assert peer.subscribed.wait(60)
+        assert peer.subscribed.wait(SECONDS)
         peer.publish("/scan", scan_message(wall(3.0), header=header))
         assert page.hear_a("drawn")["state"]["stamp"] == pytest.approx(9.0)
         assert server.post("/api/robot/segments", json={"session": session, "on": True}).status_code == 200
         peer.publish("/scan", scan_message(wall(3.0), header=header))
-        topic, message = peer.received.get(timeout=20)
+        topic, message = peer.received.get(timeout=SECONDS)
         assert topic == "/lineseg/segments"
         assert message["markers"][0]["header"]["stamp"] == {"secs": 9, "nsecs": 5}
 
@@ -240,12 +241,12 @@ def test_a_node_over_rosbridge_runs_any_method_and_another_from_the_next_scan_on
     scan = LaserScan(0, 0, "", -math.radians(45), math.radians(1), 0.1, 30.0, np.float32(room)).beams()
     present = Running("hough", EXTRACTORS["hough"].params_type())
     with running(Laser(peer.url, "/scan"), "/scan", present):
-        assert peer.subscribed.wait(60)
+        assert peer.subscribed.wait(SECONDS)
         for method in ("hough", "split-and-merge-textbook", "region-growing"):
             params = EXTRACTORS[method].params_type(min_points=12)
             present.send(method, params)
             peer.publish("/scan", scan_message(room))
-            sent = dict(peer.received.get(timeout=60) for _ in range(2))
+            sent = dict(peer.received.get(timeout=SECONDS) for _ in range(2))
             expected = EXTRACTORS[method].extract(scan, params).segments
             assert len(expected) == 2
             (marker,) = sent["/scan/markers"]["markers"]

@@ -18,6 +18,7 @@ from lineseg_app.node.running import Running
 from obeying import running, said
 from robots import wall
 from rosbridge_peer import scan_message
+from waiting import SECONDS
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.server import ServerConnection, serve
 from websockets.typing import Subprotocol
@@ -39,12 +40,12 @@ def lying(talk: Callable[[ServerConnection], Any], foxglove: bool) -> Iterator[t
     def serve_one(socket: ServerConnection) -> None:
         try:
             talk(socket)
-            over.wait(60)
+            over.wait(SECONDS)
         except ConnectionClosed:
             pass
 
     protocols = [Subprotocol("foxglove.sdk.v1")] if foxglove else None
-    with serve(serve_one, "127.0.0.1", 0, subprotocols=protocols, max_size=None) as server:
+    with serve(serve_one, "127.0.0.1", 0, subprotocols=protocols, max_size=None, open_timeout=SECONDS) as server:
         threading.Thread(target=server.serve_forever).start()
         yield Address(f"ws://127.0.0.1:{server.socket.getsockname()[1]}", "/scan"), over
         over.set()
@@ -53,7 +54,7 @@ def lying(talk: Callable[[ServerConnection], Any], foxglove: bool) -> Iterator[t
 
 def heard(socket: ServerConnection, op: str) -> dict[str, Any]:
     while True:
-        message = json.loads(socket.recv(timeout=60))
+        message = json.loads(socket.recv(timeout=SECONDS))
         if message["op"] == op:
             return message
 

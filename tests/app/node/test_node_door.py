@@ -16,6 +16,7 @@ from lineseg_app.node.offers import FOLDER, PATH, TOKEN, Offer
 from lineseg_app.node.running import Running
 from lineseg_app.server import Settings
 from live import Address, serving
+from waiting import SECONDS
 
 from lineseg import EXTRACTORS, Params
 
@@ -89,8 +90,10 @@ def test_what_cannot_be_sent_is_told_and_changes_nothing(here: Here, asked: dict
 def test_nobody_else_gets_in(here: Here, headers: dict[str, str]):
     known = {} if "Authorization" in headers or not headers else {"Authorization": f"Bearer {here.offer.token}"}
     for answer in (
-        httpx.get(here.offer.address + PATH, headers=known | headers),
-        httpx.put(here.offer.address + PATH, headers=known | headers, json={"method": "hough", "params": {}}),
+        httpx.get(here.offer.address + PATH, headers=known | headers, timeout=SECONDS),
+        httpx.put(
+            here.offer.address + PATH, headers=known | headers, json={"method": "hough", "params": {}}, timeout=SECONDS
+        ),
     ):
         assert answer.status_code == 403
         assert answer.json()["message"]
@@ -99,7 +102,7 @@ def test_nobody_else_gets_in(here: Here, headers: dict[str, str]):
 def test_a_malformed_message_gets_a_sentence(here: Here):
     known = {"Authorization": f"Bearer {here.offer.token}"}
     for body in (b"", b"{", b'{"method": 1}', b'{"method": "hough", "params": {"epsilon": "wide"}}'):
-        answer = httpx.put(here.offer.address + PATH, headers=known, content=body)
+        answer = httpx.put(here.offer.address + PATH, headers=known, content=body, timeout=SECONDS)
         assert (answer.status_code, "this is no message to a node" in answer.text) == (400, True)
 
 

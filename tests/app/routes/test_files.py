@@ -13,6 +13,7 @@ from lineseg_app.server import Settings
 from lineseg_app.shelf.recent import MOST, Recent
 from lineseg_app.shelf.uploads import safe_name
 from live import Address, Page, page_of, serving
+from waiting import SECONDS
 
 from lineseg import Params
 from lineseg.readers import Reading
@@ -218,7 +219,7 @@ def test_the_server_survives_a_client_that_goes_away_while_uploading(server: Add
         yield b"x" * 1000
         raise ConnectionAbortedError
 
-    with pytest.raises(ConnectionAbortedError), httpx.Client(trust_env=False) as client:
+    with pytest.raises(ConnectionAbortedError), httpx.Client(trust_env=False, timeout=SECONDS) as client:
         client.post(f"{server.http}/api/upload?name=half.bag", content=interrupted())
     assert server.get("/").status_code == 200
 

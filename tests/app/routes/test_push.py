@@ -10,12 +10,12 @@ import pytest
 from lineseg_app.live.hub import MOST_PUSHED
 from lineseg_app.routes.push import LARGEST, MOST_A_SECOND, Pace, TooFastError
 from lineseg_app.server import Settings
-from live import Address, page_of, serving
+from live import Address, connect, page_of, serving
 from robots import nearest, wall
 from rosbridge_peer import scan_message
 from rrd import rows_of
+from waiting import SECONDS
 from websockets.exceptions import ConnectionClosed, InvalidStatus
-from websockets.sync.client import connect
 
 
 @pytest.fixture
@@ -46,10 +46,10 @@ def test_posted_scans_become_a_live_recording(server: Address):
 
 
 def test_a_socket_takes_scan_after_scan_and_names_what_is_not_one(server: Address):
-    with connect(f"{server.ws}/api/scans/simulator", proxy=None) as socket:
+    with connect(f"{server.ws}/api/scans/simulator") as socket:
         socket.send(json.dumps(scan_message(wall(3.0))))
         socket.send("hello")
-        assert "this is not JSON" in json.loads(socket.recv(timeout=20))["error"]
+        assert "this is not JSON" in json.loads(socket.recv(timeout=SECONDS))["error"]
         socket.send(json.dumps(scan_message(wall(2.0))).encode())
         with page_of(server) as page:
             state = page.hello(recording="live:simulator")
@@ -96,10 +96,10 @@ def test_too_many_beams_or_names_are_refused(server: Address):
     assert "100001 beams; send at most 100000" in server.post("/api/scans/a", json=many).json()["message"]
     answers = [server.post(f"/api/scans/name{k}", json=scan_message([1.0])) for k in range(MOST_PUSHED)]
     assert [answer.status_code for answer in answers] == [200] * (MOST_PUSHED - 1) + [429]
-    with connect(f"{server.ws}/api/scans/another", proxy=None) as socket:
-        assert "are pushed under" in json.loads(socket.recv(timeout=20))["error"]
+    with connect(f"{server.ws}/api/scans/another") as socket:
+        assert "are pushed under" in json.loads(socket.recv(timeout=SECONDS))["error"]
         with pytest.raises(ConnectionClosed):
-            socket.recv(timeout=20)
+            socket.recv(timeout=SECONDS)
 
 
 def test_scans_come_at_a_bounded_rate():
@@ -113,7 +113,7 @@ def test_scans_come_at_a_bounded_rate():
 def test_a_foreign_page_may_not_push(server: Address):
     foreign = {"Origin": "https://elsewhere.example"}
     assert server.post("/api/scans/a", json=scan_message([1.0]), headers=foreign).status_code == 403
-    with pytest.raises(InvalidStatus), connect(f"{server.ws}/api/scans/a", origin=foreign["Origin"], proxy=None):
+    with pytest.raises(InvalidStatus), connect(f"{server.ws}/api/scans/a", origin=foreign["Origin"]):
         pass
 
 
@@ -126,9 +126,9 @@ def test_a_program_sends_the_token_as_bearer(tmp_path: Path):
         assert [answer.status_code for answer in answers] == [403, 403, 200]
         assert "Authorization: Bearer" in answers[0].json()["message"]
         bearer = {"Authorization": "Bearer correct horse"}
-        with connect(f"{server.ws}/api/scans/a", additional_headers=bearer, proxy=None) as socket:
+        with connect(f"{server.ws}/api/scans/a", additional_headers=bearer) as socket:
             socket.send("{")
-            assert "not JSON" in json.loads(socket.recv(timeout=20))["error"]
+            assert "not JSON" in json.loads(socket.recv(timeout=SECONDS))["error"]
 
 
 def test_an_unknown_live_source_is_named(server: Address):

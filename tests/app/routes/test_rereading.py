@@ -6,8 +6,8 @@ import json
 from pathlib import Path
 
 from lineseg_app.shelf.preview import first_lines, for_the_page, named_in
-from live import Address, Page
-from websockets.sync.client import connect
+from live import Address, Page, connect
+from waiting import SECONDS
 
 ROWS = "\n".join([",".join(["2.5"] * 97)] * 3).encode()
 
@@ -20,7 +20,7 @@ def test_a_file_that_needs_help_is_kept_tried_and_opened(server: Address, page: 
     with connect(f"{server.ws}/api/reading") as socket:
         for job, reading in enumerate([{}, {"angle_increment": 0.02, "angle_min": "-0.96"}]):
             socket.send(json.dumps({"job": job, "recording": id, "reading": reading}))
-        while (seen := json.loads(socket.recv(60)))["job"] != 1:
+        while (seen := json.loads(socket.recv(SECONDS)))["job"] != 1:
             pass
     assert seen["lines"][0].startswith("2.5,2.5,") and seen["lines"][0].endswith("…")
     assert (seen["message"], [len(points) for points in seen["scans"]]) == (None, [97, 97, 97])

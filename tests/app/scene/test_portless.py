@@ -8,6 +8,7 @@ from collections.abc import Iterator
 
 import pytest
 from lineseg_app.scene.portless import Arrival, PortlessServer
+from waiting import SECONDS
 
 
 @pytest.fixture
@@ -46,4 +47,4 @@ def test_an_event_of_a_scene_is_touched_in_its_loop_only(loop: asyncio.AbstractE
         event.set()
         return await waiter and untouched
 
-    assert asyncio.run_coroutine_threadsafe(waiting(), loop).result(10)
+    assert asyncio.run_coroutine_threadsafe(waiting(), loop).result(SECONDS)

@@ -14,11 +14,12 @@ from lineseg_app.scene.palette import linear
 from lineseg_app.scene.picture import picture
 from lineseg_app.scene.viser_scene import ViserScene
 from lineseg_app.view import View
-from live import Address, Page, page_of
+from live import Address, Page, connect, page_of
 from scenes import wall_ahead
 from viser._messages import Message, ScenePointerMessage, ShareUrlRequest, ViewerCameraMessage
+from waiting import SECONDS
 from websockets.exceptions import ConnectionClosed, InvalidStatus
-from websockets.sync.client import ClientConnection, connect
+from websockets.sync.client import ClientConnection
 
 from lineseg import Params, Recording
 
@@ -31,7 +32,7 @@ def window_of(data: bytes) -> list[dict]:
 
 def hear(socket: ClientConnection, type: str, **fields) -> dict:
     while True:
-        data = socket.recv(timeout=20)
+        data = socket.recv(timeout=SECONDS)
         assert isinstance(data, bytes)
         for message in window_of(data):
             if message["type"] == type and all(message.get(name) == value for name, value in fields.items()):
@@ -44,7 +45,7 @@ def say(socket: ClientConnection, message: Message) -> None:
 
 def scene_of(server: Address, page: Page):
     path = page.welcome["viser"].rstrip("/")
-    return connect(server.ws + path, subprotocols=["viser-v1.1.1"], max_size=None, proxy=None)  # pyright: ignore
+    return connect(server.ws + path, subprotocols=["viser-v1.1.1"])  # pyright: ignore
 
 
 def camera(height: float = 100.0) -> ViewerCameraMessage:
@@ -74,7 +75,7 @@ def test_unchanged_things_are_not_sent_again(server: Address, page: Page):
     with scene_of(server, page) as socket:
         hear(socket, "ReplayDoneMessage")
         page.change(selected=20)
-        data = socket.recv(timeout=20)
+        data = socket.recv(timeout=SECONDS)
         assert isinstance(data, bytes)
         names = {message.get("name") for message in window_of(data)}
         assert names <= {"/seen/selected", "/seen/selected_ray"}
@@ -102,7 +103,7 @@ def click(xy: np.ndarray) -> ScenePointerMessage:
 
 
 def test_the_socket_of_a_closed_scene_is_refused(server: Address):
-    with pytest.raises(InvalidStatus), connect(f"{server.ws}/s/nobody/viser", proxy=None):
+    with pytest.raises(InvalidStatus), connect(f"{server.ws}/s/nobody/viser"):
         pass
     assert server.get("/s/nobody/viser/").status_code == 404
 
@@ -115,7 +116,7 @@ def test_the_end_of_a_session_ends_its_scene(server: Address):
             page.say(type="close")
             with pytest.raises(ConnectionClosed):
                 while True:
-                    socket.recv(timeout=20)
+                    socket.recv(timeout=SECONDS)
 
 
 def test_the_scenes_page_is_cached_by_its_etag(server: Address, page: Page):

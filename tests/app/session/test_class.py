@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import time
-
 from live import Address, page_of
+from waiting import eventually
 
 
 def test_the_teacher_alone_sees_who_is_where_until_they_leave(server: Address):
@@ -33,8 +32,5 @@ def test_the_teacher_alone_sees_who_is_where_until_they_leave(server: Address):
             assert listed(pupil) == listed(stranger) == []
             assert says(pupil, name="x" * 41).status_code == 422
             assert says(stranger, name="me").status_code == 400
-        late = time.monotonic() + 20
-        while listed(teacher) and time.monotonic() < late:
-            time.sleep(0.01)
-        assert listed(teacher) == []
+        eventually(lambda: listed(teacher) == [], "the list to be empty", lambda: listed(teacher))
         assert server.get("/api/class", params={"session": teacher.welcome["presenter"]}).status_code == 404

@@ -17,8 +17,9 @@ from lineseg_app.server import Settings
 from lineseg_app.session.strip import Strip, glance_of, stride_of
 from lineseg_app.told.messages import Surveyed
 from lineseg_app.view import View
-from live import SECONDS, Address, Page, page_of, serving, surveyed
+from live import Address, Page, leave, page_of, serving, surveyed
 from long import long_hallway
+from waiting import SECONDS
 
 from lineseg import Params, Recording, open_recording
 from lineseg.doubt import SCORES
@@ -163,7 +164,7 @@ def test_one_frame_has_no_strip_and_the_page_is_told_why(page: Page):
 def test_a_tab_that_comes_back_gets_the_strip_again(server: Address, page: Page):
     page.hello()
     before = whole(page)
-    page.close()
+    leave(server, page)
     with page_of(server) as again:
         again.hello(session=page.welcome["session"])
         np.testing.assert_array_equal(whole(again)["scores"]["coverage"], before["scores"]["coverage"])

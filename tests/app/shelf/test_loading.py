@@ -15,6 +15,7 @@ from lineseg_app.shelf.library import Library
 from lineseg_app.shelf.recent import Recent
 from lineseg_app.shelf.uploads import Uploads
 from live import Address, Page, page_of, serving
+from waiting import SECONDS
 from websockets.exceptions import ConnectionClosed
 
 from lineseg import Recording
@@ -30,6 +31,23 @@ def long(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture
+def held(monkeypatch: pytest.MonkeyPatch) -> threading.Event:
+    """The long table is read no further than to where its progress is first told, until this is set."""
+    go_on = threading.Event()
+
+    def opened(path: Path, reading: Reading, *, progress: Progress, so_far: Callable[[Recording], None]) -> Recording:
+        def told(done: int, total: int) -> None:
+            progress(done, total)
+            while path.name == "long.log" and not go_on.wait(0.05):
+                progress(done, total)
+
+        return open_recording(path, reading, progress=told, so_far=so_far)
+
+    monkeypatch.setattr(library, "open_recording", opened)
+    return go_on
+
+
+@pytest.fixture
 def shelf(recordings: Path, long: Path, tmp_path: Path) -> Iterator[Address]:
     with serving(Settings(files=(recordings / "walls.npz", long), data_folder=tmp_path)) as address:
         yield address
@@ -39,21 +57,21 @@ def ids(page: Page) -> dict[str, str]:
     return {entry["label"]: entry["id"] for entry in page.welcome["recordings"]}
 
 
-def test_a_long_load_tells_its_progress(shelf: Address):
+def test_a_long_load_tells_its_progress(shelf: Address, held: threading.Event):
     with page_of(shelf) as page:
         page.hello()
         page.ask(recording=ids(page)["long.log"])
-        told = []
+        told = [page.hear_a("loading")]
+        held.set()
         while (message := page.hear_a("loading", "drawn"))["type"] == "loading":
             told.append(message)
-        assert told
         assert {message["label"] for message in told} == {"long.log"}
         assert [message["done"] for message in told] == sorted(message["done"] for message in told)
         assert all(message["done"] <= message["total"] for message in told)
         assert message["state"]["frames"] == 20_000
 
 
-def test_a_load_can_be_cancelled_and_started_again(shelf: Address):
+def test_a_load_can_be_cancelled_and_started_again(shelf: Address, held: threading.Event):
     with page_of(shelf) as page:
         page.hello(frame=3)
         rev = page.ask(recording=ids(page)["long.log"])
@@ -63,10 +81,11 @@ def test_a_load_can_be_cancelled_and_started_again(shelf: Address):
         assert (error["where"], error["rev"], error["message"]) == ("recording", rev, "loading long.log was cancelled")
         state = page.change(params={"epsilon": 0.04})
         assert (state["label"], state["frame"]) == ("walls.npz", 3)
+        held.set()
         assert page.change(recording=ids(page)["long.log"])["label"] == "long.log"
 
 
-def test_another_choice_ends_a_load(shelf: Address):
+def test_another_choice_ends_a_load(shelf: Address, held: threading.Event):
     with page_of(shelf) as page:
         page.hello()
         page.ask(recording=ids(page)["long.log"])
@@ -190,7 +209,7 @@ def test_leaving_a_bag_that_is_read_stops_reading_it(bag_shelf: Address, halfway
         page.change(recording=ids(page)["walls.npz"])
         loads = [thread for thread in threading.enumerate() if thread.name == "load long.bag"]
         for load in loads:
-            load.join(20)
+            load.join(SECONDS)
         assert not any(load.is_alive() for load in loads)
 
 

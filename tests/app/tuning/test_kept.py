@@ -6,6 +6,7 @@ import pytest
 from lineseg_app.tuning.kept import Kept
 from lineseg_app.tuning.kept_trials import KeptTrials
 from scenes import corner
+from waiting import SECONDS
 
 from lineseg import Params, Recording
 from lineseg.tuning import Trial
@@ -22,16 +23,16 @@ def test_what_two_ask_for_at_once_is_worked_out_once(recording):
     def work() -> int:
         worked.append(1)
         begun.set()
-        go.wait(10)
+        go.wait(SECONDS)
         return 7
 
     threads = [threading.Thread(target=lambda: answers.append(kept.get(recording, "ε", work))) for _ in range(4)]
     for thread in threads:
         thread.start()
-    begun.wait(10)
+    begun.wait(SECONDS)
     go.set()
     for thread in threads:
-        thread.join(10)
+        thread.join(SECONDS)
     assert (answers, worked) == ([7] * 4, [1])
 
 
