@@ -70,7 +70,8 @@ class Session:
         self._rounds = rounds
         self._warm_up = warm_up
         self.last_input = time.monotonic()
-        self.detached_at: float | None = self.last_input
+        # None while a page is there, and while the first one is still greeted.
+        self.detached_at: float | None = None
         self._library = library
         self._composer = Composer(library, files)
         self._page: Page | None = None

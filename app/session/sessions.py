@@ -110,6 +110,8 @@ class Sessions:
             session = await asyncio.to_thread(Session, secrets.token_urlsafe(16), *given)
         finally:
             self._opening -= 1
+        # It took a while to make, in which nobody could have said anything.
+        session.last_input = time.monotonic()
         self._sessions[session.id] = session
         return session
 
