@@ -26,7 +26,7 @@ from ..listening import listen, server_of
 from .offers import FOLDER, PATH, NodeState, Offer, PutAsked
 from .running import Running
 
-STARTED_SECONDS = 10.0
+STARTED_SECONDS = 60.0
 
 
 @contextlib.contextmanager

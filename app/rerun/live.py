@@ -30,6 +30,8 @@ from .viewer import executable, quiet_environment
 log = logging.getLogger(__name__)
 PORT = 9876
 PROBE_SECONDS = 0.5
+# A viewer that starts, or draws a large recording, takes nothing for a while.
+SEND_SECONDS = 5.0
 START_SECONDS = 20.0
 CLOSE_SECONDS = 2.0
 
@@ -135,7 +137,7 @@ class LiveRerun:
         for name, value in self._numbers(found).items():
             stream.log(f"scores/{name}", rr.Scalars(value))
         self._send_step(stream, view, found)
-        stream.flush(timeout_sec=PROBE_SECONDS)
+        stream.flush(timeout_sec=SEND_SECONDS)
 
     def _numbers(self, found: Findings) -> dict[str, float]:
         covered = found.extraction.covered / max(int(found.scan.valid.sum()), 1)

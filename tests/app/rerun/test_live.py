@@ -9,7 +9,7 @@ import socket
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -19,19 +19,12 @@ from lineseg_app.rerun.viewer import executable, quiet_environment
 from lineseg_app.shelf.scratch import remove_leftovers
 from lineseg_app.view import View
 from live import Address, page_of
+from ports import held_port
 from rrd import rows_of
 from scenes import wall_ahead
+from waiting import SECONDS, eventually
 
 from lineseg import Params, Recording
-
-SECONDS = 60
-
-
-def eventually(check: Callable[[], bool], why: str) -> None:
-    late = time.monotonic() + SECONDS
-    while not check():
-        assert time.monotonic() < late, why
-        time.sleep(0.02)
 
 
 @contextlib.contextmanager
@@ -40,7 +33,7 @@ def rerun_server(port: int, file: Path) -> Iterator[None]:
     flags = ["--serve-grpc", "--bind", "127.0.0.1", "--port", str(port), "--save", str(file)]
     with subprocess.Popen([executable(), *flags], env=quiet_environment(file.parent)) as program:
         try:
-            eventually(lambda: answers(port), "rerun's server does not start")
+            eventually(lambda: answers(port), "rerun's server to start", program.poll)
             yield
         finally:
             program.terminate()
@@ -52,6 +45,12 @@ def walls() -> Recording:
     return Recording.from_scans(scans, name="walls")
 
 
+@pytest.fixture
+def port() -> Iterator[int]:
+    with held_port() as port:
+        yield port
+
+
 def frames_in(file: Path) -> list[int]:
     if not file.exists():
         return []
@@ -60,11 +59,13 @@ def frames_in(file: Path) -> list[int]:
     return []
 
 
+def heard(file: Path, frames: list[int]) -> None:
+    eventually(lambda: frames_in(file) == frames, f"the frames {frames} in {file.name}", lambda: frames_in(file))
+
+
 def test_a_viewer_hears_frames_and_thresholds_as_they_change_and_one_that_returns_hears_what_is_shown(
-    walls: Recording, tmp_path: Path
+    walls: Recording, tmp_path: Path, port: int
 ):
-    with socket.create_server(("127.0.0.1", 0)) as free:
-        port = free.getsockname()[1]
     live = LiveRerun(port)
 
     def look(frame: int, **values: float) -> None:
@@ -75,16 +76,16 @@ def test_a_viewer_hears_frames_and_thresholds_as_they_change_and_one_that_return
     try:
         look(0)
         with rerun_server(port, tmp_path / "first.rrd"):
-            eventually(lambda: frames_in(tmp_path / "first.rrd") == [0], "the present frame does not arrive")
+            heard(tmp_path / "first.rrd", [0])
             look(1)
-            eventually(lambda: frames_in(tmp_path / "first.rrd") == [0, 1], "a new frame does not arrive")
+            heard(tmp_path / "first.rrd", [0, 1])
             look(1, min_length=100.0)
-            eventually(lambda: frames_in(tmp_path / "first.rrd") == [0, 1, 1], "new thresholds do not arrive")
+            heard(tmp_path / "first.rrd", [0, 1, 1])
         look(2)
         with rerun_server(port, tmp_path / "second.rrd"):
-            eventually(lambda: frames_in(tmp_path / "second.rrd") == [2], "the viewer that returns hears nothing")
+            heard(tmp_path / "second.rrd", [2])
             look(3)
-            eventually(lambda: frames_in(tmp_path / "second.rrd") == [2, 3], "it does not hear what comes then")
+            heard(tmp_path / "second.rrd", [2, 3])
     finally:
         live.close()
     found = [len(row["strips"] or []) for row in rows_of(tmp_path / "first.rrd", "/laser/segments") if "frame" in row]
@@ -111,11 +112,14 @@ def test_a_viewer_that_never_answers_is_told_once_and_does_not_hold_up_the_end(t
     try:
         with page_of(Address(port)) as page:
             page.hello()
+            assert server.stderr is not None
+            said = next(line for line in server.stderr if "does not take what it is sent" in line)
             for frame in range(1, 4):
                 page.change(frame=frame)
-                time.sleep(1.0)
+                # In which it would try again, and then say so.
+                time.sleep(0.2)
         server.terminate()
-        _, said = server.communicate(timeout=30)
+        said += server.communicate(timeout=SECONDS)[1]
     finally:
         server.kill()
     assert server.returncode == 0
@@ -126,7 +130,7 @@ def test_a_viewer_that_never_answers_is_told_once_and_does_not_hold_up_the_end(t
 @pytest.mark.skipif(sys.platform == "win32", reason="files are locked in another way")
 @pytest.mark.filterwarnings("ignore:subprocess .* is still running:ResourceWarning")
 def test_the_settings_of_a_viewer_stay_while_it_runs_and_are_removed_after_it(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, port: int
 ):
     """A stand-in for rerun's viewer, which needs a display: it listens, and waits to be told to end."""
     viewer = tmp_path / "viewer"
@@ -141,8 +145,6 @@ if "--port" in sys.argv:
     monkeypatch.setenv("RERUN_CLI_PATH", str(viewer))
     monkeypatch.setattr("tempfile.tempdir", str(tmp_path / "temporary"))
     (tmp_path / "temporary").mkdir()
-    with socket.create_server(("127.0.0.1", 0)) as free:
-        port = free.getsockname()[1]
     start_viewer(port)
     (folder,) = (tmp_path / "temporary").iterdir()
     os.utime(folder, (0, 0))
@@ -155,4 +157,4 @@ if "--port" in sys.argv:
         remove_leftovers(tmp_path / "user")
         return not folder.exists()
 
-    eventually(gone, "the settings of a viewer that has ended are left")
+    eventually(gone, "the settings of a viewer that has ended to be removed")

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 import textwrap
-import time
 from pathlib import Path
 from typing import Any
 
@@ -17,6 +17,7 @@ from lineseg_app.rerun.record import Run, notable, save
 from lineseg_app.scene.replay import foot, is_line
 from rerun.chunk import RrdReader
 from rrd import rows_of
+from waiting import SECONDS
 
 import lineseg
 import lineseg.rerun
@@ -177,7 +178,7 @@ def test_the_example_of_the_module_runs_and_logs_each_frame(tmp_path: Path):
     assert lineseg.rerun.__doc__ is not None
     example = textwrap.dedent(lineseg.rerun.__doc__.partition("\n\n")[2].partition("\n\nEverything")[0])
     script = example.replace("sample_scans/hallway.npz", SAMPLE.as_posix()).replace(", spawn=True", "")
-    done = subprocess.run([sys.executable, "-c", script], cwd=tmp_path, capture_output=True, text=True, timeout=120)
+    done = subprocess.run([sys.executable, "-c", script], cwd=tmp_path, capture_output=True, text=True, timeout=SECONDS)
     assert done.returncode == 0, done.stderr
     rows = rows_of(tmp_path / "run.rrd", "/laser/segments")
     assert [row["frame"] for row in rows] == list(range(len(open_recording(SAMPLE))))
@@ -205,7 +206,7 @@ print(main(["extract", sys.argv[1], "-o", "segments.jsonl"]), main(["record", sy
 
 def test_without_rerun_everything_else_works_and_a_sentence_says_what_to_install(tmp_path: Path):
     command = [sys.executable, "-c", WITHOUT_RERUN, str(SAMPLE)]
-    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=120)
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=SECONDS)
     assert done.stdout.split() == ["True", "0", "2"], done.stderr
     assert done.stderr.strip() == f"lineseg: rerun is not installed; `{install_command('rerun')}` installs it"
     assert [file.name for file in tmp_path.iterdir()] == ["segments.jsonl"]
@@ -213,23 +214,34 @@ def test_without_rerun_everything_else_works_and_a_sentence_says_what_to_install
 
 def test_rerun_is_imported_only_when_it_is_used():
     script = "import sys, lineseg, lineseg_app.server, lineseg_app.commands; print('rerun' in sys.modules)"
-    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=120)
+    done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, timeout=SECONDS)
     assert done.stdout.strip() == "False", done.stderr
 
 
+THREADS = """
+import os, sys
+from pathlib import Path
+from lineseg import Params, open_recording
+from lineseg_app.rerun.record import Run, save
+from waiting import eventually
+hallway, file = open_recording(sys.argv[1]), Path(sys.argv[2])
+threads = lambda: os.listdir("/proc/self/task")
+counts = []
+for _ in range(4):
+    save(Run(hallway, "hallway", "region-growing", Params(), range(2)), file)
+    counts.append(len(threads()))
+# Ended threads take a moment to go.
+eventually(lambda: len(threads()) <= counts[0], f"threads to end, which were {counts}", threads)
+"""
+
+
 @pytest.mark.skipif(sys.platform != "linux", reason="only Linux lists the threads of a process")
-def test_recording_leaves_no_thread(hallway: Recording, tmp_path: Path):
-    counts = []
-    for number in range(4):
-        save(Run(hallway, "hallway", "region-growing", Params(), range(2)), tmp_path / f"{number}.rrd")
-        # Ended threads take a moment to go.
-        late = time.monotonic() + 10
-        while (count := len(list(Path("/proc/self/task").iterdir()))) > min(counts, default=count) and (
-            time.monotonic() < late
-        ):
-            time.sleep(0.05)
-        counts.append(count)
-    assert counts[-1] <= counts[0]
+def test_recording_leaves_no_thread(tmp_path: Path):
+    """In a process of its own, where nothing else starts threads."""
+    command = [sys.executable, "-c", THREADS, str(SAMPLE), str(tmp_path / "run.rrd")]
+    environment = os.environ | {"PYTHONPATH": str(Path(__file__).parents[2])}
+    done = subprocess.run(command, env=environment, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
 
 
 def test_rows_have_the_numbers_of_the_file_if_frames_are_left_out(tmp_path: Path):
