@@ -54,7 +54,7 @@ LIGHT = Theme(
     second=(200, 30, 150), third=(0, 130, 140), fourth=(135, 105, 0),
 )  # fmt: skip
 DARK = Theme(
-    point=(150, 156, 164), invalid=(100, 106, 115), strong=(245, 246, 248), faint=(120, 126, 134),
+    point=(150, 156, 164), invalid=(107, 113, 122), strong=(245, 246, 248), faint=(120, 126, 134),
     grid=(56, 60, 67), axis=(92, 98, 107), truth=(150, 150, 60), laser=(235, 237, 240),
     accepted=(60, 200, 140), refused=(255, 110, 80), candidate=(255, 110, 170),
     predicted=(170, 140, 255), other=(51, 160, 238),

@@ -98,7 +98,7 @@ function paintPlot(canvas, score, frames, present, pointed) {
   const [low, high] = rangeOf(known);
   const at = (/** @type {number} */ value) =>
     height - INSET.bottom - ((value - low) / (high - low || 1)) * (height - INSET.top - INSET.bottom);
-  pen.strokeStyle = colour("--line");
+  pen.strokeStyle = colour("--axis");
   for (const value of [low, high]) line(pen, [0, at(value)], [width, at(value)]);
   pen.strokeStyle = colour("--accent");
   pen.beginPath();

@@ -49,7 +49,7 @@ export class Plot {
     const { pen } = freshCanvas(this.canvas, this.#size);
     const { box } = this;
     pen.font = "10.5px system-ui, sans-serif";
-    pen.strokeStyle = colour("--line-strong");
+    pen.strokeStyle = colour("--axis");
     pen.lineWidth = 1;
     pen.beginPath();
     pen.moveTo(box.left, box.top);

@@ -5,6 +5,7 @@ import { iconButton } from "../widgets/icon.js";
 
 /** @typedef {import("../view/store.js").Look} Look */
 /** @typedef {import("../wire.js").Framing} Framing */
+/** @typedef {import("../wire.js").Box} Box */
 
 // How much smaller all may be drawn so that the whole frame is in view.
 const MOST_SMALLER = 1.35;
@@ -20,6 +21,8 @@ export function createCamera(page, stage, text, { drawing, names, onLook, onFram
   /** The part of the plan that a link shows, until the plan is loaded. @type {Look | null} */
   let wanted = null;
   let fitted = "";
+  /** The box in view after a fit, larger for each frame since that reached beyond it. @type {Box | null} */
+  let box = null;
   const closeUp = createCloseUp(page, stage, { whole: fit, onFraming });
   const fitButton = iconButton("fit", text.fit, fit);
   const freeButton = iconButton("cube", text.free, toggle);
@@ -31,7 +34,14 @@ export function createCamera(page, stage, text, { drawing, names, onLook, onFram
   });
 
   function fit() {
-    if (page.drawn) stage.fit(withFrame(page.drawn, stage.size));
+    if (page.drawn) stage.fit((box = withFrame(page.drawn, page.drawn.extent, stage.size)));
+  }
+
+  /** A frame that reaches beyond what is in view is shown whole, unless a person has moved the camera. @param {import("../wire.js").State} state */
+  function grow(state) {
+    if (!box || state.world || state.framing || stage.look) return;
+    const larger = withFrame(state, united(box, state.extent), stage.size);
+    if (String(united(box, larger)) !== String(box)) stage.fit((box = larger));
   }
 
   function toggle() {
@@ -54,7 +64,8 @@ export function createCamera(page, stage, text, { drawing, names, onLook, onFram
       freeButton.setAttribute("aria-label", camera === "free" ? text.plan : text.free);
     },
     /** @param {import("../wire.js").State} state */
-    setState({ recording, place: scans, framing, layers, world, view }) {
+    setState(state) {
+      const { recording, place: scans, framing, layers, world, view } = state;
       stage.gridded = layers.grid;
       stage.place(world, view.ride === "on");
       // A drawn world stays where it is while it changes.
@@ -64,7 +75,7 @@ export function createCamera(page, stage, text, { drawing, names, onLook, onFram
         fitted = place;
         closeUp.forget();
         fit();
-      }
+      } else grow(state);
       closeUp.set(framing);
       if (!wanted || !names(recording)) return;
       stage.lookAt(wanted);
@@ -76,20 +87,24 @@ export function createCamera(page, stage, text, { drawing, names, onLook, onFram
 }
 
 /**
- * The box of the recording, made larger for the frame that is drawn where that does not make all much smaller.
- * @param {import("../wire.js").State} state @param {{width: number, height: number}} size of the stage [px]
- * @returns {import("../wire.js").Box}
+ * The box of the recording, made larger for that of frames where that does not make all much smaller.
+ * @param {import("../wire.js").State} state @param {Box} extent @param {{width: number, height: number}} size of the stage [px]
+ * @returns {Box}
  */
-function withFrame({ bounds, extent, world }, { width, height }) {
+function withFrame({ bounds, world }, extent, { width, height }) {
   if (world) return bounds;
-  const [x1, y1, x2, y2] = bounds;
-  const both = /** @type {const} */ ([
-    Math.min(x1, extent[0]),
-    Math.min(y1, extent[1]),
-    Math.max(x2, extent[2]),
-    Math.max(y2, extent[3]),
-  ]);
-  const scale = (/** @type {import("../wire.js").Box} */ [left, low, right, high]) =>
+  const both = united(bounds, extent);
+  const scale = (/** @type {Box} */ [left, low, right, high]) =>
     Math.min((width || 1) / (right - left), (height || 1) / (high - low));
-  return scale(bounds) > MOST_SMALLER * scale([...both]) ? bounds : [...both];
+  return scale(bounds) > MOST_SMALLER * scale(both) ? bounds : both;
+}
+
+/** @param {Box} one @param {Box} other @returns {Box} */
+function united(one, other) {
+  return [
+    Math.min(one[0], other[0]),
+    Math.min(one[1], other[1]),
+    Math.max(one[2], other[2]),
+    Math.max(one[3], other[3]),
+  ];
 }

@@ -126,6 +126,24 @@ function createLost(text, onRetry) {
 }
 
 /**
+ * When a notice goes, the next moves up under the pointer: the second click of a double click does not reach it.
+ * @param {HTMLElement} notices
+ */
+function ignoreSecondClicks(notices) {
+  /** @type {Element | null} */
+  let first = null;
+  notices.addEventListener(
+    "click",
+    (event) => {
+      const hit = /** @type {Element} */ (event.target).closest("button");
+      if (event.detail < 2) first = hit;
+      else if (hit !== first) event.stopPropagation();
+    },
+    true,
+  );
+}
+
+/**
  * @param {HTMLElement} stage
  * @param {Text} text
  * @param {{onCancel: () => void, onRetry: () => void}} handlers
@@ -142,6 +160,7 @@ export function mountNotices(stage, text, { onCancel, onRetry }) {
     h("p", { class: "hint" }, text.dropHint),
   );
   const notices = h("div", { class: "notices" }, lost.element, error.element, loading.element);
+  ignoreSecondClicks(notices);
   stage.append(empty.element, notices, drop);
   /** The place of the last drawn state. @type {string | null} */
   let shown = null;

@@ -79,6 +79,53 @@ def test_at_every_width_nothing_is_cut_off_and_the_view_fits(new_tab: Callable[.
     assert tab.page.evaluate("() => stage.getBoundingClientRect().bottom <= panel.getBoundingClientRect().top + 1")
 
 
+def test_a_frame_that_reaches_beyond_the_view_is_shown_whole(new_tab: Callable[..., Tab]):
+    tab = new_tab("#recording=sample:laboratory&frame=0")
+    inside = """() => {
+        const [x1, y1, x2, y2] = lineseg.state.extent;
+        return [[x1, y1], [x1, y2], [x2, y1], [x2, y2]].every(([x, y]) => {
+            const at = lineseg.project(x, y);
+            return at && at[0] >= 0 && at[1] >= 0 && at[0] <= stage.clientWidth && at[1] <= stage.clientHeight;
+        });
+    }"""
+    tab.eventually(lambda: tab.page.evaluate(inside), "the first frame is cut")
+    before = tab.page.evaluate("() => [lineseg.project(0, 0), lineseg.project(1, 0)]")
+    tab.page.evaluate("() => { location.hash = location.hash.replace('frame=0', '') + '&frame=240'; }")
+    tab.until("s.frame === 240")
+    tab.eventually(lambda: tab.page.evaluate(inside), "a later frame is cut")
+    after = tab.page.evaluate("() => [lineseg.project(0, 0), lineseg.project(1, 0)]")
+    assert (before[1][0] - before[0][0]) / (after[1][0] - after[0][0]) <= 1.4
+    # What a person has moved stays.
+    tab.page.mouse.move(400, 300)
+    tab.page.mouse.wheel(0, -300)
+    tab.eventually(lambda: tab.page.evaluate("() => location.hash.includes('look')"), "the view was not moved")
+    kept = tab.page.evaluate("() => lineseg.project(0, 0)")
+    tab.page.keyboard.press("ArrowRight")
+    tab.until("s.frame === 241")
+    assert tab.page.evaluate("() => lineseg.project(0, 0)") == kept
+
+
+def test_a_double_click_on_a_notice_does_not_reach_the_next(new_tab: Callable[..., Tab]):
+    tab = new_tab("#recording=file:gone&name=gone.log")
+    close = tab.page.locator(".notice.error").get_by_role("button", name="Dismiss")
+    close.wait_for()
+    tab.page.evaluate("""() => {
+        const next = document.createElement("div");
+        next.className = "notice next";
+        next.innerHTML = '<div class="notice-row"><span class="notice-words">next</span></div>';
+        const button = document.createElement("button");
+        button.className = "icon-button";
+        button.onclick = () => next.remove();
+        next.firstChild.append(button);
+        document.querySelector(".notice.error").after(next);
+    }""")
+    close.dblclick()
+    assert not tab.page.locator(".notice.error").is_visible()
+    assert tab.page.locator(".notice.next").is_visible()
+    tab.page.locator(".notice.next button").click()
+    assert not tab.page.locator(".notice.next").count()
+
+
 def test_the_card_of_why_does_not_lie_over_its_point(new_tab: Callable[..., Tab]):
     tab = new_tab("#recording=sample:laboratory&frame=5")
     tab.page.set_viewport_size(ViewportSize(width=820, height=1180))

@@ -46,7 +46,7 @@ export function createTimes(text, session, stored) {
     const x = (/** @type {number} */ frame) => PAD.left + (frame / last) * (width - PAD.left - PAD.right);
     pen.font = "11px system-ui, sans-serif";
     pen.fillStyle = colour("--muted");
-    pen.strokeStyle = colour("--line");
+    pen.strokeStyle = colour("--axis");
     for (const us of TICKS.filter((each) => y(each) > PAD.top && y(each) < height - PAD.bottom)) {
       pen.fillText(text.tick(us), 2, y(us) + 4);
       pen.beginPath();

@@ -56,10 +56,8 @@ def test_text_has_a_contrast_of_4_5_to_what_it_lies_on(ground: str, number: int)
     assert {name: round(value, 2) for name, value in texts.items() if value < 4.5} == {}
 
 
-# Axes, edges and planes; what is drawn over a plane has its colour.
+# The grid, and planes; what is drawn over a plane has its colour.
 HELPERS = {
-    "line",
-    "line-strong",
     "grid",
     "grid-axis",
     "ground",
@@ -77,6 +75,10 @@ def test_legends_and_overlays_have_the_colours_of_the_scene():
     assert {name: declared(f"scene-{name}") for name in said} == pairs
 
 
+# Elements whose lower border is the axis of a chart.
+BASES_OF_CHARTS = {".histogram", ".curve"}
+
+
 def drawn() -> Iterator[tuple[str, str, float]]:
     """What the page draws with SVG and on canvases: where, the name of its colour, its opacity."""
     for sheet in sorted(STATIC.rglob("*.css")):
@@ -88,6 +90,9 @@ def drawn() -> Iterator[tuple[str, str, float]]:
                 r"(?:(?:stroke|fill|--mark|--line-colour): |gradient\([^;]*?)var\(--([\w-]+)\)", block
             ):
                 yield f"{sheet.name} {selector.strip()}", name, float(opacity[1]) if opacity else 1.0
+            if selector.strip() in BASES_OF_CHARTS:
+                for name in re.findall(r"border-bottom: [^;]*var\(--([\w-]+)\)", block):
+                    yield f"{sheet.name} {selector.strip()}", name, 1.0
     for script in sorted(STATIC.rglob("*.js")):
         for name in re.findall(r'"--([\w-]+)"', script.read_text("utf-8")):
             yield script.name, name, 1.0
