@@ -20,9 +20,11 @@ from .checks import check, trust
 from .growing import BEND, grown_walls
 from .merging import merged_walls, pieces_of, without_shadows
 from .openings import divided_at_openings
-from .profiles import Profiles, calmed, doubled, is_even, is_straight, profiles_of, scatter_by_range, stretches_of
+from .profiles import STRETCH, Profiles, calmed, is_even, is_straight, profiles_of, scatter_by_range, stretches_of
 from .refining import refined
-from .steps import FINE, divided_at_steps
+from .settling import settled
+from .steps import FINE, divided_at_steps, evenness
+from .twins import doubled, without_outdone
 
 # A wall and a place without one are known if so many views, or more, saw them.
 LEAST_VIEWS = 3
@@ -145,15 +147,18 @@ def walls_of(
     walls, owner = grown_walls(cells, BAND)
     walls, owner = without_shadows(cells, walls, owner)
     walls, owner = merged_walls(cells, walls, owner, BAND)
+    walls, owner = settled(cells, walls, owner)
+    walls, owner = merged_walls(cells, walls, owner, BAND)
     return pieces_of(cells, *without_shadows(cells, walls, owner))
 
 
 def parted(
     fit: _Fit, scan: NDArray[np.int32], poses: Floats, views: NDArray[np.int64]
 ) -> tuple[Walls, NDArray[np.int64]]:
-    """The pieces of walls, divided where the surface steps, and the wall of each."""
+    """The pieces of walls, divided where the surface steps, without those that outliers form; and the wall of each."""
     fine = _profiles(fit.placed, scan, poses, views, fit.walls, FINE, STEPPED)
-    return divided_at_steps(fit.walls, fit.wall_of, fine)
+    pieces, wall_of = divided_at_steps(fit.walls, fit.wall_of, fine)
+    return without_outdone(pieces, wall_of, _profiles(fit.placed, scan, poses, views, pieces, STRETCH, BENT))
 
 
 def _profiles(
@@ -200,7 +205,8 @@ class Known:
         off = np.abs(over[near] - height[stretch])
         by_range = scatter_by_range(off, away)
         fine = _profiles(placed, scan, poses, views, walls, FINE, BEND)
-        firm = is_straight(fine, walls) & is_even(stretch, off, away, by_range, profiles)
+        bent = evenness(fine.height[fine.points > 0], fine.wall[fine.points > 0])
+        firm = is_straight(fine, walls, bent) & is_even(stretch, off, away, by_range, profiles)
         both = np.flatnonzero((np.diff(found[near]) == 0) & (np.diff(scan[near]) == 0))
         step = np.abs(np.diff(over[near])[both]) / np.sqrt(2)
         smooth = is_even(stretch[both], step, away[both], by_range, profiles)

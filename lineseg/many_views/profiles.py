@@ -11,8 +11,9 @@ from ..posed.walls import Walls
 
 # Length of a stretch [m].
 STRETCH = 0.20
-# A wall whose middle stands out by more than this share of its length is a curve; bounds of that height [m].
-CURVED, LEAST_SAGITTA, MOST_SAGITTA = 0.025, 0.015, 0.07
+# A wall whose middle stands out by more than this share of its length, and by so many times as much as walls of the
+# recording bend anyway, is a curve; bounds of that height [m].
+CURVED, TIMES_BENT, LEAST_SAGITTA, MOST_SAGITTA = 0.025, 3.0, 0.015, 0.07
 # A surface that scatters by so many times what most do, and by more than this [m], is rough: a hedge, books, people.
 ROUGH, LEAST_SCATTER = 2.0, 0.025
 # Fewer points than this do not tell how the laser scatters at their range.
@@ -20,8 +21,6 @@ FEW = 200
 # Median absolute deviation of a normal distribution, in standard deviations.
 MAD = 0.6745
 FINEST = 1_000_000
-# Two walls are one that poses show twice if they are less than this apart [m], with a cosine of the angle above that.
-TWICE, ALIKE = 0.25, np.cos(np.radians(8))
 # Of all points, so many tell how the laser scatters at each range.
 MOST_POINTS = 400_000
 
@@ -66,23 +65,6 @@ def calmed(values: Floats, profiles: Profiles) -> Floats:
     place = np.clip(np.arange(len(values)), np.minimum(first + 1, last), np.maximum(last - 1, first))
     sides = [filled[np.clip(place + step, first, last)] for step in (-1, 0, 1)]
     return np.median(sides, axis=0)
-
-
-def doubled(profiles: Profiles, walls: Walls, firm: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """(s,) whether the surface of a stretch is there twice: another firm wall that faces the same way lies so close.
-
-    Nobody sees both of two such surfaces, except past an end of the one in front, so poses that were off made two of
-    one.
-    """
-    wall = profiles.wall
-    middle = walls.normal[wall] * walls.offset[wall, None] + walls.along[wall] * profiles.at[:, None]
-    twice = np.zeros(len(wall), bool)
-    for other in np.flatnonzero(firm):
-        at, across = middle @ walls.along[other], middle @ walls.normal[other] - walls.offset[other]
-        inside = (at > walls.low[other] + STRETCH / 2) & (at < walls.high[other] - STRETCH / 2)
-        close = np.flatnonzero(inside & (np.abs(across) < TWICE) & (wall != other))
-        twice[close] |= walls.normal[wall[close]] @ walls.normal[other] > ALIKE
-    return twice & firm[wall]
 
 
 def starts_of(walls: Walls, length: float) -> NDArray[np.int64]:
@@ -167,8 +149,10 @@ def is_even(
     return ~(shares >= 1.0)
 
 
-def is_straight(fine: Profiles, walls: Walls) -> NDArray[np.bool_]:
+def is_straight(fine: Profiles, walls: Walls, bent: float) -> NDArray[np.bool_]:
     """(w,) whether each wall is straight: a parabola through its profile hardly stands out in its middle.
+
+    bent: how far walls of the recording lie from straight [m], see `evenness`.
 
     The first and the last stretch are left out, because returns of other walls may lie in them.
     """
@@ -181,7 +165,8 @@ def is_straight(fine: Profiles, walls: Walls) -> NDArray[np.bool_]:
         inner = slice(first + 1, last - 1)
         if last - first >= 6:
             sagitta[one] = _bulge(at[inner], height[inner], points[inner])
-    return np.abs(sagitta) < np.clip(CURVED * 2 * half, LEAST_SAGITTA, MOST_SAGITTA)
+    most = np.maximum(CURVED * 2 * half, TIMES_BENT * bent)
+    return np.abs(sagitta) < np.clip(most, LEAST_SAGITTA, MOST_SAGITTA)
 
 
 def _bulge(at: Floats, height: Floats, weights: Floats) -> float:

@@ -15,9 +15,10 @@ from .profiles import MAD, Profiles
 FINE, BESIDE = 0.05, 4
 # A step is higher than this [m], and so many times as high as the surface is uneven on so many stretches beside it.
 LEAST_STEP, TIMES_USUAL, ALONG = 0.015, 3.0, 20
-# A step is so many times as high as the walls of the recording are uneven over so many stretches: where boards bend,
-# none is one.
-TIMES_EVEN, LONG = 4.0, 60
+# Where boards bend, the surface jumps everywhere: a step is so many times as high as this percentile of all jumps.
+TIMES_BENT, BENT = 3.0, 85
+# Over so many stretches the evenness of walls is measured.
+LONG = 60
 # Between two steps are more stretches than this.
 APART = 5
 # Shorter parts are left out [m].
@@ -49,7 +50,8 @@ def steps_in(height: Floats, wall: NDArray[np.int64]) -> NDArray[np.bool_]:
     """(s,) whether the surface steps before each stretch, given the heights (s,) and the walls (s,) of all in order."""
     jump = jumps_of(height, wall)
     found = np.zeros(len(height), np.bool_)
-    least = max(LEAST_STEP, TIMES_EVEN * evenness(height, wall))
+    known = jump[np.isfinite(jump)]
+    least = max(LEAST_STEP, TIMES_BENT * float(np.percentile(known, BENT))) if len(known) else LEAST_STEP
     for one in np.unique(wall[jump > least]).tolist():
         first, stop = np.searchsorted(wall, (one, one + 1))
         places = first + np.flatnonzero(jump[first:stop] > least)
@@ -64,13 +66,12 @@ def steps_in(height: Floats, wall: NDArray[np.int64]) -> NDArray[np.bool_]:
 
 
 def evenness(height: Floats, wall: NDArray[np.int64]) -> float:
-    """How far the straightest walls lie from straight [m]: the lower quartile over long parts of the walls.
+    """How far the straightest walls lie from straight [m]: the lower quartile over long parts; 0 without a long wall.
 
-    Where all walls are shorter, they count whole.
+    Without one, nothing tells bends of walls from trees and pillars.
     """
     limits = np.append(np.searchsorted(wall, np.unique(wall)), len(wall)).tolist()
-    walls = list(pairwise(limits))
-    parts = [(k, k + LONG) for first, stop in walls for k in range(first, stop - LONG, LONG // 2)] or walls
+    parts = [(k, k + LONG) for first, stop in pairwise(limits) for k in range(first, stop - LONG, LONG // 2)]
     return float(np.percentile([_unevenness(height[a:b]) for a, b in parts], 25)) if parts else 0.0
 
 

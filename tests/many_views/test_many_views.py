@@ -9,7 +9,8 @@ import pytest
 from lineseg import Recording, Scan, simulate
 from lineseg.many_views import truth_by_many_views
 from lineseg.many_views.checks import trust
-from lineseg.many_views.profiles import doubled, profiles_of
+from lineseg.many_views.profiles import profiles_of
+from lineseg.many_views.twins import doubled
 from lineseg.posed.returns import Returns
 from lineseg.posed.walls import Walls
 from lineseg.poses import PoseSource, Track, in_world
