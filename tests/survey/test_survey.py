@@ -189,10 +189,11 @@ def test_an_exception_in_progress_is_passed_on():
     def refuse(done, total):
         raise KeyError(f"{done} of {total}")
 
-    before = threading.active_count()
+    before = set(threading.enumerate())
     with pytest.raises(KeyError, match="of 3000"):
         survey(long_recording(3000), progress=refuse)
-    assert threading.active_count() == before
+    # Of others, such as those of a server of another test, some may end.
+    assert set(threading.enumerate()) <= before
 
 
 @pytest.mark.parametrize("threads", [1, 4])
