@@ -90,8 +90,11 @@ export class Page {
   /** The id of the session for requests. */
   sessionId = () => this.session.id ?? "";
 
-  /** Whether every change made in this tab is drawn. */
+  /** Whether every change made in this tab is drawn, or nobody waits for it any more. */
   settled = () => this.link?.settled ?? true;
+
+  /** Whether every change made in this tab is drawn or refused. */
+  answered = () => this.link?.answered ?? true;
 
   get learning() {
     return this.view.mode === "learn";

@@ -30,9 +30,9 @@ export function offerToScripts(page, { timeline, address, rerun, tuner, stage })
     },
     /** Position of a point of the plan on the stage [px]. @param {number} x @param {number} y */
     project: (x, y) => stage.project(x, y),
-    /** Whether every change made in this tab is drawn. */
+    /** Whether the server has answered every change made in this tab: it is drawn, or refused. */
     get settled() {
-      return page.settled();
+      return page.answered();
     },
   };
   Object.defineProperty(window, "lineseg", { value: Object.freeze(offered) });

@@ -23,6 +23,8 @@ export class Link {
   #onMessage;
   #onConnection;
   #rev;
+  /** The newest revision that was answered. */
+  #heard = -1;
   #retryMs = FIRST_RETRY_MS;
   #retryTimer = 0;
   #welcomed = false;
@@ -55,6 +57,11 @@ export class Link {
   /** Whether every change made here is drawn. */
   get settled() {
     return this.#underWay === null && this.#waiting === null;
+  }
+
+  /** Whether the server has answered every change, however long that took. */
+  get answered() {
+    return this.settled && this.#heard >= this.#rev;
   }
 
   /** @param {Patch} patch @param {boolean} [linked] a link says it: the server takes what it can, and tells the rest */
@@ -158,6 +165,7 @@ export class Link {
     if (message.type === "loading" && this.#underWay) this.#answered(this.#underWay.rev);
     if (message.type === "drawn" || (message.type === "error" && message.rev !== null)) {
       markStage("answered", message.rev ?? 0);
+      this.#heard = Math.max(this.#heard, message.rev ?? 0);
       latencyMs = this.#answered(message.rev ?? 0);
     }
     this.#onMessage(message, latencyMs);

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import re
 import shutil
@@ -17,13 +16,14 @@ from typing import Any
 import pytest
 from lineseg_app.server import Settings
 from live import Address, serving
+from ports import held_port
+from waiting import SECONDS, eventually
 
 try:
     from playwright.sync_api import Browser, ConsoleMessage, Error, Frame, Page, ViewportSize, sync_playwright
 except ImportError:
     pytest.skip("pip install playwright", allow_module_level=True)
 
-SECONDS = 60
 VIEWPORT = ViewportSize(width=1280, height=800)
 # What a tab shows that no link tells what to show.
 FIRST = "#recording=sample:hallway"
@@ -75,12 +75,14 @@ class Tab:
 
     def open(self, hash: str = "") -> Tab:
         self.page.goto(self.address + hash)
-        # The very first picture may wait for the kernels to be compiled.
-        self.until("true", seconds=120)
+        self.until("true")
         return self
 
     def look_at(self, hash: str) -> Tab:
-        """Open a link in this tab as it is, as a person does who clicks one."""
+        """Open a link in this tab as it is, as a person does who clicks one.
+
+        A link that names no recording shows the one of a fresh tab.
+        """
         if "follow=" in hash or hash.startswith("?"):
             self.page.goto("about:blank")
             return self.open(hash)
@@ -94,7 +96,7 @@ class Tab:
                 addEventListener("hashchange", () => setTimeout(done), { once: true });
                 location.hash = hash;
             })""",
-            hash if len(hash) > 1 else FIRST,
+            hash if "recording=" in hash else f"{FIRST}&{hash[1:]}" if len(hash) > 1 else FIRST,
         )
         self.until("true")
         self.page.evaluate("""() => {
@@ -103,18 +105,36 @@ class Tab:
         }""")
         return self
 
-    def until(self, condition: str, seconds: int = SECONDS) -> dict[str, Any]:
+    def until(self, condition: str) -> dict[str, Any]:
         """Return the drawn state `s` once `condition` holds for it and no request is under way."""
+        return self.found(
+            f"const s = window.lineseg?.state; if (s && window.lineseg.settled && ({condition})) return s;", condition
+        )
+
+    def found(self, look: str, what: str) -> Any:
+        """What `look`, the body of a function in JavaScript, returns as soon as it returns anything.
+
+        what: is waited for; the failure says it, and what is on the screen instead.
+        """
         script = f"""async () => {{
-            const late = Date.now() + {1000 * seconds};
-            for (;;) {{
-                const s = window.lineseg?.state;
-                if (s && window.lineseg.settled && ({condition})) return s;
-                if (Date.now() > late) throw new Error("waited in vain for " + {json.dumps(condition)});
-                await new Promise((go) => setTimeout(go, 10));
+            const look = () => {{ {look} }};
+            const late = Date.now() + {1000 * SECONDS};
+            for (let found; ; await new Promise((go) => setTimeout(go, 10))) {{
+                if (found = look()) return found;
+                if (Date.now() > late) return null;
             }}
         }}"""
-        return self.page.evaluate(script)
+        found = self.page.evaluate(script)
+        if found is None:
+            raise AssertionError(f"waited {SECONDS} s in vain for {what}; {self._seen()}")
+        return found
+
+    def _seen(self) -> str:
+        """What is on the screen, for a failure: the state as far as it fits, and the notices."""
+        script = """() => [window.lineseg?.settled, JSON.stringify(window.lineseg?.state ?? null).slice(0, 3000),
+            [...document.querySelectorAll(".notice, .toast, [role=alert]")].map((each) => each.textContent)]"""
+        settled, state, notices = self.page.evaluate(script)
+        return f"settled: {settled}; state: {state}; notices: {notices}; complaints: {self.complaints}"
 
     @property
     def state(self) -> dict[str, Any]:
@@ -122,27 +142,27 @@ class Tab:
 
     @property
     def scene(self) -> Frame:
-        """viser's frame, once its camera exists."""
-        script = "() => Boolean(window.__viserMutable?.cameraControl)"
+        """viser's frame, once its camera is the page's and something is drawn."""
+        script = "() => Boolean(window.__viserMutable?.cameraControl && window.frameElement.matches('.ready'))"
 
         def frame_with_camera() -> Frame | None:
             frames = [frame for frame in self.page.frames if "/viser/" in frame.url]
             return frames[0] if frames and frames[0].evaluate(script) else None
 
-        return self.eventually(frame_with_camera, "no camera in the scene")
+        return self.eventually(frame_with_camera, "the scene does not come")
 
-    def eventually(self, check: Callable[[], Any], why: str, seconds: float = SECONDS) -> Any:
+    def eventually(self, check: Callable[[], Any], why: str) -> Any:
         """Return the result of `check` as soon as it is true; a frame may not be ready to answer yet."""
-        late = time.monotonic() + seconds
+        late, last = time.monotonic() + SECONDS, None
         while time.monotonic() < late:
             try:
-                if found := check():
-                    return found
-            except Error:
-                pass
+                if last := check():
+                    return last
+            except Error as error:
+                last = error
             # Not time.sleep: playwright learns of new frames only while it is asked something.
             self.page.wait_for_timeout(20)
-        raise AssertionError(why)
+        raise AssertionError(f"{why}, after {SECONDS} s; the last look: {last!r}; {self._seen()}")
 
     def slider(self, name: str):
         return self.page.locator(SLIDER.format(name))
@@ -195,7 +215,7 @@ def browser() -> Iterator[Browser]:
     if chromium is None:
         pytest.skip("apt-get install chromium-headless-shell")
     with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=chromium, args=list(FLAGS))
+        browser = playwright.chromium.launch(executable_path=chromium, args=list(FLAGS), timeout=1000 * SECONDS)
         yield browser
         browser.close()
 
@@ -269,10 +289,8 @@ def tab(new_tab: Callable[..., Tab]) -> Tab:
 class KillableServer:
     """A server in its own process, on a fixed port."""
 
-    def __init__(self, folder: Path) -> None:
-        with socket.socket() as free:
-            free.bind(("127.0.0.1", 0))
-            self.port = free.getsockname()[1]
+    def __init__(self, folder: Path, port: int) -> None:
+        self.port = port
         self._folder = folder
         self._process: subprocess.Popen[str] | None = None
 
@@ -284,10 +302,7 @@ class KillableServer:
         command = [sys.executable, "-m", "lineseg_app", "view", "--no-browser", "--port", str(self.port)]
         environment = {**os.environ, "XDG_DATA_HOME": str(self._folder), "XDG_STATE_HOME": str(self._folder)}
         self._process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env=environment)
-        late = time.monotonic() + SECONDS
-        while not self._answers():
-            assert time.monotonic() < late, "the server does not start"
-            time.sleep(0.02)
+        eventually(self._answers, "the server to start", self._process.poll)
 
     def _answers(self) -> bool:
         with socket.socket() as probe:
@@ -301,7 +316,8 @@ class KillableServer:
 
 @pytest.fixture
 def killable_server(tmp_path: Path) -> Iterator[KillableServer]:
-    server = KillableServer(tmp_path)
-    server.start()
-    yield server
-    server.kill()
+    with held_port() as port:
+        server = KillableServer(tmp_path, port)
+        server.start()
+        yield server
+        server.kill()

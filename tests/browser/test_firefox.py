@@ -13,10 +13,10 @@ from typing import Any
 
 import pytest
 from live import Address
+from waiting import SECONDS
 from websockets.sync.client import connect
 from websockets.sync.connection import Connection
 
-SECONDS = 60
 FIREFOX = shutil.which("firefox") or shutil.which("firefox-esr")
 
 

@@ -12,12 +12,12 @@ from lineseg_app.handout.handouts import frame_page, lesson_page
 from lineseg_app.shelf.lesson_shelf import LessonShelf
 from playwright.sync_api import Browser, BrowserContext, Page
 from scenes import corner
+from waiting import SECONDS
 
 from lineseg import Params, Recording, extract, trace
 
 LESSONS = LessonShelf()
 CORNER = Recording.from_scans([corner(noise=0.006, seed=1)])
-SECONDS = 20
 
 
 @pytest.fixture(scope="module")

@@ -40,15 +40,9 @@ def hallway():
 
 def scored(tab) -> dict:
     """The strip once it is complete."""
-    script = """async () => {
-        const late = Date.now() + 30000;
-        while (!window.lineseg.strip?.complete) {
-            if (Date.now() > late) throw new Error("waited in vain for the scores");
-            await new Promise((go) => setTimeout(go, 10));
-        }
-        return { ...window.lineseg.strip, values: [...window.lineseg.strip.values] };
-    }"""
-    return tab.page.evaluate(script)
+    return tab.found(
+        "const t = window.lineseg.strip; if (t?.complete) return { ...t, values: [...t.values] };", "the scores"
+    )
 
 
 @pytest.mark.own_tab

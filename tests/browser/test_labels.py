@@ -253,10 +253,10 @@ def test_a_saved_edit_survives_a_kill_of_the_server_and_an_unsaved_one_is_saved_
     tab.page.get_by_text("Not saved: the server does not answer").wait_for()
     assert rows.count() == lines - 2
     killable_server.start()
-    tab.page.locator(".labels-status[data-status=saved]").wait_for(timeout=60_000)
+    tab.page.locator(".labels-status[data-status=saved]").wait_for()
     assert len(read_labels(sidecar, hall)[FRAME].lines or ()) == lines - 2
     tab.page.reload()
-    tab.until(f"s.labels?.lines?.length === {lines - 2}", seconds=60)
+    tab.until(f"s.labels?.lines?.length === {lines - 2}")
     tab.forgive("WebSocket connection", "ERR_CONNECTION_REFUSED", "Failed to load resource")
 
 

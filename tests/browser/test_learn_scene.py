@@ -7,12 +7,13 @@ from typing import Any
 import numpy as np
 import pytest
 from lineseg_app.places import data_folder
+from waiting import SECONDS
 
 from lineseg import Decision, Scan, Trace, open_recording, trace
 
 # Goes through the steps: with the arrow keys to the next one, by its number to one farther off. At each it waits until
 # the buffers that the browser's scene draws from hold what is expected there, and then notes what the page says.
-WALK = """async ([steps, expected]) => {
+WALK = """async ([steps, expected, patience]) => {
     const number = () => document.querySelector("#stepper .stepper-scrubber .frame-number");
     const press = (key) =>
         document.body.dispatchEvent(new KeyboardEvent("keydown", { key, bubbles: true, cancelable: true }));
@@ -45,7 +46,7 @@ WALK = """async ([steps, expected]) => {
         return along ? null : "the drawn line is not the fitted one";
     };
     const seen = [];
-    const late = Date.now() + 150000;
+    const late = Date.now() + 1000 * patience;
     for (const [k, step] of steps.entries()) {
         if (k) go(steps[k - 1], step);
         const why = () => {
@@ -113,7 +114,7 @@ def test_page_scene_and_trace_agree_on_steps_both_ways(new_tab, name):
     # Every step of the shortest.
     back = turns(traced)[::-1]
     steps = list(range(len(traced))) if name == "7_doorway" else back[::-1]
-    forward = tab.page.evaluate(WALK, [steps, expected])
+    forward = tab.page.evaluate(WALK, [steps, expected, SECONDS])
     for step, seen in zip(steps, forward, strict=True):
         decision = traced[step]
         assert (seen["scene"]["index"], seen["scene"]["kind"]) == (step, decision.kind)
@@ -123,4 +124,4 @@ def test_page_scene_and_trace_agree_on_steps_both_ways(new_tab, name):
         if decision.kind in ("point added", "line kept"):
             assert f"{decision.value:.3f} m" in seen["said"]
     said = dict(zip(steps, forward, strict=True))
-    assert tab.page.evaluate(WALK, [back, expected]) == [said[step] for step in back]
+    assert tab.page.evaluate(WALK, [back, expected, SECONDS]) == [said[step] for step in back]

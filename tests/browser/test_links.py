@@ -95,7 +95,11 @@ def test_a_link_to_a_missing_recording_shows_nothing_of_the_one_before(new_tab):
     tab = new_tab("#recording=sample:hallway")
     strip = tab.page.locator("#timeline canvas").first
     tab.eventually(strip.is_visible, "no strip")
+    # Until the server has noticed that the page is gone, its session is given to no other.
+    pupil = new_tab(tab.page.evaluate("new URL(lineseg.followLink).hash"))
+    pupil.until("s.following === 'here'")
     tab.page.goto("about:blank")
+    pupil.until("s.following === 'away'")
     tab.page.goto(f"{tab.address}#recording=sample:gone&name=gone.bag")
     tab.eventually(lambda: tab.page.locator(NOTICE).count(), "no notice")
     tab.eventually(lambda: not strip.is_visible(), "the strip of the recording before is shown")

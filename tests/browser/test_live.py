@@ -14,6 +14,7 @@ from lineseg_app.node.running import Running
 from live import Address
 from robots import wall, watching
 from rosbridge_peer import RosBridgePeer, scan_message
+from waiting import SECONDS
 
 from lineseg import EXTRACTORS
 
@@ -66,7 +67,7 @@ def test_a_robot_is_watched_paused_and_given_its_parameters(robot: Driving, watc
     tab.until("s.first > 2 && s.frames === 30")
     told = tab.page.locator(".live-status")
     tab.eventually(lambda: "dropped" in told.inner_text(), "nothing is told of dropped scans")
-    assert "scans/s" in told.inner_text()
+    tab.eventually(lambda: "scans/s" in told.inner_text(), "the rate is not told")
     assert "frame=" not in tab.page.url
 
     # Paused, the frame stays, whatever arrives; one can scrub back.
@@ -103,7 +104,7 @@ def test_a_robot_is_watched_paused_and_given_its_parameters(robot: Driving, watc
     tab.page.get_by_role("menuitem", name="Publish segments to the robot…").click()
     tab.page.get_by_role("textbox", name="Topic").fill("/walls")
     tab.page.get_by_role("button", name="Publish", exact=True).click()
-    topic, message = robot.peer.received.get(timeout=20)
+    topic, message = robot.peer.received.get(timeout=SECONDS)
     assert (topic, message["markers"][0]["header"]["frame_id"]) == ("/walls", "laser")
     tab.eventually(lambda: "/walls" in told.inner_text(), "publishing is not shown")
     menu.click()

@@ -7,8 +7,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from browser.test_learn_scene import expected_at
+from waiting import SECONDS
 
-from lineseg import open_recording
+from lineseg import open_recording, trace
 
 SAMPLES = Path(__file__).parents[2] / "sample_scans"
 
@@ -65,7 +67,8 @@ def test_replay_forward_and_back_returns_to_the_same_state_and_picture(tab):
     tab.page.keyboard.press("n")
     there = tab.until("s.step > 0")
     assert there["decision"]["kind"] == "line kept"
-    picture = at_rest(tab)
+    scan = open_recording(SAMPLES / "lessons" / "1_perfect_corner.npz")[0]
+    picture = at_rest(tab, expected_at(scan, trace(scan), trace(scan)[there["step"]])["exactly"]["segments"])
     for _ in range(5):
         tab.page.keyboard.press("ArrowLeft")
     tab.until(f"s.step === {there['step'] - 5}")
@@ -86,12 +89,16 @@ def drawn(tab) -> dict:
     )
 
 
-def at_rest(tab) -> dict:
-    """What is drawn once ten checks in a row agree: the status may be ahead of the scene."""
-    looks = [drawn(tab)]
+def at_rest(tab, lines: list[float]) -> dict:
+    """What is drawn once it has these lines and ten checks in a row agree: the status may be ahead of the scene."""
+    looks: list[dict] = []
 
     def same() -> bool:
         looks.append(drawn(tab))
+        points = looks[-1].get("/seen/segments", [""])[0].split(",")
+        there = [float(each) for k, each in enumerate(points) if each and k % 3 < 2]
+        if there != pytest.approx(lines, abs=1e-4):
+            looks.clear()
         return len(looks) > 10 and all(look == looks[-1] for look in looks[-10:])
 
     tab.eventually(same, "the scene never comes to rest")
@@ -211,6 +218,7 @@ def test_a_link_reproduces_the_case_in_a_fresh_tab(tab, browser):
     link = tab.page.url
     assert re.search(r"#recording=sample:\S+&frame=299&min_length=0.3&step=1$", link)
     with browser.new_context() as stranger:
+        stranger.set_default_timeout(1000 * SECONDS)
         fresh = type(tab)(stranger.new_page(), link)
         fresh.open()
         assert seen(fresh.until("s.step === 1")) == seen(before)

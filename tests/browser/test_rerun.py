@@ -13,36 +13,33 @@ from rrd import rows_of
 if TYPE_CHECKING:
     from .conftest import Tab
 
-# rerun's viewer is 43 MB, which a browser without a graphics card has to compile and draw.
-LONG = 240_000
-
 
 def test_the_tab_shows_the_recording_and_its_cursor_and_the_pages_frame_follow_each_other(tab: Tab):
     page = tab.page
     page.set_viewport_size({"width": 900, "height": 600})
     page.get_by_role("button", name="Rerun", exact=True).click()
     follows = page.get_by_text("lineseg shows the frame at the cursor")
-    follows.wait_for(timeout=LONG)
-    page.wait_for_function("() => window.lineseg.rerunFrame === window.lineseg.state.frame", timeout=LONG)
+    follows.wait_for()
+    page.wait_for_function("() => window.lineseg.rerunFrame === window.lineseg.state.frame")
 
     page.keyboard.press("ArrowRight")
     together = "(at) => window.lineseg.state.frame === at && window.lineseg.rerunFrame === at"
-    page.wait_for_function(together, arg=1, timeout=LONG)
+    page.wait_for_function(together, arg=1)
     (frame,) = [frame for frame in page.frames if frame.url.endswith("/rerun/")]
     canvas = frame.locator("canvas")
 
     def viewer_steps() -> bool:
         # A key is lost on a viewer that still draws.
-        canvas.click(position={"x": 200, "y": 200}, timeout=LONG)
-        canvas.press("ArrowRight", timeout=LONG)
+        canvas.click(position={"x": 200, "y": 200})
+        canvas.press("ArrowRight")
         page.wait_for_timeout(1000)
         return page.evaluate("() => window.lineseg.rerunFrame > 1 && window.lineseg.state.frame > 1")
 
-    tab.eventually(viewer_steps, "the viewer takes no keys", seconds=LONG / 1000)
-    page.wait_for_function("() => window.lineseg.state.frame === window.lineseg.rerunFrame", timeout=LONG)
+    tab.eventually(viewer_steps, "the viewer takes no keys")
+    page.wait_for_function("() => window.lineseg.state.frame === window.lineseg.rerunFrame")
 
     tab.type_value("epsilon", "0.05")
-    page.get_by_text("The thresholds have changed").wait_for(timeout=LONG)
+    page.get_by_text("The thresholds have changed").wait_for()
     page.get_by_role("button", name="Record again").wait_for()
     page.get_by_role("button", name="Back to the scene").click()
     follows.wait_for(state="hidden")
@@ -73,5 +70,5 @@ def test_a_browser_that_cannot_draw_is_told_so_and_offered_the_download(new_tab:
     assert tab.scene, "the scene itself must have its canvas before they are taken away"
     tab.page.add_init_script("HTMLCanvasElement.prototype.getContext = () => null; delete Navigator.prototype.gpu;")
     tab.page.get_by_role("button", name="Rerun", exact=True).click()
-    tab.page.get_by_text("needs WebGL 2 or WebGPU").wait_for(timeout=LONG)
+    tab.page.get_by_text("needs WebGL 2 or WebGPU").wait_for()
     assert tab.page.get_by_role("link", name="Download").get_attribute("href")

@@ -16,8 +16,9 @@ from lineseg_app.server import Settings
 from lineseg_app.shelf import library
 from live import Address, serving
 from long import long_hallway
+from waiting import SECONDS
 
-from lineseg import Params, Recording, open_recording
+from lineseg import Params, Recording, Survey, open_recording
 from lineseg.doubt import SCORES
 from lineseg.readers import Progress, Reading, parts, save_npz
 from lineseg.survey import survey
@@ -26,8 +27,6 @@ from lineseg.survey.stability import with_stability
 
 Show = Callable[[Recording], None]
 FRAMES = 3_000
-# The stability of so many frames is computed behind everything else.
-PATIENCE = 150
 
 
 @pytest.fixture(scope="module")
@@ -57,18 +56,13 @@ def long_tab(tab: Tab) -> Tab:
 
 def strip_of(tab, condition: str = "true") -> dict[str, Any]:
     """The strip `t` once it is complete, belongs to the thresholds of the picture, and `condition` holds."""
-    script = f"""async () => {{
-        const late = Date.now() + {1000 * PATIENCE};
-        for (;;) {{
-            const s = window.lineseg.state, t = window.lineseg.strip;
-            const same = t?.complete && Object.entries(t.params).every(([name, value]) => s.params[name] === value);
-            const whole = same && t.values.length === s.frames;
-            if (whole && window.lineseg.settled && ({condition})) return {{ ...t, values: [...t.values] }};
-            if (Date.now() > late) throw new Error("waited in vain for the strip");
-            await new Promise((go) => setTimeout(go, 10));
-        }}
-    }}"""
-    return tab.page.evaluate(script)
+    look = f"""
+        const s = window.lineseg.state, t = window.lineseg.strip;
+        const same = t?.complete && Object.entries(t.params).every(([name, value]) => s.params[name] === value);
+        const whole = same && t.values.length === s.frames;
+        if (whole && window.lineseg.settled && ({condition})) return {{ ...t, values: [...t.values] }};
+    """
+    return tab.found(look, f"the strip, where {condition}")
 
 
 def colours(tab) -> list[list[int]]:
@@ -192,7 +186,14 @@ def test_a_recording_of_one_frame_says_why_there_is_no_strip(tab):
     tab.eventually(note.is_hidden, "the note stays")
 
 
-def test_while_a_score_is_computed_the_strip_says_so(tab):
+def test_while_a_score_is_computed_the_strip_says_so(tab, monkeypatch):
+    go_on = threading.Event()
+
+    def held(*asked: Any) -> Survey:
+        assert go_on.wait(SECONDS)
+        return with_stability(*asked)
+
+    monkeypatch.setattr("lineseg_app.session.strip.with_stability", held)
     strip_of(tab)
     tab.page.evaluate("""() => {
         const note = document.querySelector(".strip-note");
@@ -200,8 +201,11 @@ def test_while_a_score_is_computed_the_strip_says_so(tab):
         new MutationObserver(() => window.noted.push(note.textContent)).observe(note, { childList: true });
     }""")
     tab.page.get_by_label("Score of the frames").select_option("unstable")
+    note = tab.page.locator(".strip-note")
+    tab.eventually(lambda: note.inner_text() == "computing scores…", "nothing says that scores are computed")
+    go_on.set()
     strip_of(tab, "t.score === 'unstable'")
-    tab.eventually(tab.page.locator(".strip-note").is_hidden, "the note stays")
+    tab.eventually(note.is_hidden, "the note stays")
     noted = tab.page.evaluate("window.noted")
     assert (set(noted), noted[-1]) == ({"computing scores…", ""}, "")
 

@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import threading
+
 import pytest
+from lineseg_app.session.session import Session
+from waiting import SECONDS
 
 
 def test_dragging_epsilon_changes_the_segments_before_the_button_is_released(tab):
@@ -133,3 +137,19 @@ def test_each_stage_of_a_change_has_one_mark_and_marks_do_not_pile_up(tab):
     }"""
     tab.eventually(lambda: tab.page.evaluate(script) == "answered changed sent shown", "not one mark of each stage")
     assert tab.page.evaluate("performance.getEntriesByType('mark').length") < 20
+
+
+def test_scripts_hear_that_a_change_is_drawn_however_long_that_takes(tab, monkeypatch):
+    go_on, paint = threading.Event(), Session._paint
+
+    def held(session, *request):
+        assert go_on.wait(SECONDS)
+        return paint(session, *request)
+
+    monkeypatch.setattr(Session, "_paint", held)
+    tab.type_value("epsilon", "0.05")
+    # The page itself waits for three seconds before it sends the next change anyway.
+    tab.page.wait_for_timeout(4000)
+    assert not tab.page.evaluate("window.lineseg.settled")
+    go_on.set()
+    assert tab.state["params"]["epsilon"] == 0.05

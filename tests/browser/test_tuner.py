@@ -18,8 +18,6 @@ from live import Address, serving
 from lineseg import open_recording, save_npz
 
 SAMPLES = Path(__file__).parents[2] / "sample_scans"
-# Kernels may have to be compiled first, and the work is done behind everything else.
-PATIENCE_MS = 120_000
 # Trials, maps and curves of one test are not those of another.
 pytestmark = pytest.mark.own_tab
 
@@ -42,14 +40,13 @@ def address(thinned: tuple[Path, Path], tmp_path_factory: pytest.TempPathFactory
 
 
 def curves_of(tab, note: str = "all 30 frames") -> None:
-    script = "(note) => document.querySelector('.curves-note')?.textContent === note"
-    tab.page.wait_for_function(script, arg=note, timeout=PATIENCE_MS)
+    said = tab.page.locator(".curves-note")
+    tab.eventually(lambda: said.text_content() == note, f"the curves are not those of {note}")
 
 
 def tuner(tab, part: str, condition: str) -> dict:
     """The state of `map` or `auto` for scripts, once it meets a condition."""
-    script = f"() => {{ const s = window.lineseg.tuner.{part}; return s && ({condition}) ? s : null; }}"
-    return tab.page.wait_for_function(script, timeout=PATIENCE_MS).json_value()
+    return tab.found(f"const s = window.lineseg.tuner.{part}; if (s && ({condition})) return s;", condition)
 
 
 def test_curves_stand_under_the_sliders_follow_them_and_can_be_clicked(tab):
