@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import re
+import threading
 from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -14,8 +15,10 @@ import pytest
 from lineseg_app.__main__ import main
 from lineseg_app.server import Settings
 from live import Address, serving
+from waiting import SECONDS
 
 from lineseg import open_recording, save_npz
+from lineseg.tuning import Trial, Tuning
 
 SAMPLES = Path(__file__).parents[2] / "sample_scans"
 # Trials, maps and curves of one test are not those of another.
@@ -148,10 +151,29 @@ def test_the_table_of_a_sweep_is_a_map_and_a_click_takes_its_setting(tab, thinne
     tuner(tab, "map", "!s.sweep && s.side === 25 && !s.running")
 
 
-def test_auto_tuning_shows_its_trials_stops_goes_on_and_is_adopted(tab):
-    # The whole sample, since a search over the thinned one is over before it can be stopped.
-    tab.choose_recording("Hallway (simulated)")
-    tab.until("s.frames === 300")
+class Search:
+    """Searches that go no further than to `most` trials before they are let go: a test can stop them in the middle."""
+
+    def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
+        self._step, self._most, self._go_on = Tuning.step, 0, threading.Event()
+        monkeypatch.setattr(Tuning, "step", lambda tuning: self._held(tuning))
+
+    def hold(self, most: int) -> None:
+        self._most = most
+        self._go_on.clear()
+
+    def let_go(self) -> None:
+        self._go_on.set()
+
+    def _held(self, tuning: Tuning) -> Trial:
+        if len(tuning.trials()) >= self._most:
+            assert self._go_on.wait(SECONDS)
+        return self._step(tuning)
+
+
+def test_auto_tuning_shows_its_trials_stops_goes_on_and_is_adopted(tab, monkeypatch):
+    search = Search(monkeypatch)
+    search.hold(12)
     tab.page.get_by_role("tab", name="Auto").click()
     panel = tab.page.locator(".auto-page")
     panel.get_by_label("Objective").select_option("label-free")
@@ -162,6 +184,7 @@ def test_auto_tuning_shows_its_trials_stops_goes_on_and_is_adopted(tab):
     tuner(tab, "auto", "s.trials >= 12")
     assert "harmonic mean of TR and 1 − FR" in panel.inner_text()
     panel.get_by_role("button", name="Stop").click()
+    search.let_go()
     stopped = tuner(tab, "auto", "!s.running")
     assert re.search(r"^(No gain|Gain \+)", stopped["verdict"])
     assert stopped["trials"] < 100
@@ -170,9 +193,11 @@ def test_auto_tuning_shows_its_trials_stops_goes_on_and_is_adopted(tab):
     tab.eventually(lambda: lines.count() == stopped["trials"], "the picture lacks trials")
     assert panel.locator(".auto-row").count() == 5
 
+    search.hold(stopped["trials"] + 1)
     panel.get_by_role("button", name="Go on").click()
     tuner(tab, "auto", f"s.trials > {stopped['trials']}")
     panel.get_by_role("button", name="Stop").click()
+    search.let_go()
     found = tuner(tab, "auto", "!s.running")
     tab.page.get_by_role("tab", name="Thresholds").click()
     tab.type_value("epsilon", "0.09")
@@ -181,9 +206,11 @@ def test_auto_tuning_shows_its_trials_stops_goes_on_and_is_adopted(tab):
     panel.get_by_role("button", name=re.compile("Adopt the best")).click()
     adopted = tab.until("s.params.epsilon !== 0.09")["params"]
     assert adopted == found["best"]
+    search.hold(1)
     panel.get_by_role("button", name="Start over").click()
     tuner(tab, "auto", "s.running && s.trials >= 1")
     panel.get_by_role("button", name="Stop").click()
+    search.let_go()
     tuner(tab, "auto", "!s.running")
 
 
