@@ -9,7 +9,7 @@ from typing import Any, TypeVar
 T = TypeVar("T")
 # No test depends on how fast a machine is: this ends one that would never end. The first on a machine waits for the
 # kernels to be compiled.
-SECONDS = 240
+SECONDS = 480
 
 
 def eventually(look: Callable[[], T], what: str, seen: Callable[[], Any] | None = None, every: float = 0.02) -> T:
