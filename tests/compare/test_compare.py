@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from lineseg_app.__main__ import main
 from processes import lineseg
+from waiting import SECONDS
 
 from lineseg import EXTRACTORS, Params, Recording, agreements, open_recording
 from lineseg.compare import TABLE_WRITERS, Comparison, halves
@@ -196,7 +197,7 @@ def test_ctrl_c_writes_the_finished_part():
     assert process.stderr
     assert "hallway.npz: 30 frames for tuning, 30 for judging" in process.stderr.readline()
     process.send_signal(signal.SIGINT)
-    out, error = process.communicate(timeout=120)
+    out, error = process.communicate(timeout=SECONDS)
     assert (process.returncode, error) == (0, "lineseg: stopped; writing the results so far.\n")
     assert "| 1 | Region growing |" in out or "| 1 | Line tracking |" in out
 

@@ -3,6 +3,8 @@
 import subprocess
 import sys
 
+from waiting import SECONDS
+
 PROGRAM = """
 import numpy as np
 from lineseg.total_least_squares import distance, squares_of
@@ -14,7 +16,7 @@ print([squares_of(x, y, k, k + 40, (0.6, 0.8, -0.1)) for k in range(900)])
 
 def said_by(before: str) -> str:
     command = [sys.executable, "-c", PROGRAM.format(before)]
-    return subprocess.run(command, capture_output=True, text=True, check=True, timeout=200).stdout
+    return subprocess.run(command, capture_output=True, text=True, check=True, timeout=SECONDS).stdout
 
 
 def test_squares_are_summed_to_the_same_bits_whatever_was_compiled_before():

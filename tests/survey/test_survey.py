@@ -11,6 +11,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from scenes import chipped, corner, room, scan_of, scans, wall_ahead
+from waiting import SECONDS
 
 from lineseg import EXTRACTORS, Cancelled, Params, Recording, Scan, extract, open_recording, trace
 from lineseg.doubt import SCORES
@@ -257,7 +258,9 @@ except IndexError:
         "NUMBA_OPT": "0",
         "PYTHONPATH": os.pathsep.join(map(str, Path(__file__).parents[:2])),
     }
-    done = subprocess.run([sys.executable, "-c", program], env=environment, capture_output=True, text=True, timeout=280)
+    done = subprocess.run(
+        [sys.executable, "-c", program], env=environment, capture_output=True, text=True, timeout=SECONDS
+    )
     assert done.returncode == 0, done.stderr
     assert done.stdout.strip() == "stayed inside"
 

@@ -5,13 +5,13 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 import pytest
 from lineseg_app.__main__ import main
+from waiting import SECONDS, eventually
 
 from lineseg import Params, Recording, open_recording
 from lineseg.readers import save_npz
@@ -193,7 +193,9 @@ def cluster(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[str, lis
     worker = [*dask, "worker", *local, "--host", "127.0.0.1", "--nthreads", "1", "--no-nanny"]
     workers = [subprocess.Popen([*worker, "--name", str(k)], **quiet) for k in range(2)]
     try:
-        yield _address_in(where, workers=2), workers
+        with pytest.MonkeyPatch.context() as patient:
+            patient.setattr("lineseg.sweep.workers.CONNECT_SECONDS", SECONDS)
+            yield _address_in(where, workers=2), workers
     finally:
         for process in [*workers, scheduler]:
             process.send_signal(signal.SIGKILL)
@@ -206,13 +208,10 @@ def _address_in(where: Path, workers: int) -> str:
 
     from distributed import Client
 
-    late = time.monotonic() + 120
-    while not (where.exists() and where.read_text().endswith("}")):
-        assert time.monotonic() < late, "the scheduler does not start"
-        time.sleep(0.05)
+    eventually(lambda: where.exists() and where.read_text().endswith("}"), "the scheduler to start")
     address = json.loads(where.read_text())["address"]
-    with Client(address, set_as_default=False) as client:
-        client.wait_for_workers(workers, timeout=120)
+    with Client(address, timeout=SECONDS, set_as_default=False) as client:
+        client.wait_for_workers(workers, timeout=SECONDS)
     return address
 
 
