@@ -10,6 +10,8 @@ from collections.abc import Callable
 import uvicorn
 from starlette.types import ASGIApp
 
+from .connections import Connection, most_connections
+
 SHUTDOWN_SECONDS = 3
 LARGEST_PORT = 65_535
 # Of a WebSocket.
@@ -34,8 +36,10 @@ REFUSED = "ASGI callable returned without completing handshake."
 
 
 def server_of(app: ASGIApp, ready: Callable[[], None] = lambda: None) -> Server:
+    Connection.most = most_connections()
     config = uvicorn.Config(
         app,
+        http=Connection,
         log_level="warning",
         access_log=False,
         server_header=False,

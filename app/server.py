@@ -60,6 +60,7 @@ from .shelf.library import Library
 from .shelf.recent import Recent
 from .shelf.scratch import remove_leftovers
 from .shelf.uploads import Uploads
+from .socket_limit import SocketLimit
 
 WAITING_THREADS = 32
 MOST_KEPT = 20_000
@@ -145,6 +146,7 @@ def create_app(settings: Settings) -> FastAPI:
 
     app = FastAPI(lifespan=lifespan, openapi_url=None, docs_url=None, redoc_url=None)
     app.add_middleware(BodyLimit)
+    app.add_middleware(SocketLimit)
     app.add_middleware(
         Guard, host=settings.host, token=settings.token, names=settings.names, embedders=settings.embedders
     )

@@ -8,6 +8,8 @@ from collections.abc import Iterator
 from websockets.exceptions import ConnectionClosed, ConnectionClosedOK
 from websockets.sync.connection import Connection
 
+from .bridge import LARGEST_MESSAGE
+
 MOST_WAITING = 64
 
 
@@ -23,7 +25,8 @@ def arrivals(socket: Connection) -> Iterator[tuple[float, list[str | bytes]]]:
             return
         arrived = time.perf_counter()
         try:
-            while len(waiting) < MOST_WAITING:
+            # All of these are decoded before the first is handed over.
+            while len(waiting) < MOST_WAITING and sum(map(len, waiting)) < LARGEST_MESSAGE:
                 waiting.append(socket.recv(timeout=0))
         except (TimeoutError, ConnectionClosed):
             pass  # the next `recv` raises again

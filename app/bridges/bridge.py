@@ -13,7 +13,8 @@ from lineseg.readers.laser_scan import LaserScan
 from .outgoing import Message
 
 OPEN_SECONDS, CLOSE_SECONDS = 5.0, 1.0
-LARGEST_MESSAGE = 4 * 1024 * 1024
+# JSON takes several times as many bytes as the numbers themselves.
+LARGEST_MESSAGE, LARGEST_SAMPLE = 4 * 1024 * 1024, 1024 * 1024
 
 
 class Told(Protocol):
@@ -66,6 +67,8 @@ def why_not(place: str, error: Exception) -> str:
         return f"{place} does not answer"
     if isinstance(error, ConnectionRefusedError):
         return f"nothing listens at {place}"
+    if isinstance(error, BlockingIOError) or isinstance(error.__cause__, BlockingIOError):
+        return f"{place} takes no messages any more"
     if isinstance(error, ConnectionClosed):
         if error.sent is not None and error.sent.code == CloseCode.MESSAGE_TOO_BIG:
             return f"{place} sent a message of more than {LARGEST_MESSAGE >> 20} MB"

@@ -12,6 +12,7 @@ from cyclonedds.core import DDSException
 from cyclonedds.domain import Domain, DomainParticipant
 
 from .address import domain_of
+from .bridge import LARGEST_SAMPLE
 
 RANGES = ("LOCALHOST", "SUBNET", "OFF", "SYSTEM_DEFAULT")
 # Cyclone DDS announces itself to a peer for 30 s only; a robot may start later, and may listen to nothing else.
@@ -20,6 +21,8 @@ STEADY = "<SPDPInterval>1s</SPDPInterval><InitialLocatorPruneDelay>inf</InitialL
 # a ROS message do not depend on this.
 OTHER_VENDORS = ",".join(f"1.{vendor}" for vendor in range(1, 33) if vendor != 16)
 LENIENT = f"<Compatibility><IgnoreTypeInformation>{OTHER_VENDORS}</IgnoreTypeInformation></Compatibility>"
+# Without a limit, Cyclone DDS takes samples of 2 GB.
+SIZES = f"<Internal><MaxSampleSize>{LARGEST_SAMPLE} B</MaxSampleSize></Internal>"
 PARTICIPANTS = "<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>32</MaxAutoParticipantIndex>"
 
 
@@ -56,7 +59,7 @@ def discovery(environ: Mapping[str, str]) -> str:
     others = PARTICIPANTS + f"<Peers>{found}</Peers>" if found else ""
     others = f"<Tag>off-{os.getpid()}</Tag>" if range == "OFF" else others
     general = f"<General>{general}</General>" if general else ""
-    return f"<CycloneDDS><Domain>{general}<Discovery>{STEADY}{others}</Discovery>{LENIENT}</Domain></CycloneDDS>"
+    return f"<CycloneDDS><Domain>{general}<Discovery>{STEADY}{others}</Discovery>{LENIENT}{SIZES}</Domain></CycloneDDS>"
 
 
 def _peers(text: str) -> list[str]:

@@ -6,7 +6,7 @@ import base64
 import json
 import struct
 from functools import partial
-from typing import Any
+from typing import Any, NamedTuple
 
 from websockets.sync.connection import Connection
 from websockets.typing import Subprotocol
@@ -22,7 +22,25 @@ SUBPROTOCOLS = [Subprotocol("foxglove.sdk.v1"), Subprotocol("foxglove.websocket.
 MESSAGE_DATA = 1
 HEADER = struct.Struct("<BIQ")
 SUBSCRIPTION = 1
-MOST_CHANNELS = 10_000
+MOST_CHANNELS, MOST_BYTES = 10_000, 16 * 1024 * 1024
+
+
+class Channel(NamedTuple):
+    """schema: kept of channels of scans alone, because robots offer many others; trouble: why it cannot be used."""
+
+    topic: str
+    type: str
+    encoding: str
+    schema: bytes
+    trouble: str
+    is_laser: bool
+
+    @property
+    def size(self) -> int:
+        return sum(map(len, (self.topic, self.type, self.encoding, self.schema, self.trouble)))
+
+    def __str__(self) -> str:
+        return f"{self.topic[:80]} is {self.type[:80] or 'of no type'} as {self.encoding[:40]}"
 
 
 class Foxglove:
@@ -32,7 +50,7 @@ class Foxglove:
 
     def __init__(self, socket: Connection) -> None:
         self._socket = socket
-        self._channels: dict[int, dict[str, Any]] = {}
+        self._channels: dict[int, Channel] = {}
         self._chosen: int | None = None
         self._decode: Decoder | None = None
         self._server: dict[str, Any] = {}
@@ -76,8 +94,8 @@ class Foxglove:
             case "serverInfo":
                 self._server = message
             case "advertise":
-                there = [each for each in list_of(message.get("channels")) if _is_channel(each)]
-                self._channels |= {channel["id"]: channel for channel in there[: MOST_CHANNELS - len(self._channels)]}
+                for each in list_of(message.get("channels")):
+                    self._add(each)
             case "unadvertise":
                 for id in list_of(message.get("channelIds")):
                     if isinstance(id, int):
@@ -94,66 +112,63 @@ class Foxglove:
         if self._chosen is None:
             self._choose(topic, told)
 
+    def _add(self, said: Any) -> None:
+        """A channel, if it has what every channel has: an id, and the names of its topic, its type and its encoding."""
+        named = isinstance(said, dict) and type(said.get("id")) is int
+        if not named or not all(isinstance(said.get(name), str) for name in ("topic", "schemaName", "encoding")):
+            return
+        channel = _channel(said)
+        self._channels.pop(said["id"], None)
+        held = sum(each.size for each in self._channels.values()) if channel.is_laser else 0
+        if len(self._channels) < MOST_CHANNELS and held + channel.size <= MOST_BYTES:
+            self._channels[said["id"]] = channel
+
     def _choose(self, topic: str | None, told: Told) -> None:
         troubles: list[str] = []
         for id, channel in self._channels.items():
-            if topic in (None, channel["topic"]) and _is_laser(channel):
+            if topic in (None, channel.topic) and channel.is_laser:
                 try:
                     self._decode = _decoder(channel)
                 except ValueError as error:
-                    troubles.append(f"{_shown(channel)}: {error}")
+                    troubles.append(f"{channel}: {error}")
                     continue
                 self._chosen = id
-                told.topic_is(channel["topic"])
-                told.waits(f"subscribed to {channel['topic']}; waiting for its first scan")
+                told.topic_is(channel.topic)
+                told.waits(f"subscribed to {channel.topic}; waiting for its first scan")
                 self._send(op="subscribe", subscriptions=[{"id": SUBSCRIPTION, "channelId": id}])
                 return
         told.waits(next(iter(troubles), "") or self._why_none(topic))
 
     def _why_none(self, topic: str | None) -> str:
-        named = [channel for channel in self._channels.values() if channel["topic"] == topic]
+        there = list(self._channels.values())
+        named = [channel for channel in there if channel.topic == topic]
         if named:
-            return f"{_shown(named[0])}; choose a sensor_msgs/LaserScan or foxglove.LaserScan as {', '.join(ENCODINGS)}"
-        lasers = [channel for channel in self._channels.values() if topic is None and is_laser(channel["schemaName"])]
+            return f"{named[0]}; choose a sensor_msgs/LaserScan or foxglove.LaserScan as {', '.join(ENCODINGS)}"
+        lasers = [channel for channel in there if topic is None and is_laser(channel.type)]
         if lasers:
-            return f"{_shown(lasers[0])}, which cannot be read; publish it as {', '.join(ENCODINGS)}"
-        there = ", ".join(_shown(channel) for channel in list(self._channels.values())[:8])
+            return f"{lasers[0]}, which cannot be read; publish it as {', '.join(ENCODINGS)}"
         missing = f"has no topic {topic}" if topic else "has no sensor_msgs/LaserScan topic"
-        return f"the robot {missing} yet; it has {there or 'no topic at all'}"
+        return f"the robot {missing} yet; it has {', '.join(map(str, there[:8])) or 'no topic at all'}"
 
     def _send(self, **message: Any) -> None:
         self._socket.send(json.dumps(message))
 
 
-def _is_channel(channel: Any) -> bool:
-    """Whether it has what every channel has: an id, and the names of its topic, its type and its encoding."""
-    named = isinstance(channel, dict) and type(channel.get("id")) is int
-    return named and all(isinstance(channel.get(name), str) for name in ("topic", "schemaName", "encoding"))
-
-
-def _is_laser(channel: dict[str, Any]) -> bool:
+def _channel(said: dict[str, Any]) -> Channel:
+    topic, type, encoding = said["topic"], said["schemaName"], said["encoding"]
+    text, trouble = str(said.get("schema", "")), ""
     try:
-        schema = _schema(channel)
-    except ValueError:
-        schema = b""  # told when it is needed to decode
-    return channel["encoding"] in ENCODINGS and is_laser(channel["schemaName"], channel["encoding"], schema)
-
-
-def _decoder(channel: dict[str, Any]) -> Decoder:
-    """Raises ValueError if the channel's schema cannot be used."""
-    return decoder_of(channel["schemaName"], channel["encoding"], _schema(channel), 0)
-
-
-def _schema(channel: dict[str, Any]) -> bytes:
-    """The schema of a channel; binary ones come as base64. Raises ValueError for other text."""
-    text = str(channel.get("schema", ""))
-    if channel["encoding"] != "protobuf":
-        return text.encode("utf-8", "replace")
-    try:
-        return base64.b64decode(text, validate=True)
+        # Binary schemas come as base64.
+        packed = encoding == "protobuf"
+        schema = base64.b64decode(text, validate=True) if packed else text.encode("utf-8", "replace")
     except ValueError as error:
-        raise ValueError(f"its schema is not base64 ({error})") from None
+        schema, trouble = b"", f"its schema is not base64 ({error})"
+    is_scans = encoding in ENCODINGS and is_laser(type, encoding, schema)
+    return Channel(topic, type, encoding, schema if is_scans else b"", trouble, is_scans)
 
 
-def _shown(channel: dict[str, Any]) -> str:
-    return f"{channel['topic'][:80]} is {channel['schemaName'][:80] or 'of no type'} as {channel['encoding'][:40]}"
+def _decoder(channel: Channel) -> Decoder:
+    """Raises ValueError if the channel's schema cannot be used."""
+    if channel.trouble:
+        raise ValueError(channel.trouble)
+    return decoder_of(channel.type, channel.encoding, channel.schema, 0)

@@ -9,13 +9,14 @@ from typing import Any
 from urllib.parse import urlsplit
 
 from websockets.exceptions import WebSocketException
-from websockets.sync.client import connect
 
 from lineseg import Params
 
 from .address import check_address
-from .bridge import LARGEST_MESSAGE, OPEN_SECONDS, why_not
+from .bridge import why_not
+from .heard import list_of
 from .rosbridge import RobotError, RosBridge
+from .websocket import connected
 
 ALL_SECONDS = 12.0
 # rcl_interfaces/msg/ParameterType
@@ -47,7 +48,7 @@ def send_params(url: str, node: str, params: Params, ros: int = 2, extensions: b
     check_address(url)
     place = urlsplit(url).netloc
     try:
-        with connect(url, open_timeout=OPEN_SECONDS, max_size=LARGEST_MESSAGE, proxy=None) as socket:
+        with connected(url) as socket:
             bridge = RosBridge(socket, ALL_SECONDS)
             values = dict(_values(params, extensions))
             return (_set_ros1 if ros == 1 else _set_ros2)(bridge, node, values)
@@ -66,11 +67,12 @@ def _values(params: Params, extensions: bool) -> Iterator[tuple[str, tuple[str, 
 def _set_ros2(bridge: RosBridge, node: str, values: dict[str, tuple[str, int | float]]) -> list[Sent]:
     """rcl_interfaces/srv/SetParameters, then GetParameters."""
     parameters = [{"name": name, "value": _value_of(value)} for name, (_, value) in values.items()]
-    results = bridge.call(f"{node}/set_parameters", {"parameters": parameters}).get("results", [])
-    now = bridge.call(f"{node}/get_parameters", {"names": list(values)}).get("values", [])
+    results = list_of(bridge.call(f"{node}/set_parameters", {"parameters": parameters}).get("results"))
+    now = list_of(bridge.call(f"{node}/get_parameters", {"names": list(values)}).get("values"))
     if len(results) != len(values) or len(now) != len(values):
         raise RobotError(f"it sent {len(results)} results and {len(now)} values for {len(values)} parameters")
-    reasons = ["" if result.get("successful") else str(result.get("reason") or "refused") for result in results]
+    answers = [result if isinstance(result, dict) else {} for result in results]
+    reasons = ["" if answer.get("successful") else str(answer.get("reason") or "refused") for answer in answers]
     return _sent(values, [_plain(value) for value in now], reasons)
 
 

@@ -47,12 +47,15 @@ class RosBridge:
         id = next(self._ids)
         self._send(op="call_service", id=id, service=service, args=dict(args))
         late = min(time.monotonic() + seconds, self._ends)
-        while True:
-            message = object_of(self._socket.recv(timeout=max(late - time.monotonic(), 0)))
+        while (left := late - time.monotonic()) > 0:
+            message = object_of(self._socket.recv(timeout=left))
             if message.get("op") == "service_response" and message.get("id") == id:
                 break
             if _is_trouble(message) and message.get("id") in (id, None):
                 raise RobotError(str(message.get("msg")))
+        else:
+            # Other messages came all the time.
+            raise TimeoutError
         values = message.get("values")
         if message.get("result") is False:
             raise RobotError(values if isinstance(values, str) and values else f"{service} failed without a reason")

@@ -27,7 +27,7 @@ from zenoh.ext import HistoryConfig, declare_advanced_subscriber
 from lineseg.readers.bags.decoders import plain_type
 from lineseg.readers.laser_scan import decode_cdr
 
-from .bridge import OPEN_SECONDS, Told, hand_all
+from .bridge import LARGEST_SAMPLE, OPEN_SECONDS, Told, hand_all
 from .outgoing import Message, dds_type, full_type, typestore
 from .topics import LASER_SCAN, LOOK_SECONDS, Offer, awaited_topic, of_lasers
 
@@ -255,6 +255,7 @@ def _config(router: str) -> zenoh.Config:
         ("connect/timeout_ms", str(milliseconds)),
         ("connect/exit_on_failure", "true"),
         ("scouting/multicast/enabled", "false"),
+        ("transport/link/rx/max_message_size", str(LARGEST_SAMPLE)),
     ):
         config.insert_json5(path, value)
     return config

@@ -8,6 +8,7 @@ import json
 import os
 import re
 import socket
+import threading
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from urllib.parse import urlsplit
@@ -88,25 +89,43 @@ def named_nodes(addresses: Sequence[str]) -> Iterator[Offer]:
 
 def send_to_node(offer: Offer, method: str, params: dict[str, int | float]) -> NodeState:
     """What the node runs afterwards. Raises ValueError if it refuses, OSError if it does not answer."""
-    parts = urlsplit(offer.address)
-    connection = http.client.HTTPConnection(parts.hostname or "", parts.port or 80, timeout=SEND_SECONDS)
     headers = {"Authorization": f"Bearer {offer.token}", "Content-Type": "application/json"}
     try:
-        connection.request("PUT", PATH, json.dumps({"method": method, "params": params}), headers)
-        answer = connection.getresponse()
-        text = answer.read(LARGEST_ANSWER)
+        with _connected(offer.address) as connection:
+            connection.request("PUT", PATH, json.dumps({"method": method, "params": params}), headers)
+            answer = connection.getresponse()
+            text = answer.read(LARGEST_ANSWER)
     except (OSError, http.client.HTTPException) as error:
         raise OSError(
             f"{offer.address} does not answer ({error or type(error).__name__}); is the node running?"
         ) from None
-    finally:
-        connection.close()
     try:
         if answer.status == http.client.OK:
             return NodeState.model_validate_json(text)
         raise ValueError(f"{offer.address} says: {json.loads(text)['message']}{_token_hint(answer.status)}")
     except (ValidationError, json.JSONDecodeError, TypeError, KeyError):
         raise OSError(f"{offer.address} answers, but it is not a node of lineseg") from None
+
+
+@contextlib.contextmanager
+def _connected(address: str) -> Iterator[http.client.HTTPConnection]:
+    """A connection that ends after SEND_SECONDS, whatever comes; its own time limit begins anew with each byte."""
+    parts = urlsplit(address)
+    connection = http.client.HTTPConnection(parts.hostname or "", parts.port or 80, timeout=SEND_SECONDS)
+    connection.connect()
+    giving_up = threading.Timer(SEND_SECONDS, _hang_up, (connection.sock,))
+    giving_up.daemon = True
+    giving_up.start()
+    try:
+        yield connection
+    finally:
+        giving_up.cancel()
+        connection.close()
+
+
+def _hang_up(connection: socket.socket) -> None:
+    with contextlib.suppress(OSError):
+        connection.shutdown(socket.SHUT_RDWR)
 
 
 def _token_hint(status: int) -> str:

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from fastapi import Request
 from starlette.exceptions import HTTPException
 
-from ..shelf.uploads import TooLargeError, TooManyError, TooSlowError
+from ..shelf.uploads import TooLargeError, TooManyError
 
 
 async def body_of(request: Request, most: int, what: str) -> bytes:
@@ -36,8 +36,6 @@ def storing(name: str) -> Iterator[None]:
         raise HTTPException(413, str(error)) from None
     except TooManyError as error:
         raise HTTPException(429, str(error)) from None
-    except TooSlowError as error:
-        raise HTTPException(408, str(error)) from None
     except ValueError as error:
         raise HTTPException(400, str(error)) from None
     except OSError as error:

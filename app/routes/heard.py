@@ -2,7 +2,21 @@
 
 from __future__ import annotations
 
+import asyncio
+
 from starlette.websockets import WebSocket, WebSocketDisconnect
+
+FIRST_SECONDS = 10.0
+POLICY_REFUSAL = 1008
+
+
+async def first_text_from(socket: WebSocket) -> str:
+    """The first message. Closes the connection and raises WebSocketDisconnect if none comes for a while."""
+    try:
+        return await asyncio.wait_for(text_from(socket), FIRST_SECONDS)
+    except TimeoutError:
+        await socket.close(POLICY_REFUSAL, f"nothing came for {FIRST_SECONDS:g} s")
+        raise WebSocketDisconnect(POLICY_REFUSAL) from None
 
 
 async def text_from(socket: WebSocket) -> str:

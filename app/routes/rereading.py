@@ -22,6 +22,7 @@ from ..shelf.library import Library
 from ..shelf.preview import first_lines, for_the_page, named_in, preview
 from ..told.answers import Previewed
 from ..view import reread
+from .heard import text_from
 
 log = logging.getLogger(__name__)
 
@@ -123,11 +124,13 @@ def add_rereading(app: FastAPI, library: Library) -> None:
                 asyncio.run_coroutine_threadsafe(socket.send_text(json.dumps(answer)), loop).result(30)
 
         looker = Looker(library, send)
-        with contextlib.suppress(WebSocketDisconnect, RuntimeError):
-            while True:
-                text = await socket.receive_text()
-                try:
-                    looker.look(Try.model_validate_json(text))
-                except ValidationError as error:
-                    await socket.send_text(json.dumps({"job": -1, "message": sentence(error)}))
-        await asyncio.to_thread(looker.close)
+        try:
+            with contextlib.suppress(WebSocketDisconnect, RuntimeError):
+                while True:
+                    text = await text_from(socket)
+                    try:
+                        looker.look(Try.model_validate_json(text))
+                    except ValidationError as error:
+                        await socket.send_text(json.dumps({"job": -1, "message": sentence(error)}))
+        finally:
+            await asyncio.to_thread(looker.close)

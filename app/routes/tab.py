@@ -27,7 +27,7 @@ from ..shelf.library import Library
 from ..told.messages import Failure, MethodEntry, Quick, ReadingEntry, Recordings, ScoreEntry, Surveyed, Welcome
 from ..view import STRIP_SCORES, View
 from ..wire import BadMessageError, Cancel, Change, Close, Follow, Hello, Incoming, OpenLink, parse
-from .heard import text_from
+from .heard import first_text_from, text_from
 from .live_status import tell_live
 from .viser_relay import client_page, relay
 
@@ -96,7 +96,7 @@ def add_sockets(app: FastAPI, library: Library, sessions: Sessions, asked: bool)
 
 async def _hello(socket: WebSocket) -> Hello | None:
     try:
-        message = parse(await text_from(socket))
+        message = parse(await first_text_from(socket))
     except BadMessageError as error:
         await _tell(socket, Failure(where="server", message=str(error)))
         message = None

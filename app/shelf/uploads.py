@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import asyncio
 import secrets
 import shutil
 import threading
-import time
 import unicodedata
 from collections.abc import AsyncIterator
 from dataclasses import dataclass
@@ -17,17 +15,10 @@ from .scratch import Scratch
 LONGEST_NAME = 120
 # Files of one lesson.
 MOST_TOGETHER = 100
-SILENT_SECONDS = 10.0
-# In bytes a second.
-SLOWEST = 4_000
 
 
 class TooLargeError(ValueError):
     """The upload is too large."""
-
-
-class TooSlowError(ValueError):
-    """The upload does not proceed."""
 
 
 class TooManyError(ValueError):
@@ -86,7 +77,7 @@ class Uploads:
             path = folder / safe_name(name)
             try:
                 folder.mkdir(parents=True, exist_ok=begun is not None)
-                size = await self._write(path, name, _steady(name, chunks))
+                size = await self._write(path, name, chunks)
             except BaseException:
                 self.discard(id)
                 shutil.rmtree(home, ignore_errors=True)
@@ -147,25 +138,6 @@ class Uploads:
             f"{safe_name(name)} is larger than {self.limit / 1e6:g} MB, the limit for uploads; "
             "open it from the command line instead"
         )
-
-
-async def _steady(name: str, chunks: AsyncIterator[bytes]) -> AsyncIterator[bytes]:
-    """The chunks. Raises TooSlowError if none comes for a while, or if they come so slowly that they hold up others."""
-    begun, size = time.monotonic(), 0
-    while True:
-        try:
-            chunk = await asyncio.wait_for(anext(chunks), SILENT_SECONDS)
-        except StopAsyncIteration:
-            return
-        except TimeoutError:
-            raise TooSlowError(f"nothing came of {safe_name(name)} for {SILENT_SECONDS:g} s; upload it again") from None
-        size += len(chunk)
-        took = time.monotonic() - begun
-        if took > SILENT_SECONDS and size < SLOWEST * took:
-            raise TooSlowError(
-                f"{safe_name(name)} comes with less than {SLOWEST / 1000:g} kB/s; open it from the command line instead"
-            )
-        yield chunk
 
 
 def safe_name(name: str) -> str:

@@ -17,6 +17,7 @@ CDR_HEADER, NUMBERS = ({order: struct.Struct(order + form) for order in "<>"} fo
 PLAIN = (0x00, 0x01, 0x06, 0x07, 0x10, 0x11)
 FLOATS = {order: np.dtype(f"{order}f4") for order in "<>"}
 TYPES = ("sensor_msgs/LaserScan", "sensor_msgs/msg/LaserScan")
+LONGEST_FRAME_ID = 200
 
 
 class LaserScan(NamedTuple):
@@ -88,7 +89,7 @@ def _decode(data: bytes, seconds: int, nanoseconds: int, at: int, length: int, n
     ranges = np.frombuffer(data, FLOATS[order], count, numbers + 32)
     if not ranges.dtype.isnative:
         ranges = ranges.astype(np.float32)
-    frame_id = data[at : at + length].decode("utf-8", "replace")
+    frame_id = data[at : at + min(length, LONGEST_FRAME_ID)].decode("utf-8", "replace")
     return _checked(
         seconds, nanoseconds, frame_id, angle_min, angle_max, increment, range_min, range_max, ranges, pause
     )
@@ -155,7 +156,7 @@ def _number(message: Mapping[str, Any], name: str, usual: float | None = None) -
 
 def _text(value: Any) -> str:
     """Without halves of characters, which JSON may hold and no other message can."""
-    return str(value)[:200].encode("utf-8", "replace").decode()
+    return str(value)[:LONGEST_FRAME_ID].encode("utf-8", "replace").decode()
 
 
 def _whole(stamp: Mapping[str, Any], *names: str) -> int:

@@ -24,9 +24,8 @@ from lineseg_app.scene.portless import PortlessServer
 from lineseg_app.server import Settings
 from lineseg_app.session.session import Session
 from lineseg_app.session.sessions import SessionLimits
-from lineseg_app.shelf import uploads
 from lineseg_app.shelf.scratch import Scratch, remove_leftovers
-from lineseg_app.shelf.uploads import TooManyError, TooSlowError, Uploads
+from lineseg_app.shelf.uploads import Uploads
 from live import Address, Page, page_of, serving
 from starlette.exceptions import HTTPException
 from waiting import SECONDS, eventually
@@ -36,37 +35,8 @@ from lineseg.readers import Progress
 from lineseg.unfinished import FILES, FOLDERS, LOCK
 
 
-async def nothing() -> AsyncIterator[bytes]:
-    yield b"begun"
-    await asyncio.Event().wait()
-
-
-async def dripping() -> AsyncIterator[bytes]:
-    while True:
-        await asyncio.sleep(0.01)
-        yield b"."
-
-
 async def bytes_of(content: bytes) -> AsyncIterator[bytes]:
     yield content
-
-
-@pytest.mark.parametrize("chunks", [nothing, dripping])
-def test_uploads_that_do_not_proceed_make_room_for_others(monkeypatch: pytest.MonkeyPatch, chunks):
-    monkeypatch.setattr(uploads, "SILENT_SECONDS", 0.1)
-    shelf = Uploads(1000, 5, 1000)
-
-    async def run() -> None:
-        slow = [asyncio.create_task(shelf.receive("slow.npz", None, chunks())) for _ in range(4)]
-        await asyncio.sleep(0)
-        with pytest.raises(TooManyError):
-            await shelf.receive("next.npz", None, bytes_of(b"x"))
-        assert all(isinstance(end, TooSlowError) for end in await asyncio.gather(*slow, return_exceptions=True))
-        monkeypatch.undo()
-        assert (await shelf.receive("next.npz", None, bytes_of(b"x"))).size == 1
-
-    asyncio.run(run())
-    shelf.close()
 
 
 def test_uploads_go_on_after_the_disk_refused_and_after_their_folder_was_removed(monkeypatch: pytest.MonkeyPatch):
