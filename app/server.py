@@ -150,10 +150,8 @@ def create_app(settings: Settings) -> FastAPI:
     app.add_middleware(
         Guard, host=settings.host, token=settings.token, names=settings.names, embedders=settings.embedders
     )
-    app.add_exception_handler(HTTPException, _sentence)
-    app.add_exception_handler(RequestValidationError, _complaint)
-    app.add_exception_handler(ClientDisconnect, _gone)
-    app.add_exception_handler(Exception, _mistake)
+    for kind, told in ANSWERS.items():
+        app.add_exception_handler(kind, told)
     add_api(app, library, sessions)
     add_export(app, library, sessions, files)
     add_scene(app, sessions)
@@ -246,6 +244,13 @@ async def _complaint(request: Request, error: Exception) -> Response:
     place = ".".join(str(part) for part in first["loc"][1:]) or "the request"
     return JSONResponse({"message": f"{place}: {first['msg'][:1].lower()}{first['msg'][1:]}"}, status_code=422)
 
+
+ANSWERS = {
+    HTTPException: _sentence,
+    RequestValidationError: _complaint,
+    ClientDisconnect: _gone,
+    Exception: _mistake,
+}
 
 # Some systems have no media type, or a wrong one, for these.
 mimetypes.add_type("text/javascript", ".js")

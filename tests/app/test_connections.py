@@ -14,10 +14,11 @@ from lineseg_app.body_limit import BodyLimit
 from lineseg_app.connections import Connection
 from lineseg_app.listening import listen, server_of
 from lineseg_app.routes import heard
-from live import SECONDS, Address, Page
+from live import Address, Page
 from starlette.exceptions import HTTPException
 from starlette.types import Message, Receive, Scope, Send
 from uvicorn.server import ServerState
+from waiting import SECONDS
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 

@@ -90,6 +90,16 @@ def test_markers_and_cloud_have_the_segments_the_stamp_and_the_frame_of_their_sc
     assert np.frombuffer(bytes(cloud["data"]), "<f4", 2).tolist() == np.float32(segment.start).tolist()
 
 
+def test_a_scan_of_megabytes_is_not_taken_into_memory(peer: Obedient, port: int, topic: str):
+    with running(address(port, topic), topic):
+        opened(peer, topic)
+        cloud_back(peer, topic, 2.0, second=7)
+        peer.ask("scan", topic=topic, ranges=[2.0] * 400_000, second=8)
+        late = cloud_back(peer, topic, 2.0, second=9)
+        others = [cloud["header"]["stamp"]["sec"] for cloud in peer.ask("take", topic=f"{topic}/cloud")]
+    assert late["width"] and 8 not in others
+
+
 def test_each_topic_numbers_its_messages_without_gaps(peer: Obedient, port: int, topic: str):
     with running(address(port, topic), topic):
         opened(peer, topic)

@@ -2,28 +2,41 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
+import os
+import socketserver
 import struct
 import threading
+import time
+import tracemalloc
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
 import pytest
 from lineseg_app.bridges.address import Address
-from lineseg_app.bridges.bridge import LARGEST_MESSAGE
+from lineseg_app.bridges.arrivals import arrivals
+from lineseg_app.bridges.bridge import LARGEST_MESSAGE, why_not
+from lineseg_app.bridges.foxglove import MOST_BYTES
+from lineseg_app.bridges.node_params import send_params
+from lineseg_app.bridges.rosbridge import RobotError, RosBridge
+from lineseg_app.bridges.websocket import connected
 from lineseg_app.live.source import Publishing
+from lineseg_app.node import offers
 from lineseg_app.node.node import OWNER, Node
+from lineseg_app.node.offers import Offer, send_to_node
 from lineseg_app.node.running import Running
 from obeying import running, said
 from robots import wall
 from rosbridge_peer import scan_message
-from waiting import SECONDS
+from waiting import SECONDS, eventually
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.server import ServerConnection, serve
 from websockets.typing import Subprotocol
 
 from lineseg import Params
+from lineseg.readers.laser_scan import decode_cdr
 
 SCAN = "sensor_msgs/msg/LaserScan"
 RUNNING = Running("region-growing", Params())
@@ -45,7 +58,8 @@ def lying(talk: Callable[[ServerConnection], Any], foxglove: bool) -> Iterator[t
             pass
 
     protocols = [Subprotocol("foxglove.sdk.v1")] if foxglove else None
-    with serve(serve_one, "127.0.0.1", 0, subprotocols=protocols, max_size=None, open_timeout=SECONDS) as server:
+    limits = {"max_size": None, "open_timeout": SECONDS, "ping_interval": None}
+    with serve(serve_one, "127.0.0.1", 0, subprotocols=protocols, **limits) as server:
         threading.Thread(target=server.serve_forever).start()
         yield Address(f"ws://127.0.0.1:{server.socket.getsockname()[1]}", "/scan"), over
         over.set()
@@ -142,3 +156,81 @@ def test_a_node_ends_in_the_middle_of_a_flood_of_scans():
     # At its end it waits for the node, into which scans flood on.
     with lying(talk, foxglove=False) as (address, _), running(address, "/scan") as told:
         said(told, " left out")
+
+
+def test_a_robot_that_takes_nothing_is_given_up():
+    with lying(lambda socket: None, foxglove=False) as (address, _), connected(address.url) as socket:
+        with pytest.raises(ConnectionClosed) as closed:
+            while True:
+                socket.send(os.urandom(1_000_000))
+        assert why_not("robot", closed.value) == "robot takes no messages any more"
+
+
+def test_an_answer_is_not_waited_for_longer_because_other_messages_come():
+    def talk(socket: ServerConnection) -> None:
+        while True:
+            says(op="other")(socket)
+
+    with lying(talk, foxglove=False) as (address, _), connected(address.url) as socket, pytest.raises(TimeoutError):
+        RosBridge(socket).call("/rosapi/topics", {}, seconds=0.2)
+
+
+def test_messages_that_wait_are_taken_together_up_to_a_number_of_bytes():
+    size = LARGEST_MESSAGE // 4
+    twelve = lying(lambda socket: [socket.send("x" * size) for _ in range(12)], foxglove=False)
+    with twelve as (address, over), connected(address.url) as socket:
+        eventually(lambda: socket.recv_messages.frames.qsize() == 12, "twelve messages")
+        over.set()
+        assert [len(waiting) for _, waiting in arrivals(socket)] == [4, 4, 4]
+
+
+def test_a_name_of_a_frame_takes_no_more_memory_than_a_name():
+    name = b"x" * 1_000_000
+    message = CDR + struct.pack("<iII", 1, 2, len(name)) + name + struct.pack("<7f3I", -1, 1, 0.5, 0, 0, 0, 9, 1, 0, 0)
+    assert decode_cdr(message).frame_id == "x" * 200
+
+
+def test_schemas_of_a_foxglove_server_are_kept_of_scans_alone_and_not_without_bound():
+    def talk(socket: ServerConnection) -> None:
+        for id, name in enumerate(["std_msgs/msg/String"] * 9 + [SCAN] * 9, 2):
+            channel = CHANNEL | {"id": id, "topic": f"/{id}", "schemaName": name, "schema": "x" * 3_000_000}
+            says(op="advertise", channels=[channel])(socket)
+        says(op="advertise", channels=[CHANNEL])(socket)
+
+    tracemalloc.start()
+    with lying(talk, foxglove=True) as (address, _), running(address, "/scan") as told:
+        said(told, "subscribed to /scan; waiting for its first scan")
+        held, _ = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert held < 2 * MOST_BYTES
+
+
+@pytest.mark.parametrize("answer", [{"results": 3, "values": {}}, {"results": [3], "values": [[]]}])
+def test_a_node_that_answers_with_the_wrong_kinds_is_told_so(answer: dict[str, Any]):
+    def talk(socket: ServerConnection) -> None:
+        while True:
+            call = heard(socket, "call_service")
+            says(op="service_response", id=call["id"], result=True, values=answer)(socket)
+
+    with lying(talk, foxglove=False) as (address, _), pytest.raises(RobotError, match=r"it sent \d results"):
+        send_params(address.url, "/node", Params())
+
+
+class Dripping(socketserver.BaseRequestHandler):
+    """Says for ever that the answer will come."""
+
+    def handle(self) -> None:
+        with contextlib.suppress(OSError):
+            while True:
+                self.request.sendall(b"HTTP/1.1 100 Continue\r\n\r\n")
+                time.sleep(0.01)
+
+
+def test_a_node_whose_answer_never_ends_is_given_up(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(offers, "SEND_SECONDS", 0.3)
+    with socketserver.ThreadingTCPServer(("127.0.0.1", 0), Dripping) as peer:
+        threading.Thread(target=peer.serve_forever).start()
+        offer = Offer(address=f"http://127.0.0.1:{peer.server_address[1]}", token="", source="")
+        with pytest.raises(OSError, match="does not answer"):
+            send_to_node(offer, "region-growing", {})
+        peer.shutdown()
