@@ -152,6 +152,32 @@ def test_the_card_of_why_does_not_lie_over_its_point(new_tab: Callable[..., Tab]
         assert not over, selected
 
 
+def test_on_a_phone_sentences_and_the_fields_of_a_dialog_are_whole(new_tab: Callable[..., Tab]):
+    tab = new_tab("#recording=sample:laboratory&mode=learn&step=0")
+    tab.page.set_viewport_size(ViewportSize(width=480, height=800))
+    whole = """() => {
+        const { scrollHeight, clientHeight } = document.querySelector(".stepper .decision");
+        return scrollHeight <= clientHeight;
+    }"""
+    for jump in "seed", "refusal", "line", "drop":
+        before = tab.state["step"]
+        tab.page.locator(f".stepper [data-jump={jump}]").click()
+        tab.until(f"s.step !== {before}")
+        assert tab.page.evaluate(whole), tab.page.locator(".stepper .decision").inner_text()
+    close = tab.page.locator(".stepper .replay-said .icon-button").bounding_box()
+    assert close is not None
+    assert close["x"] + close["width"] > 440
+    tab.page.get_by_role("button", name="Export").click()
+    tab.page.get_by_role("menuitem", name="Send parameters to a robot").click()
+    beyond = """() => {
+        const dialog = document.querySelector("dialog[open]");
+        const { right } = dialog.getBoundingClientRect();
+        const fields = [...dialog.querySelectorAll("*")].filter((each) => each.checkVisibility());
+        return fields.filter((each) => each.getBoundingClientRect().right > right + 0.5).map((each) => each.className);
+    }"""
+    assert tab.page.evaluate(beyond) == []
+
+
 WITHOUT_WEBGL = """const get = HTMLCanvasElement.prototype.getContext;
     HTMLCanvasElement.prototype.getContext = function (kind, ...more) {
         return kind.startsWith("webgl") ? null : get.call(this, kind, ...more);
