@@ -1,11 +1,14 @@
 """Where the real recordings and the reference outputs are."""
 
 import gc
+import math
 import os
 from pathlib import Path
 
 import pytest
 from hypothesis import HealthCheck, settings
+
+from lineseg.readers import parts
 
 # What is imported stays, so it need not be gone through again and again in search of garbage.
 gc.disable()
@@ -41,6 +44,12 @@ def data_dir() -> Path:
 def reference_dir() -> Path:
     """Outputs of other programs."""
     return _folder("LINESEG_REFERENCE")
+
+
+@pytest.fixture(autouse=True)
+def whole_files(monkeypatch: pytest.MonkeyPatch) -> None:
+    """However long it takes to read a file, nothing is shown of it before the end, unless a test asks for that."""
+    monkeypatch.setattr(parts, "FIRST", math.inf)
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
