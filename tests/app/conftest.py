@@ -4,12 +4,20 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from lineseg_app.routes import heard
 from lineseg_app.server import Settings
 from live import Address, Page, page_of, serving
 from scenes import corner, wall_ahead
+from waiting import SECONDS
 
 from lineseg import Recording
 from lineseg.readers import save_npz
+
+
+@pytest.fixture(autouse=True)
+def patient_server(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A test may open a page and speak with it later, after another has waited for its first picture."""
+    monkeypatch.setattr(heard, "FIRST_SECONDS", SECONDS)
 
 
 @pytest.fixture(scope="session")

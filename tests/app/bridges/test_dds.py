@@ -99,12 +99,13 @@ def answer(peer: Obedient, topic: str, second: int) -> dict[str, Any]:
 def test_a_scan_of_megabytes_is_not_taken_into_memory(peer: Obedient, topic: str):
     with running(Address(f"ros2:{topic}"), topic):
         opened(peer, topic, reliable=True)
-        for second, beams in ((7, 90), (8, 400_000), (9, 90)):
+        segments_back(peer, topic, ranges=[2.0] * 90, second=7)
+        for second, beams in ((8, 400_000), (9, 90)):
             peer.ask("scan", topic=topic, ranges=[2.0] * beams, second=second)
         seconds: list[int] = []
         while seconds[-1:] != [9]:
             seconds += [cloud["header"]["stamp"]["sec"] for cloud in peer.until("take", topic=f"{topic}/cloud")]
-    assert seconds == [7, 9]
+    assert 8 not in seconds
 
 
 def test_markers_and_cloud_have_the_segments_the_stamp_and_the_frame_of_their_scan(peer: Obedient, topic: str):
