@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,12 +12,15 @@ from numpy.typing import NDArray
 
 from ..scan import Recording
 from .account import Notes
-from .reading import around_ranges, columns_of
+from .guessing import angle_unit_of
+from .reading import RADIANS, around_ranges, columns_of
 from .source import Reader, Source
+from .stamping import in_seconds
 from .tables.beam_rows import beams_of, words_of
 from .tables.headers import LENGTHS, STAMPS, TURNS, Name, is_angle, is_distance, name_of
 from .tables.scan_columns import alike, with_angles
 from .tables.scan_rows import scans_of
+from .tables.turns import regularity
 
 ANGLE_NAMES = ("ang", "bearing", "theta", "azimuth", "phi")
 STAMP_NAMES = ("stamp", "time")
@@ -25,6 +29,8 @@ SCAN_NAMES = ("scan", "scans", "laser", "lasers", "lidar", "data")
 MOST_COLUMNS = 8
 # How many numbers a beam may have in an array of its own.
 OF_BEAM, LEAST_BEAMS = (2, 3, 4), 10
+# Angles without a name are as even as this.
+EVEN = 0.01
 
 
 class Npy(Reader):
@@ -137,10 +143,11 @@ def _of_two(source: Source, pair: list[tuple[Name, NDArray]], format: str) -> Re
 
 def recording_of_arrays(source: Source, arrays: Mapping[str, NDArray], format: str) -> Recording:
     """The scans of arrays of which one can be the ranges. Raises ValueError with the line of Python that helps."""
-    if len(arrays) == 1:
-        (array,) = arrays.values()
-        if (pairs := _pairs(array)) is not None:
-            return _of_pairs(source, pairs, array.dtype.kind == "c", format)
+    found = {name: pairs for name, array in arrays.items() if (pairs := _pairs(array)) is not None}
+    if len(found) == 1 and all(array.ndim < 2 for name, array in arrays.items() if name not in found):
+        ((name, pairs),) = found.items()
+        recording = _of_pairs(source, pairs, arrays[name].dtype.kind == "c" or "point" in name.lower(), format)
+        return _with_stamps(source, recording, arrays)
     if (joined := _joined(arrays)) is not None:
         return _of_pairs(source, joined, False, format)
     tables = {name: array for name, array in arrays.items() if _plain(array) and array.ndim == 2}
@@ -176,6 +183,8 @@ def recording_of_arrays(source: Source, arrays: Mapping[str, NDArray], format: s
         source.notes.unstated.add("unit")
     if angles is not None and (turn := TURNS.get(name_of(angles).unit)):
         source.notes.found["angle_unit"] = turn
+    if angles is None and array.ndim == 2:
+        angles = next((each for each in named if _may_be_angles(rows[each], array)), None)
     if angles is not None and array.ndim == 2 and array.shape[1] != len(rows[angles]) == array.shape[0]:
         array = array.T
     if angles is not None and len(rows[angles]) != array.shape[-1]:
@@ -185,6 +194,25 @@ def recording_of_arrays(source: Source, arrays: Mapping[str, NDArray], format: s
         times = None if stamps is None else rows[stamps]
         return with_angles(source, np.atleast_2d(array), rows[angles].astype(np.float64), times, format)
     return _guessed(source, name, array, arrays, format)
+
+
+def _may_be_angles(row: NDArray, ranges: NDArray[np.float64]) -> bool:
+    """Whether numbers rise, or fall, evenly, one for each beam, while the ranges do not."""
+    if len(row) != ranges.shape[-1] or len(row) < LEAST_BEAMS or ranges.shape[0] == len(row):
+        return False
+    values = row.astype(np.float64)
+    return regularity(values * RADIANS[angle_unit_of(values)]) < EVEN <= regularity(ranges[0])
+
+
+def _with_stamps(source: Source, recording: Recording, arrays: Mapping[str, NDArray]) -> Recording:
+    """The recording with the stamps of the array that is called so, if it has one for each scan."""
+    name = next(
+        (name for name in arrays if name.lower().startswith(STAMP_NAMES) or name_of(name).plain in STAMPS), None
+    )
+    if name is None or arrays[name].shape != (len(recording),) or arrays[name].dtype.kind not in "fiu":
+        return recording
+    source.notes.stamps = "their array"
+    return replace(recording, stamps=in_seconds(arrays[name].astype(np.float64))[0])
 
 
 def _beam_columns(rows: Mapping[str, NDArray]) -> list[str]:

@@ -21,7 +21,7 @@ from .stamping import in_seconds
 from .tables.beam_rows import beams_of, read_beams
 from .tables.dialect import LEFT_OUT, Dialect, Row
 from .tables.headers import LASERS, NAMES, SCANS, STAMPS, array_columns, is_angle, is_distance, name_of
-from .tables.numbers import all_numbers
+from .tables.numbers import all_numbers, is_number
 from .tables.scan_rows import scans_of
 
 MOST_DEPTH = 6
@@ -336,8 +336,12 @@ def _documents(source: Source) -> Iterator[tuple[int, dict[str, Any]]]:
     began, key, flow = 1, "", list[str]()
     for number, line in chain(source.lines(), [(0, b"---")]):
         text = line.decode("utf-8", "replace").strip()
-        ends = text.startswith("---") or ("ranges" in message and BLOCK.match(line))
-        if ends or ("ranges" in message and text.partition(":")[0].rstrip() in message.keys() - {"ranges"}):
+        # An entry of a list of messages.
+        entry = ENTRY.match(text) is not None
+        text = text[1:].lstrip() if entry else text
+        ends = text.startswith("---") or ("ranges" in message and (BLOCK.match(line) or SECTION.fullmatch(text)))
+        again = re.split("[:=]", text, maxsplit=1)[0].rstrip() in message.keys() - {"ranges"}
+        if ends or ("ranges" in message and (entry or again)):
             if "ranges" in message and not (number == 0 and _is_cut(message)):
                 stamp = {name: header[name] for name in STAMP_KEYS if name in header}
                 yield began, message | {"header": {"stamp": stamp, "frame_id": header.get("frame_id", "")}}
@@ -367,6 +371,8 @@ def _documents(source: Source) -> Iterator[tuple[int, dict[str, Any]]]:
                 flow = [value]
             elif value and key in STAMP_KEYS:
                 header[key] = int(value) if re.fullmatch(r"-?\d+", value) else 0
+            elif key in ("stamp", "timestamp") and is_number(value.encode()):
+                header["sec"], header["nanosec"] = int(float(value)), round(float(value) % 1 * 1e9)
             elif value and key == "frame_id":
                 header[key] = value.strip("'\"")
             elif value and key.startswith(("angle_", "range_")):
@@ -394,6 +400,8 @@ NO_ARRAY = re.compile(r"'?<(?:array|sequence) type")
 NOT_PRINTED = "the ranges were not printed; save them with `ros2 topic echo --full-length`, without --no-arr"
 # A message of Gazebo begins with a block that is not indented.
 BLOCK = re.compile(rb"\w+ \{\s*$")
+# A section of an INI file, and the first field of an entry of a list.
+SECTION, ENTRY = re.compile(r"\[{1,2}[A-Za-z_][\w.]*\]{1,2}"), re.compile(r"-\s+[A-Za-z_]\w*\s*:")
 # Gazebo's names.
 SAME_FIELDS = {"angle_step": "angle_increment", "frame": "frame_id"}
 

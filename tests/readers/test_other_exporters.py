@@ -45,6 +45,11 @@ FORMS = {
     "a row of a table as JSON": "".join(
         json.dumps({"stamp": at, **{f"r{beam}": each for beam, each in enumerate(ranges.tolist())}}) + "\n"
         for at, ranges in enumerate(SCANS)),
+    "sections": "".join(f"[scan{at}]\nangle_min={BEARINGS[0]}\nangle_increment={np.pi / 180}\nranges={row(each)}\n\n"
+                        for at, each in enumerate(SCANS)),
+    "a list of messages": "scans:\n" + "".join(
+        f"  - stamp: {at}.5\n    angle_min: {BEARINGS[0]}\n    angle_increment: {np.pi / 180}\n"
+        f"    ranges: [{row(each, ', ')}]\n" for at, each in enumerate(SCANS)),
     "a flag": "".join(f"{at % 2},{row(SCANS[at // 4])}\n" for at in range(8)),
 }  # fmt: skip
 
@@ -104,12 +109,30 @@ def test_lists_of_two_lasers_are_never_mixed(tmp_path: Path, form: str, names: t
         ),
         ("x,y,z,theta,depth\n" + lines(X, Y, np.linspace(-2, 2, 181), 0 * X, 0 * X), "a scan lies in one plane"),
         ("theta,depth\n" + lines(0 * X + 3, NEAR), "column 1, of angles, has 3 in all rows.*--columns"),
+        ("frame,x1,y1,x2,y2,theta\n" + lines(AT[:90], *(AT[:90] + 1.0,) * 5), "lines from one point to another"),
+        ("beam,s1,s2,theta\n" + lines(DEGREES, NEAR, FAR, 0 * X), "column 4, of angles, has 0 in all rows"),
+        (f"{row(np.repeat([-1, 0, 100], 60))}\n" * 40, "has only the numbers -1, 0, 100, as a map of cells has"),
         ("stamp,ranges,angles\n" + f"0,[{row(NEAR, ' ')}],[{row(DEGREES[:90], ' ')}]\n", "90 angles, but 181 ranges"),
     ],
 )
 def test_what_cannot_be_a_scan_is_refused(tmp_path: Path, content: str, sentence: str):
     with pytest.raises(ValueError, match=sentence):
         read(tmp_path, content)
+
+
+def test_rows_of_few_numbers_are_ranges_if_that_is_said(tmp_path: Path):
+    text = f"{row(np.repeat([-1, 0, 100], 60))}\n" * 40
+    assert len(read(tmp_path, text, columns="ranges")) == 40
+
+
+def test_arrays_of_points_and_of_unnamed_angles_beside_others_are_read(tmp_path: Path):
+    points = np.stack([SCANS * X, SCANS * Y, 0 * SCANS], axis=-1)
+    np.savez(tmp_path / "a.npz", points=points, t=[10.5, 10.75])
+    recording = open_recording(tmp_path / "a.npz")
+    assert [scan.ranges for scan in recording] == [pytest.approx(each, abs=1e-3) for each in SCANS]
+    assert np.diff(recording.stamps) == pytest.approx(0.25)
+    np.savez(tmp_path / "b.npz", SCANS, BEARINGS + 0.5)
+    assert open_recording(tmp_path / "b.npz")[1].bearings == pytest.approx(BEARINGS + 0.5)
 
 
 def test_angles_that_the_columns_of_a_table_give_in_degrees_are_degrees(tmp_path: Path):

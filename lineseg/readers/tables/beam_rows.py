@@ -349,12 +349,18 @@ def _varied(source: Source, table: NDArray[np.float64], names: list[Name]) -> Ro
         return roles
     if (points := _points(names)) is not None:
         return Roles(False, *points, roles.scan, roles.stamp)
-    if source.reading.columns is not None:
-        return roles
-    raise ValueError(
-        f"{source.name}: column {roles.first + 1}, of angles, has {table[0, roles.first]:.6g} in all rows, but each "
-        "beam of a scan has its own angle; say what the columns hold with --columns, such as angle,distance."
-    )
+    check_angles(source, table, roles.first)
+    return roles
+
+
+def check_angles(source: Source, table: NDArray[np.float64], at: int) -> None:
+    """Raises ValueError if a column that is called after angles has the same one in all rows."""
+    angles = table[:, at]
+    if source.reading.columns is None and len(table) >= FEW_ROWS and np.nanmax(angles) == np.nanmin(angles):
+        raise ValueError(
+            f"{source.name}: column {at + 1}, of angles, has {angles[0]:.6g} in all rows, but each beam of a scan has "
+            "its own angle; say what the columns hold with --columns, such as angle,distance."
+        )
 
 
 def _points(

@@ -243,7 +243,7 @@ def array_columns(names: list[Name]) -> list[int]:
 def units_as_names(names: list[Name]) -> list[Name]:
     """The names, "angle" and "distance" for those that are only units, such as "deg,mm", or name what turns a laser."""
     turns = [at for at, name in enumerate(names) if name.element < 0 and name.plain in (*TURNS, *SERVOS)]
-    if not turns:
+    if not turns and any(map(is_distance, names)):
         # What is counted in degrees is an angle, whatever it is called.
         turns = [at for at, name in enumerate(names)
                  if name.element < 0 and name.unit in TURNS and field_of(name) is None]  # fmt: skip

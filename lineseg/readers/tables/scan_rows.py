@@ -50,6 +50,8 @@ VARIES = 0.1
 LEAST_BEAMS, MANY_BEAMS = 10, 30
 # So many times farther are ranges from the quantities between them than from the next range.
 LEAST_PAIRS, FAR_APART = 30, 8.0
+# So many rows of real ranges have more different numbers than these.
+MANY_ROWS, FEW_LEVELS = 30, 8
 # Scans in which the seam shows whether beams go all around, and the leap there as a share of the ranges.
 FEW_SCANS, SEAM_SHARE = 4, 0.15
 # Rows of two lasers differ so many times as much as those of one.
@@ -97,10 +99,8 @@ def scans_of(
     elif leading is None and reading.skip_columns is None and (beams := _halves(values)):
         source.notes.notice("halves", f"The second half of each row was left out, as {beams} intensities would be.")
         values = [row[:beams] for row in values]
-    if leading is None and _are_transforms(values):
-        raise ValueError(
-            f"{source.name} has poses, a matrix in each row as in those of KITTI, and no scans; open its scans instead."
-        )
+    if leading is None:
+        _check_rows(source, values)
     geometry = None
     if len(values) > 1:
         numbered = _numbers_columns(values)
@@ -148,6 +148,24 @@ def _in_columns(reading: Reading, values: list[Floats]) -> Floats | None:
         return None
     table = np.array(values, np.float64)
     return table.T if alike(table) else None
+
+
+def _check_rows(source: Source, values: list[Floats]) -> None:
+    """Raises ValueError if rows are those of poses, or have only a few different numbers, as maps of cells do."""
+    if _are_transforms(values):
+        raise ValueError(
+            f"{source.name} has poses, a matrix in each row as in those of KITTI, and no scans; open its scans instead."
+        )
+    if len(values) < MANY_ROWS or source.reading.given():
+        return
+    levels = np.unique(np.concatenate(values[:: max(len(values) // MANY_ROWS, 1)]))
+    levels = levels[np.isfinite(levels)]
+    if 1 < len(levels) <= FEW_LEVELS:
+        shown = ", ".join(f"{level:g}" for level in levels)
+        raise ValueError(
+            f"{source.name} has only the numbers {shown}, as a map of cells has, and no ranges; open the scans that it "
+            "was made of. If these are ranges after all, say so with --columns ranges."
+        )
 
 
 def _are_transforms(values: list[Floats]) -> bool:

@@ -15,7 +15,7 @@ from ..lasers import rows_of_one_laser
 from ..reading import Reading, around_ranges, columns_of
 from ..source import Reader, Source
 from .beam_groups import groups_of, read_groups
-from .beam_rows import columns_beside, read_beams, table_of
+from .beam_rows import check_angles, columns_beside, read_beams, table_of
 from .dialect import (
     COMMENTS,
     OPENING,
@@ -389,6 +389,8 @@ def _read_named(
     if reading.columns is not None:
         given = columns_of(reading.columns)
         return _read_columns(source, reading, rows, dialect, given)
+    if [name.element for name in names if name.plain == "x"] == [1, 2]:
+        raise ValueError(f"{source.name} has lines from one point to another, not scans; {TEXT_FORMS}")
     rows, names = widened(source, rows, dialect, names)
     if (groups := groups_of(names)) is not None:
         return read_groups(source, reading, rows, dialect, names, groups)
@@ -473,6 +475,7 @@ def _read_columns_of_scans(
         source.notes.found["unit"] = unit
     table[:, columns] *= first.scale
     if is_angle(names[beam]):
+        check_angles(source, table, beam)
         if (turn := TURNS.get(names[beam].unit)) and reading.angle_unit is None:
             source.notes.found["angle_unit"] = turn
         table[:, beam] *= names[beam].scale
@@ -488,8 +491,6 @@ def _read_beams(
     if any(map(is_distance, names)) and any(map(is_angle, names)):
         return read_beams(source, reading, rows, dialect, names)
     if {"x", "y"} <= {name.plain.split("_")[-1] for name in names}:
-        if len([name for name in names if name.element >= 0 and name.plain == "x"]) > 1:
-            raise ValueError(f"{source.name} has lines from one point to another, not scans; {TEXT_FORMS}")
         return read_beams(source, reading, rows, dialect, names)
     if any(map(is_angle, names)) and len(names) > 2:
         angle = next(at for at, name in enumerate(names) if is_angle(name))
