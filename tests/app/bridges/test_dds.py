@@ -272,6 +272,8 @@ def test_a_bag_that_is_replayed_gives_exactly_the_segments_of_extract(peer: Obed
         np.testing.assert_array_equal(getattr(as_messages_have_it(recording, 3), field), getattr(recording[3], field))
     with running(Address(f"ros2:{topic}"), topic):
         opened(peer, topic, reliable=True)
+        # From then on the node knows its readers, too.
+        segments_back(peer, topic, ranges=wall(2.0))
         assert_replayed_exactly(peer, topic, recording, range(0, len(recording), len(recording) // 5))
 
 
@@ -286,6 +288,7 @@ def test_any_recording_that_is_replayed_gives_exactly_the_segments_of_its_float3
     ]
     with running(Address(f"ros2:{topic}"), topic):
         opened(peer, topic, reliable=True)
+        segments_back(peer, topic, ranges=wall(2.0))
         for file in files:
             recording = open_recording(file)
             assert_replayed_exactly(peer, topic, recording, range(0, len(recording), len(recording) // 3 + 1))
