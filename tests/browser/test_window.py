@@ -177,6 +177,7 @@ def test_on_a_phone_sentences_and_the_fields_of_a_dialog_are_whole(new_tab: Call
     assert close["x"] + close["width"] > 440
     tab.page.get_by_role("button", name="Export").click()
     tab.page.get_by_role("menuitem", name="Send parameters to a robot").click()
+    tab.page.get_by_role("dialog").get_by_role("button", name="Send").wait_for()
     beyond = """() => {
         const dialog = document.querySelector("dialog[open]");
         const { right } = dialog.getBoundingClientRect();
