@@ -102,7 +102,7 @@ def test_the_newest_curves_win(tab):
     assert end["done"]
 
 
-def test_a_map_gets_finer_and_can_be_stopped(tab, hall: Path):
+def test_a_map_gets_finer_and_can_be_stopped(tab, hall: Path, monkeypatch: pytest.MonkeyPatch):
     _, bench = tab
     job = bench.ask("map", x="epsilon", y="min_length", measure="f_score")
     *stages, _ = bench.answers(job)
@@ -111,6 +111,13 @@ def test_a_map_gets_finer_and_can_be_stopped(tab, hall: Path):
     params = [Params(epsilon=each, min_length=last["ys"][3]) for each in last["xs"]]
     row = Batch(open_recording(hall), False).measure(params).measure("f_score")
     np.testing.assert_allclose(np.array(last["heights"][3], float), row, atol=1e-5)
+    measure = Batch.measure
+
+    def held(batch, settings, cancelled):
+        eventually(lambda: cancelled[0], "the stop")
+        return measure(batch, settings, cancelled)
+
+    monkeypatch.setattr(Batch, "measure", held)
     job = bench.ask("map", x="epsilon", y="delta", measure="coverage")
     bench.stop("map")
     assert bench.answers(job)[-1].get("stopped")
