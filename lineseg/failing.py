@@ -16,6 +16,9 @@ DIGITS = re.compile(
     r"Exceeds the limit \(\d+ digits\) for integer string conversion.*?to increase the limit"
     r"(?: - Consider hexadecimal.*?conversion limits\.?)?"
 )
+# Archives whose offsets are damaged lead to reads before the beginning.
+OFFSET = re.compile(r"\[Errno 22\] Invalid argument")
+NUMBER = re.compile(r"\[Errno -?\d+\] |Error -?\d+ while decompressing data: ")
 
 
 @contextmanager
@@ -66,8 +69,14 @@ def mistake(error: BaseException) -> str:
 
 
 def plain(text: str) -> str:
-    """The text of an error without Python's advice about whole numbers of thousands of digits."""
-    return DIGITS.sub("a whole number has more digits than can be read", text)
+    """The text of an error without its number, and without Python's advice about numbers of thousands of digits."""
+    text = OFFSET.sub("an offset in it points outside of it", text)
+    return DIGITS.sub("a whole number has more digits than can be read", NUMBER.sub("", text))
+
+
+def reason(error: BaseException) -> str:
+    """The text of an error, to be put in brackets."""
+    return plain(str(error)).rstrip(".")
 
 
 def _line(text: str) -> str:

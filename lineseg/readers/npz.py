@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..arguments import need_recording
+from ..failing import reason
 from ..poses import PoseSource, Track
 from ..scan import Recording, Topic
 from ..unfinished import temporary_folder, whole_file
@@ -140,7 +141,7 @@ def _load(file: Path | BinaryIO, source: Source) -> dict[str, NDArray]:
     except (zipfile.BadZipFile, zlib.error, EOFError, OSError) as error:
         if isinstance(file, Path) and (arrays := _of_cut(file, source)):
             return arrays
-        raise ValueError(f"{source.name}: a damaged NPZ file ({str(error).rstrip('.')}); save it again.") from None
+        raise ValueError(f"{source.name}: a damaged NPZ file ({reason(error)}); save it again.") from None
     except (ValueError, NotImplementedError) as error:
         raise ValueError(f"{source.name}: {error}.") from None
 

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from ..failing import plain
+from ..failing import reason
 from ..scan import PackAbout, Recording
 from .npz import Npz
 from .source import Reader, Source
@@ -56,8 +56,10 @@ def _about(path: Path) -> dict[str, Any]:
     """lineseg.json of a pack. Raises ValueError, with one sentence, if it is not a pack or of a newer version."""
     try:
         about = _whole(json.loads(_entry(path, ABOUT)))
-    except (ValueError, RecursionError) as error:
-        raise ValueError(f"{path.name}: a damaged failure pack ({plain(str(error))}).") from None
+    except (json.JSONDecodeError, UnicodeDecodeError, RecursionError) as error:
+        raise ValueError(f"{path.name}: a damaged failure pack; its {ABOUT} is no JSON ({reason(error)}).") from None
+    except ValueError as error:
+        raise ValueError(f"{path.name}: a damaged failure pack ({reason(error)}).") from None
     if not isinstance(about, dict) or about.get("format") != FORMAT:
         raise ValueError(f"{path.name} is not a failure pack.")
     if about.get("version") != VERSION:
@@ -90,7 +92,7 @@ def _entry(path: Path, name: str) -> bytes:
         with zipfile.ZipFile(path) as pack, pack.open(name) as entry:
             content = entry.read(MOST_BYTES + 1)
     except (zipfile.BadZipFile, KeyError, EOFError, NotImplementedError, zlib.error) as error:
-        raise ValueError(f"{name} cannot be taken from the zip: {str(error).strip(chr(39))}") from None
+        raise ValueError(f"{name} cannot be taken from the zip: {reason(error).strip(chr(39))}") from None
     if len(content) > MOST_BYTES:
         raise ValueError(f"{name} has more than {MOST_BYTES >> 20} MB unpacked")
     return content

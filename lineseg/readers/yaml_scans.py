@@ -8,8 +8,8 @@ from io import StringIO
 from typing import Any
 
 from ruamel.yaml import YAML
-from ruamel.yaml.error import YAMLError
 
+from ..failing import plain
 from ..scan import Recording
 from .messages import recording_of_values
 from .source import Reader, Source
@@ -58,8 +58,8 @@ def _documents(source: Source) -> Iterator[tuple[str, Any]]:
     try:
         for value in YAML(typ="safe", pure=True).load_all(StringIO("\n".join(others))):
             yield source.name, _unfolded(value, lists)
-    except YAMLError as error:
-        why = " ".join(str(error).split())[:120]
+    except Exception as error:  # for dates and numbers that cannot be, it has several kinds
+        why = " ".join(plain(str(error)).split())[:120]
         raise ValueError(f"{source.name}: damaged YAML ({why}); save it again, or as CSV.") from None
 
 

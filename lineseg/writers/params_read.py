@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 from xml.parsers import expat
 
-from ..failing import named
+from ..failing import named, plain
 from ..knobs import Thresholds
 from ..params import Params
 
@@ -76,7 +76,8 @@ def _read(text: str, start: str, kind: type[Thresholds]) -> dict[str, int | floa
 
 def _finder(text: str, start: str) -> Callable[[str, Known], Iterator[Found]]:
     if start in "<{":
-        return _in_xml if start == "<" else _in_json
+        # YAML merges an object into another with <<.
+        return _in_json if start == "{" else _in_yaml if "<<" in text.lstrip("\ufeff \t\r\n")[:2] else _in_xml
     if CALL.search(text):
         return _in_python
     return _in_flags if re.search(r"(?<!\S)--[a-z]", COMMENT.sub("", text)) else _in_yaml
@@ -172,6 +173,8 @@ def _in_yaml(text: str, known: Known) -> Iterator[Found]:
         raise ValueError(f"line {line}: this is not YAML: {error.problem}.") from None
     except (YAMLError, RecursionError) as error:
         raise ValueError(f"this is not YAML: {str(error).splitlines()[0]}.") from None
+    except Exception as error:  # of several kinds, for dates and numbers that cannot be
+        raise ValueError(f"this is not YAML with thresholds: a value cannot be read ({plain(str(error))}).") from None
     if not isinstance(tree, Mapping):
         raise ValueError("this is neither a launch file, nor YAML with ros__parameters, nor a JSON object.")
     for entries in list(_ros_parameters(tree)) or [tree]:

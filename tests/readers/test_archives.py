@@ -2,6 +2,7 @@
 
 import io
 import json
+import re
 import tarfile
 import zipfile
 
@@ -70,3 +71,27 @@ def _pack(path, about: str):
     with zipfile.ZipFile(path, "w") as archive:
         archive.writestr("lineseg.json", about)
         archive.writestr("frame.npz", frame.getvalue())
+
+
+@pytest.mark.parametrize("offset", ["of the directory", "of the entry"])
+def test_a_zip_whose_offsets_are_damaged_says_so_without_the_number_of_the_error(tmp_path, offset):
+    with zipfile.ZipFile(tmp_path / "log.zip", "w") as archive:
+        archive.writestr("a.log", "FLASER 3 1 1 1 0 0 0 0 0 0 1 h 1\n" * 9)
+    content = bytearray((tmp_path / "log.zip").read_bytes())
+    at = content.rindex(b"PK\5\6") + 16 if offset == "of the directory" else content.rindex(b"PK\1\2") + 42
+    content[at : at + 4] = b"\xff\xff\xff\x7f"
+    (tmp_path / "log.zip").write_bytes(content)
+    with pytest.raises(ValueError, match=r"log\.zip") as error:
+        open_recording(tmp_path / "log.zip")
+    assert not re.search(r"Errno|Invalid argument", str(error.value))
+
+
+def test_the_name_of_an_entry_with_odd_characters_is_told_in_a_line(tmp_path):
+    name = "a\n\x1b[31m.csv"
+    with zipfile.ZipFile(tmp_path / "odd.zip", "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr(name, TABLE)
+    content = bytearray((tmp_path / "odd.zip").read_bytes())
+    content[30 + len(name)] = 0xFF
+    (tmp_path / "odd.zip").write_bytes(content)
+    with pytest.raises(ValueError, match=r"a\?\?\[31m\.csv in odd\.zip: .* damaged \(invalid block type\)"):
+        open_recording(tmp_path / "odd.zip")

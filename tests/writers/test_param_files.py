@@ -134,6 +134,9 @@ def test_a_whole_command_line_is_read():
         ("/**:\n  ros__parameters:\n    leest_thresh: 0.03\n", "line 3: there is no threshold 'leest_thresh'"),
         ("a: [1, 2", "line 1: this is not YAML"),
         ("a: &a {b: 1}\nc: *a\n", "line 2: aliases are not allowed"),
+        ("a: 2020-13-45\nepsilon: 0.1\n", r"this is not YAML with thresholds: a value cannot be read \(month must be"),
+        ('epsilon: !!int ""\n', "this is not YAML with thresholds: a value cannot be read"),
+        ("<<: 3\nepsilon: 0.1\n", "line 1: this is not YAML: expected a mapping"),
         ("just words", "this is neither a launch file"),
         ("<launch>\n<param name='least_thresh'/>\n</launch>", "line 2: the param 'least_thresh' has no value"),
         (

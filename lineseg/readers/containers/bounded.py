@@ -6,6 +6,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import IO, cast
 
+from ...failing import reason
+
 PIECE = 1 << 20
 # Scans compress to a tenth, rarely to a hundredth; what grows more was made to do harm.
 LARGEST_RATIO = 200
@@ -37,7 +39,7 @@ def expand(
             try:
                 piece = read(PIECE)
             except Exception as error:  # each library has errors of its own
-                return str(error).rstrip(".") or type(error).__name__
+                return reason(error) or type(error).__name__
             if not piece:
                 return ""
             done += len(piece)

@@ -14,12 +14,14 @@ from contextlib import ExitStack
 from pathlib import Path, PurePosixPath
 from typing import IO, cast
 
+from ...failing import reason
 from ...unfinished import temporary_folder
 from ..account import Notes
 from ..source import known_suffixes
 from .bounded import expand, file_name, limit_of, zstd_file
 from .cut_zip import unpack_cut
 
+LONGEST_PRINTED = 80
 ZIP_MAGIC = b"PK\x03\x04"
 # What each begins with, its name, and how it is opened.
 STREAMS: dict[bytes, tuple[str, Callable[[IO[bytes]], IO[bytes]]]] = {
@@ -154,12 +156,17 @@ def _unzipped(path: Path, name: str, stack: ExitStack, notes: Notes, progress: P
         target = folder / file_name(entry)
         try:
             with archive.open(entry) as packed:
-                why = expand(packed, target, f"{entry} in {name}", left)
+                why = expand(packed, target, f"{_printed(entry)} in {name}", left)
             left -= target.stat().st_size
         except (zipfile.BadZipFile, NotImplementedError, RuntimeError, OSError) as error:
-            raise ValueError(f"{name}: {entry} cannot be unpacked ({str(error).rstrip('.')}).") from None
-        tell_break(why, target, f"{entry} in {name}", "zip", notes)
+            raise ValueError(f"{name}: {_printed(entry)} cannot be unpacked ({reason(error)}).") from None
+        tell_break(why, target, f"{_printed(entry)} in {name}", "zip", notes)
     return folder if len(parts) > 1 else next(folder.iterdir())
+
+
+def _printed(entry: str) -> str:
+    """The name of an entry in a line, which may have any bytes."""
+    return "".join(each if each.isprintable() else "?" for each in entry)[:LONGEST_PRINTED]
 
 
 def _untarred(path: Path, name: str, stack: ExitStack, notes: Notes) -> Path:
@@ -171,7 +178,7 @@ def _untarred(path: Path, name: str, stack: ExitStack, notes: Notes) -> Path:
         try:
             members.extend(archive)
         except (tarfile.TarError, OSError) as error:
-            text = f"The tar file is incomplete or damaged ({str(error).rstrip('.')}); what could be unpacked was read."
+            text = f"The tar file is incomplete or damaged ({reason(error)}); what could be unpacked was read."
             notes.notice("breaks off", text)
         # A file that is there twice has been replaced.
         entries = {entry.name: entry for entry in members if entry.isfile() and not _is_hidden(entry.name)}
@@ -181,9 +188,9 @@ def _untarred(path: Path, name: str, stack: ExitStack, notes: Notes) -> Path:
             packed = archive.extractfile(entries[part])
             assert packed is not None
             target = folder / file_name(part)
-            why = expand(packed, target, f"{part} in {name}", left)
+            why = expand(packed, target, f"{_printed(part)} in {name}", left)
             left -= target.stat().st_size
-            tell_break(why, target, f"{part} in {name}", "tar", notes)
+            tell_break(why, target, f"{_printed(part)} in {name}", "tar", notes)
     return folder if len(parts) > 1 else next(folder.iterdir())
 
 
@@ -198,7 +205,7 @@ def _cut(path: Path, name: str, stack: ExitStack, notes: Notes, why: str) -> Pat
         raise ValueError(f"{name}: a damaged zip file ({why}); fetch it again.")
     parts = [found[entry] for entry in _chosen(list(found), name)]
     for part in parts:
-        tell_break(part.why, part.file, f"{part.name} in {name}", "zip", notes)
+        tell_break(part.why, part.file, f"{_printed(part.name)} in {name}", "zip", notes)
     if len(parts) == 1:
         return parts[0].file
     for part in parts:
