@@ -339,8 +339,8 @@ export interface Loading {
  * Status of a live source, sent while a tab shows it, at most a few times a second.
  *
  * rate: scans per second; delay: of the last scan, from its stamp to its arrival [s]. total: scans since the source
- * began; the newest `most` are kept; refused: messages that were not scans. publisher: the tab whose segments go
- * back to the robot, if any.
+ * began; the newest `most` are kept; refused: messages that were not scans; notDrawn: scans that this tab passed
+ * over, because newer ones had arrived. publisher: the tab whose segments go back to the robot, if any.
  */
 export interface LiveStatus {
   type: "live";
@@ -352,6 +352,7 @@ export interface LiveStatus {
   total: number;
   dropped: number;
   refused: number;
+  notDrawn: number;
   most: number;
   publishable: boolean;
   publisher: "" | "this" | "another";

@@ -141,7 +141,7 @@ class Source:
             return 0.0
         return (len(late) - 1) / max(late[-1] - late[0], 1e-6)
 
-    def status(self, session: str) -> LiveStatus:
+    def status(self, session: str, not_drawn: int) -> LiveStatus:
         """The status for one tab, without the ids of other tabs."""
         publishing = self.publishing
         return LiveStatus(
@@ -153,6 +153,7 @@ class Source:
             total=self.ring.total,
             dropped=self.ring.dropped,
             refused=self._refused,
+            notDrawn=not_drawn,
             most=self.ring.most,
             publishable=self.publishable,
             publisher="" if publishing is None else "this" if publishing.owner == session else "another",

@@ -21,7 +21,7 @@ async def tell_live(tell: Callable[[LiveStatus], Awaitable[None]], session: Sess
     with contextlib.suppress(WebSocketDisconnect, RuntimeError):
         while True:
             source = live.get(session.view.recording)
-            status = source.status(session.id) if source is not None else None
+            status = source.status(session.id, session.not_drawn) if source is not None else None
             if status is not None and status != told:
                 await tell(status)
             told = status

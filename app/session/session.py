@@ -77,6 +77,8 @@ class Session:
         self._page: Page | None = None
         self._told = Told()
         self._shown: Shown | None = None
+        # Scans of the live recording on the screen that were passed over, because newer ones had arrived.
+        self.not_drawn = 0
         self._broken: set[str] = set()
         self._wanted = Request(0, view, 0, "page")
         self._done = 0
@@ -354,6 +356,7 @@ class Session:
         request, content, recording = painted.request, painted.content, painted.recording
         view = content.view
         with self._lock:
+            self.not_drawn = _not_drawn(self.not_drawn, self._shown and self._shown.view, view)
             self._shown = Shown(view, recording, content.found, content.picture)
             self._done = request.number
             if self._wanted.number == request.number:
@@ -486,6 +489,14 @@ class Session:
 
 def _ms(seconds: float) -> float:
     return round(1e3 * seconds, 2)
+
+
+def _not_drawn(so_far: int, before: View | None, view: View) -> int:
+    """With the scans between two views of a live recording that follow it; 0 for another recording."""
+    if before is None or before.recording != view.recording:
+        return 0
+    passed = view.frame - before.frame - 1 if before.live and view.live else 0
+    return so_far + max(passed, 0)
 
 
 def _at_the_end(request: Request, recording: Recording) -> Request:

@@ -182,7 +182,8 @@ class LiveStatus(BaseModel):
     """Status of a live source, sent while a tab shows it, at most a few times a second.
 
     rate: scans per second; delay: of the last scan, from its stamp to its arrival [s]. total: scans since the source
-    began; the newest `most` are kept; refused: messages that were not scans. publisher: the tab whose segments go
+    began; the newest `most` are kept; refused: messages that were not scans; notDrawn: scans that this tab passed over,
+    because newer ones had arrived. publisher: the tab whose segments go
     back to the robot, if any.
     """
 
@@ -195,6 +196,7 @@ class LiveStatus(BaseModel):
     total: int
     dropped: int
     refused: int
+    notDrawn: int
     most: int
     publishable: bool
     publisher: Literal["", "this", "another"]

@@ -20,7 +20,7 @@ function createFigures(text) {
   const publishing = h("span", { class: "live-publishing" });
   const figures = [dot, words, rate, delay, dropped, publishing];
   const element = h("span", { class: "connection live-status", hidden: true }, ...figures);
-  const help = () => (status ? text.help(status.most, status.total, status.refused) : "");
+  const help = () => (status ? text.help(status.most, status.total, status.refused, status.notDrawn) : "");
   tooltip(delay, text.delayHelp);
   tooltip(dropped, help);
   tooltip(rate, help);

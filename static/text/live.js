@@ -14,8 +14,14 @@ export const liveText = {
   dropped: (/** @type {number} */ n) => `${n.toLocaleString("en")} dropped`,
   publishing: (/** @type {string} */ topic, /** @type {number} */ n) => `${topic}: ${n.toLocaleString("en")} sent`,
   connection: { connecting: "connecting", open: "connected", lost: "lost" },
-  help: (/** @type {number} */ most, /** @type {number} */ total, /** @type {number} */ refused) =>
+  help: (
+    /** @type {number} */ most,
+    /** @type {number} */ total,
+    /** @type {number} */ refused,
+    /** @type {number} */ notDrawn,
+  ) =>
     `The newest ${most.toLocaleString("en")} scans are kept; older ones are dropped. ${total.toLocaleString("en")} have arrived so far` +
+    (notDrawn ? `, of which ${notDrawn.toLocaleString("en")} were not drawn here because newer ones had arrived` : "") +
     (refused ? `; ${refused.toLocaleString("en")} other messages were not scans.` : "."),
   delayHelp: "Time from the stamp of the last scan to its arrival here. It is right only if both clocks agree.",
   close: "Close",

@@ -14,7 +14,7 @@ from live import Address, connect, page_of, serving
 from robots import nearest, wall
 from rosbridge_peer import scan_message
 from rrd import rows_of
-from waiting import SECONDS
+from waiting import SECONDS, eventually
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 
 
@@ -135,3 +135,19 @@ def test_an_unknown_live_source_is_named(server: Address):
     with page_of(server) as page:
         page.hello()
         assert "push a scan under this name first" in page.refused(recording="live:nobody")["message"]
+
+
+def test_scans_that_were_not_drawn_because_newer_ones_arrived_are_counted(server: Address):
+    scans = 60
+    with page_of(server) as page, connect(f"{server.ws}/api/scans/fast") as socket:
+        socket.send(json.dumps(scan_message(wall(3.0))))
+        page.hello()
+        eventually(lambda: page.change(recording="live:fast")["frames"], "the first scan")
+        first = page.last["drawn"]["state"]["frame"]
+        for _ in range(scans):
+            socket.send(json.dumps(scan_message(wall(2.0))))
+        frames = [first]
+        while frames[-1] < scans:
+            frames.append(page.hear_a("drawn")["state"]["frame"])
+        passed_over = scans - first - len(set(frames) - {first})
+        assert page.heard("live", lambda m: m["notDrawn"] == passed_over)["total"] == scans + 1
