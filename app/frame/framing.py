@@ -16,7 +16,7 @@ from lineseg import Decision, Params, Trace
 
 from .findings import Findings
 from .geometry import Bounds
-from .names import Measure, Name, feet, names_of, point_of
+from .names import Measure, Name, feet, names_of, pair_of, point_of, shared_with
 
 Line = tuple[float, float, float]
 
@@ -53,11 +53,14 @@ def framing_of(found: Findings, step: int) -> Framing | None:
     """The framing of a decision; None if it has no points."""
     trace, scan = found.trace, found.scan
     decision = trace[step]
-    shown, beyond = _points_of(trace, step, decision)
+    shown, beyond = _points_of(found, step, decision)
     xy, outside = scan.xy[shown[scan.valid[shown]]], scan.xy[beyond[scan.valid[beyond]]]
     if not len(xy):
         return None
     names, measures = names_of(found, decision)
+    shared = shared_with(found, decision)
+    if shared is not None and shared[1] in shown:
+        names += (shared[0],)
     about = np.array([end for each in measures for end in (each.start, each.end)]).reshape(-1, 2)
     about = about[np.hypot(*(about - xy.mean(axis=0)).T) < 3 * max(float(np.ptp(xy, axis=0).max()), 0.1)]
     if decision.kind in GROWING:
@@ -127,27 +130,26 @@ def tolerance(found: Findings) -> float:
     return float(params.epsilon) if isinstance(params, Params) else float(getattr(params, "epsilon", 0.03))
 
 
-def _points_of(trace: Trace, step: int, decision: Decision) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+def _points_of(found: Findings, step: int, decision: Decision) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """The beams that a decision is about, and others up to where its line is shown.
 
     These are a window, what a line will have grown to, both lines, or an overlap.
     """
-    row = trace.log[step]
+    trace, row = found.trace, found.trace.log[step]
     first, last, tested = int(row["first"]), int(row["last"]), [int(row["beam"])] if row["beam"] >= 0 else []
     if decision.phase == "seed":
         return _at(trace, first, last, tested), _at(trace, first - 1, last + 1)
     if decision.kind in GROWING:
         low, high = _growth(trace, row)
         return _at(trace, low, high, tested), _at(trace, low - BEYOND, high + BEYOND)
-    lines = {line.candidate: line for line in trace.lines_at(step - 1)}
-    one, two = lines.get(decision.candidate), lines.get(decision.partner)
-    none = np.arange(0)
-    if decision.kind == "overlap cut" and one and two:
-        shared = _widened(trace, two.first, one.last)
-        if len(shared):
-            return shared, none
-    spans = [_at(trace, first, last, tested), *(trace.beams(line.first, line.last) for line in (two,) if line)]
-    return np.concatenate(spans), none
+    pair, none = pair_of(found, decision), np.arange(0)
+    if pair is None:
+        return _at(trace, first, last, tested), none
+    one, two = pair
+    shared = _widened(trace, two.first, one.last)
+    if decision.kind == "overlap cut" and len(shared):
+        return shared, none
+    return np.concatenate((_at(trace, first, last, tested), trace.beams(two.first, two.last))), none
 
 
 def _growth(trace: Trace, row: np.void) -> tuple[int, int]:

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from lineseg import Decision, Params
+from lineseg import Decision, Params, TracedLine
 from lineseg.region_growing.prediction import predicted_ranges
 
 from .findings import Findings
@@ -53,6 +53,28 @@ def names_of(found: Findings, decision: Decision) -> Told:
     if decision.kind in ("line kept", "line dropped") and _is_line(decision.line):
         return _measured(found, decision)
     return _ends_of(found, decision, f"first {decision.first}", f"last {decision.last}"), ()
+
+
+def pair_of(found: Findings, decision: Decision) -> tuple[TracedLine, TracedLine] | None:
+    """The two lines that a decision compares, as they were before it; None if it compares none."""
+    if decision.partner < 0:
+        return None
+    lines = {line.candidate: line for line in found.trace.lines_at(decision.index - 1)}
+    one, two = lines.get(decision.candidate), lines.get(decision.partner)
+    return None if one is None or two is None else (one, two)
+
+
+def shared_with(found: Findings, decision: Decision) -> tuple[Name, int] | None:
+    """The end of the line before, with its beam, if a growing or grown line has points of it; else None."""
+    if decision.kind not in ("point added", "growth stopped", "line kept"):
+        return None
+    lines = {line.candidate: line for line in found.trace.lines_at(decision.index)}
+    own = lines.get(decision.candidate)
+    before = max((candidate for candidate in lines if candidate < decision.candidate), default=None)
+    if own is None or before is None or lines[before].last not in found.trace.beams(own.first, own.last):
+        return None
+    last = lines[before].last
+    return Name(f"line before ends: {last}", point_of(found.scan.xy[last])), last
 
 
 def _ends_of(found: Findings, decision: Decision, first: str, last: str) -> tuple[Name, ...]:
@@ -119,11 +141,10 @@ def _measured(found: Findings, decision: Decision) -> Told:
 
 def _pair(found: Findings, decision: Decision) -> Told:
     """Two lines that overlap: their angle, or the point where they are cut."""
-    lines = {line.candidate: line for line in found.trace.lines_at(decision.index - 1)}
-    one, two = lines.get(decision.candidate), lines.get(decision.partner)
-    if one is None or two is None:
+    pair = pair_of(found, decision)
+    if pair is None:
         return (), ()
-    xy, scan = found.scan.xy, found.scan
+    (one, two), xy, scan = pair, found.scan.xy, found.scan
     if decision.kind != "overlap cut":
         middle = (xy[one.last] + xy[two.first]) / 2
         angle = math.asin(min(1.0, abs(one.line[0] * two.line[1] - one.line[1] * two.line[0])))

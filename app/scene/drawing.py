@@ -16,19 +16,22 @@ from .flat import look_of, shapes_of
 from .picture import Picture, picture
 
 # What a decision is about is drawn from near by.
-NEAR = ("window", "candidate", "predicted", "growing", "other")
+NEAR = ("window", "candidate", "outermost", "predicted", "growing", "first", "other")
 WORDS = {
     "segments": "lines so far",
     "dropped": "dropped",
     "seeds": "seeds",
     "window": "points of the window",
     "candidate": "point under test, P",
+    "outermost": "outermost point",
     "predicted": "predicted point P′",
     "growing": "line at this step",
+    "first": "first line",
     "other": "second line",
     "bent": "line fitted with P",
     "band": "band of ±ε",
     "ray": "laser beam",
+    "perpendicular": "perpendicular to the line",
     "endpoints": "ends of lines",
 }
 

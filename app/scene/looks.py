@@ -16,6 +16,7 @@ CLOUDS: dict[str, tuple[float, Shape]] = {
     "window": (4.0, "circle"),
     "predicted": (5.0, "diamond"),
     "candidate": (5.5, "circle"),
+    "outermost": (5.5, "circle"),
     "selected": (6.5, "diamond"),
 }
 # name: width on the screen [pixels]
@@ -37,19 +38,21 @@ LINES = {
     "normals": 1.5,
     "laser": 2.0,
     "growing": 3.5,
+    "first": 3.5,
     "other": 3.5,
     "bent": 2.0,
     "band": 1.5,
     "ray": 1.5,
+    "perpendicular": 1.5,
     "selected ray": 1.5,
 }
 # Each lies over those before it.
 ORDER = (
     "grid", "past", "all lines", "line map", "trajectory",
-    "other lasers", "pinned", "invalid", "truth", "laser", "ray", "selected ray", "dropped", "band", "missed", "false",
-    "ghosts", "points", "segments", "neither", "matched", "normals", "other", "bent", "growing",
-    "seeds", "endpoints", "window", "predicted",
-    "candidate", "selected",
+    "other lasers", "pinned", "invalid", "truth", "laser", "ray", "perpendicular", "selected ray", "dropped", "band",
+    "missed", "false", "ghosts", "points", "segments", "neither", "matched", "normals", "first", "other", "bent",
+    "growing", "seeds", "endpoints", "window", "predicted",
+    "candidate", "outermost", "selected",
 )  # fmt: skip
 # These are drawn where they are in the world; all others where the laser sees them.
 IN_THE_WORLD = ("grid", "past", "all lines", "line map", "trajectory", "other lasers")

@@ -27,6 +27,7 @@ class Theme:
     refused: Colour
     candidate: Colour
     predicted: Colour
+    first: Colour
     other: Colour
     pinned: Colour
     changed: Colour
@@ -47,7 +48,7 @@ LIGHT = Theme(
     point=(118, 123, 130), invalid=(139, 144, 151), strong=(20, 22, 26), faint=(139, 144, 151),
     grid=(232, 234, 237), axis=(205, 208, 213), truth=(140, 140, 20), laser=(20, 22, 26),
     accepted=(0, 136, 85), refused=(204, 51, 17), candidate=(238, 51, 119),
-    predicted=(110, 70, 215), other=(0, 119, 187),
+    predicted=(110, 70, 215), first=(20, 22, 26), other=(0, 119, 187),
     pinned=(140, 147, 158), changed=(178, 102, 210),
     matched=(0, 119, 187), missed=(20, 22, 26), false=(222, 105, 20), ghost=(110, 70, 215),
     past=(136, 141, 148), past_line=(95, 145, 190), trajectory=(222, 105, 20), mapped=(16, 62, 105),
@@ -57,7 +58,7 @@ DARK = Theme(
     point=(150, 156, 164), invalid=(107, 113, 122), strong=(245, 246, 248), faint=(120, 126, 134),
     grid=(56, 60, 67), axis=(92, 98, 107), truth=(150, 150, 60), laser=(235, 237, 240),
     accepted=(60, 200, 140), refused=(255, 110, 80), candidate=(255, 110, 170),
-    predicted=(170, 140, 255), other=(51, 160, 238),
+    predicted=(170, 140, 255), first=(245, 246, 248), other=(51, 160, 238),
     pinned=(100, 106, 118), changed=(150, 88, 190),
     matched=(51, 160, 238), missed=(245, 246, 248), false=(255, 140, 70), ghost=(170, 140, 255),
     past=(112, 118, 127), past_line=(74, 122, 167), trajectory=(255, 140, 70), mapped=(150, 205, 250),

@@ -13,6 +13,7 @@ from lineseg.region_growing.prediction import predicted_ranges
 
 from ..fitting import fitted
 from ..frame.findings import Findings
+from ..frame.names import pair_of
 from .palette import Colours, Theme
 from .shapes import Lines, Points, dashed, joined, lines_between, points_at
 
@@ -75,40 +76,54 @@ def _candidate_colours(found: Findings, candidates: tuple[int, ...]) -> Colours:
 def decision_geometry(found: Findings, step: int, theme: Theme) -> tuple[dict[str, Points], dict[str, Lines]]:
     """The window under test, the fitted line with its ε band, P and P′ with the beam, and the candidate point.
 
-    Where it would have changed the decision, also the line fitted with the candidate.
+    Where it would have changed the decision, also the line fitted with the candidate. Two lines that are compared are
+    drawn as they were then, and beside them the one that they become.
     """
-    decision, scan = _as_compared(found, found.trace[step]), found.scan
+    decision, scan = found.trace[step], found.scan
+    if decision.ends is not None:
+        return _moved_ends(found, decision, theme)
+    pair = pair_of(found, decision)
     points: dict[str, Points] = {}
     lines: dict[str, Lines] = {}
     refused = found.trace.vocabulary.jump_of(decision.kind) in ("refusal", "drop")
     tone = theme.refused if refused else theme.accepted
     inside = found.trace.beams(decision.first, decision.last)
+    if pair is not None:
+        for name, one in zip(("first", "other"), pair, strict=True):
+            start, end = span(scan.xy[found.trace.beams(one.first, one.last)], one.line)
+            lines[name] = lines_between(start, end, getattr(theme, name))
+        if decision.kind == "overlap cut":
+            # By now each is fitted to what it keeps.
+            decision = replace(decision, line=pair[0].line, other=pair[1].line)
+    elif decision.other is not None and is_line(decision.other):
+        lines["other"] = lines_between(*span(scan.xy[inside], decision.other), theme.other)
     if decision.phase not in ("growth", "overlap", "endpoints") or decision.kind == "line dropped":
         points["window"] = points_at(scan.xy[inside], tone)
     if decision.beam >= 0:
         points["candidate"] = points_at(scan.xy[decision.beam], theme.candidate)
-    if is_line(decision.line):
+    if is_line(decision.line) and (pair is None or decision.kind == "lines merged"):
         touched = [*inside, decision.beam] if decision.beam >= 0 else list(inside)
         start, end = span(scan.xy[touched], decision.line)
         lines["growing"] = lines_between(start, end, tone)
         width = band_width(found, decision, start, end)
         if np.any(width):
             lines["band"] = band(start, end, decision.line, width, theme)
-    if decision.other is not None and is_line(decision.other):
-        start, end = span(scan.xy[inside], decision.other)
-        lines["other"] = lines_between(start, end, theme.other)
     if decision.beam >= 0 and is_line(decision.line):
         points["predicted"], lines["ray"] = prediction(scan, decision, theme)
     if (bent := bent_line(found, decision)) is not None:
         start, end = span(scan.xy[[*inside, decision.beam]], bent)
         dash = float(np.linalg.norm(end - start)) / (2 * DASHES)
         lines["bent"] = dashed(start[None], end[None], dash, theme.other)
-    if decision.ends is not None:
-        lines["growing"] = lines_between(decision.ends[:2], decision.ends[2:], tone)
-        outermost = scan.xy[[decision.first, decision.last]]
-        lines["ray"] = lines_between(outermost, np.reshape(decision.ends, (2, 2)), theme.candidate)
-        points["candidate"] = points_at(outermost, theme.candidate)
     return points, lines
+
+
+def _moved_ends(found: Findings, decision: Decision, theme: Theme) -> tuple[dict[str, Points], dict[str, Lines]]:
+    """A line with its outermost points and the way of each to the line."""
+    outermost, ends = found.scan.xy[[decision.first, decision.last]], np.reshape(decision.ends or (0.0,) * 4, (2, 2))
+    return {"outermost": points_at(outermost, theme.candidate)}, {
+        "growing": lines_between(ends[0], ends[1], theme.accepted),
+        "perpendicular": lines_between(outermost, ends, theme.candidate),
+    }
 
 
 def bent_line(found: Findings, decision: Decision) -> Line | None:
@@ -122,15 +137,6 @@ def bent_line(found: Findings, decision: Decision) -> Line | None:
     point = scan.xy[decision.beam]
     line = fitted(np.concatenate((scan.xy[inside[scan.valid[inside]]], point[None])))
     return line if np.linalg.norm(point - foot(point, line)) < decision.limit else None
-
-
-def _as_compared(found: Findings, decision: Decision) -> Decision:
-    """A cut with its lines as they were compared, before they were fitted to what each of them keeps."""
-    lines = {line.candidate: line for line in found.trace.lines_at(decision.index - 1)} if decision.other else {}
-    one, two = lines.get(decision.candidate), lines.get(decision.partner)
-    if decision.kind != "overlap cut" or one is None or two is None:
-        return decision
-    return replace(decision, line=one.line, other=two.line)
 
 
 def band_width(found: Findings, decision: Decision, start: NDArray, end: NDArray) -> NDArray[np.float64]:

@@ -72,6 +72,10 @@ class ViserScene:
             )
             for name, width in LINES.items()
         }  # fmt: skip
+        # Never seen: tells the page how large a pixel was taken for.
+        self._pixel = nodes.add_point_cloud(
+            "/pixel", no_points, no_points.astype(np.uint8), point_size=self._metres_per_pixel, visible=False
+        )
         nodes.world_axes.visible = False
         self._keep_shaders()
         self._change = change
@@ -242,6 +246,7 @@ class ViserScene:
             return
         self._metres_per_pixel = rounded
         with self._server.atomic():
+            self._pixel.point_size = rounded
             for name, handle in self._clouds.items():
                 handle.point_size = CLOUDS[name][0] * rounded
 

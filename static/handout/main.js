@@ -76,7 +76,7 @@ class Page {
     this.#overlay = createOverlay(holder, this.#stage);
     this.#closeUp = createCloseUp(/** @type {any} */ (this), /** @type {any} */ (this.#stage), {
       whole: this.fit,
-      onFraming: (framing) => names.set(framing?.names ?? [], framing?.measures ?? [], framing?.normal),
+      onFraming: names.set,
     });
     this.#why = this.#createWhy();
     holder.append(this.#key.element, this.#createTools(), this.#why.element);
@@ -318,7 +318,7 @@ class Page {
       nodes: picture.nodes.map(({ name }) => name),
     };
     this.drawn = state;
-    this.#closeUp.set(state.framing);
+    this.#closeUp.set(state);
     this.#key.setState(/** @type {any} */ (state));
     this.#explain(selected);
     this.#ranges.set(this.#place, this.#knobsOf(stand.method));

@@ -21,6 +21,14 @@ export const REPEATED = ["seed", "growth", "enough"];
 
 const OF_LINES = new Set(["line kept", "line dropped"]);
 
+/** The algorithm that each block belongs to; the first one is where the method begins. @type {Partial<Record<Block, string>>} */
+const ALGORITHMS = { growth: "growth", enough: "growth", overlap: "overlap", endpoints: "endpoints" };
+
+/** The algorithm that a lesson about a block is about. @param {Block | null | undefined} block */
+export function algorithmOf(block) {
+  return (block && ALGORITHMS[block]) ?? "seed";
+}
+
 /** The block of a decision; of the whole result, the last one. @param {Event | null} event @returns {Block} */
 export function blockOf(event) {
   if (!event) return "segments";

@@ -2,7 +2,7 @@
 // Mode Learn: one frame, decision by decision, in words, pseudocode, formulas and charts.
 import { createOverlay } from "../stage/overlay.js";
 import { h, setText } from "../widgets/dom.js";
-import { blockOf } from "./blocks.js";
+import { algorithmOf, blockOf } from "./blocks.js";
 import { createCharts } from "./charts.js";
 import { fetchInto } from "./fetched.js";
 import { Diagram } from "./diagram.js";
@@ -60,10 +60,12 @@ class Learn {
   #lessons;
   #glossary;
   /** @type {Listing | null} */ #listing = null;
+  /** The lesson that the listing was opened for. */ #listed = "";
   #listingPlace = h("div", { class: "listing-place" });
   #splitting;
   #diagram;
   #panel;
+  #stage;
   /** Whether the block diagram with its lessons is wanted, rather than the replay of a decision. */ #overview = true;
   #other = h("p", { class: "hint other-method", hidden: true });
 
@@ -73,6 +75,7 @@ class Learn {
     const { onChange, settled, session } = handlers;
     this.#text = text;
     this.#view = view;
+    this.#stage = stage;
     this.#dock = dock;
     this.#handlers = handlers;
     this.#splitting = new SplitListing(text.listing);
@@ -251,6 +254,15 @@ class Learn {
       !this.#lessons.showing.active,
       this.#params,
     );
+    this.#openListing();
+  }
+
+  /** A lesson begins with the algorithm that it is about. */
+  #openListing() {
+    const { lesson } = this.#lessons;
+    if (!this.#listing || this.#listed === (lesson?.id ?? "")) return;
+    this.#listed = lesson?.id ?? "";
+    if (lesson && !this.#event) this.#listing.open(algorithmOf(lesson.block));
   }
 
   #showOverview() {
@@ -268,6 +280,12 @@ class Learn {
     const about = lesson?.block === "methods" ? "segments" : lesson?.block;
     this.#diagram.light(event ? lit : (about ?? lit));
     this.#lessons.light(lit);
+    this.#hideBefore();
+  }
+
+  /** Under the words of a lesson nothing else is shown than what they are about. */
+  #hideBefore() {
+    this.#stage.classList.toggle("before-lesson", this.#lessons.waiting);
   }
 
   /** Lessons of the user. @param {import("./lessons.js").Lesson[]} lessons */
@@ -346,6 +364,7 @@ class Learn {
     this.#ladder.setState(state);
     if (origin === "scene" && state.selected !== null) this.#runTo(state.selected);
     if (this.#trace && this.#handlers.settled()) this.#lessons.settle(state, this.#trace);
+    this.#hideBefore();
   }
 }
 

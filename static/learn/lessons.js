@@ -44,6 +44,8 @@ export class Lessons {
   /** Frames that were labelled in a lesson itself. */ #labelled = 0;
   /** What must have loaded before a link with ?lesson=… is opened. */
   #awaited = new Set(["lessons", "knobs"]);
+  /** Whether the list of lessons, or one that a link names, is being fetched. */ #fetching = true;
+  /** Whether a lesson was opened whose first picture is not drawn yet. */ #opening = false;
   #list;
   #reader;
 
@@ -78,7 +80,19 @@ export class Lessons {
       glossary.set(told.terms, told.lessons);
       this.#list.set(told.lessons);
       this.#come("lessons");
-    });
+    }).then(() => this.#fetch(false));
+  }
+
+  /** @param {boolean} under whether something is under way */
+  #fetch(under) {
+    this.#fetching = under;
+    this.#handlers.onRead();
+  }
+
+  /** Whether the stage still shows something else than the lesson that the page names. */
+  get waiting() {
+    const named = this.#view?.mode === "learn" ? this.#view.lesson : null;
+    return named !== null && (this.#opening || (this.#fetching && named !== this.#lesson?.id));
   }
 
   /** @param {string} what */
@@ -113,6 +127,7 @@ export class Lessons {
   /** @param {Lesson} chosen */
   #show(chosen) {
     this.#lesson = chosen;
+    this.#opening = true;
     this.#sliders = new Map(
       this.#knobs
         .filter(({ name }) => chosen.knobs.includes(name))
@@ -136,6 +151,7 @@ export class Lessons {
     if (recording !== chosen.recording) return this.#turn(page);
     this.#at = Math.min(page, chosen.steps.length);
     this.#pending = null;
+    this.#opening = false;
     this.#read(chosen);
   }
 
@@ -143,7 +159,9 @@ export class Lessons {
   #fetchDropped(id) {
     if (this.#fetched.has(id)) return;
     this.#fetched.add(id);
+    this.#fetch(true);
     fetchText(`/api/lessons/one?${new URLSearchParams({ id })}`).then(({ words, trouble }) => {
+      this.#fetch(false);
       const found = trouble === null ? JSON.parse(words) : null;
       if (!found) return this.#list.complain(trouble ?? this.#words.learn.lesson.unknown(id));
       this.#list.add([found]);
@@ -186,6 +204,7 @@ export class Lessons {
   #close() {
     this.#lesson = null;
     this.#pending = null;
+    this.#opening = false;
     this.#before = null;
     this.#reader.close();
     this.showing.turn(null);
@@ -292,6 +311,8 @@ export class Lessons {
     this.#drawn = state;
     const labelling = lesson?.task.goal?.labelled && this.#at === lesson.steps.length;
     if (lesson && labelling) this.#checkLabels(lesson);
+    const opening = this.#opening;
+    this.#opening = false;
     if (!lesson || !isOf(lesson, state)) return;
     this.showing.set(state);
     const { method, params } = this.#wanted();
@@ -299,7 +320,9 @@ export class Lessons {
       const target = this.#pending.find;
       this.#pending = null;
       const index = target ? find(trace, target) : -1;
-      this.#handlers.onGo(index >= 0 ? index : null);
+      const step = index >= 0 ? index : null;
+      this.#opening = opening && step !== state.step;
+      this.#handlers.onGo(step);
     }
     if (!this.#pending && this.#at === lesson.steps.length && !this.#solved && lesson.task.goal && !labelling)
       this.#check(lesson, state, trace, params);

@@ -32,7 +32,7 @@ export class Listing {
     this.#buttons = algorithms.map(({ phase }) =>
       h(
         "button",
-        { type: "button", class: "chip", "aria-pressed": "false", onclick: () => this.#choose(phase) },
+        { type: "button", class: "chip", "aria-pressed": "false", onclick: () => this.open(phase) },
         text.tabs[phase],
       ),
     );
@@ -44,7 +44,7 @@ export class Listing {
       this.#values,
       ...this.#blocks,
     );
-    this.#choose(algorithms[0].phase);
+    this.open(algorithms[0].phase);
   }
 
   /** @param {Algorithm} algorithm */
@@ -75,8 +75,8 @@ export class Listing {
     );
   }
 
-  /** @param {string} phase */
-  #choose(phase) {
+  /** Shows an algorithm. @param {string} phase */
+  open(phase) {
     this.#algorithms.forEach((algorithm, k) => {
       this.#blocks[k].hidden = algorithm.phase !== phase;
       this.#buttons[k].setAttribute("aria-pressed", String(algorithm.phase === phase));
@@ -99,7 +99,7 @@ export class Listing {
     const before = this.#lit;
     if (before) darken(before);
     this.#lit = event ? (this.#lines.get(eventName(event)) ?? null) : null;
-    if (event) this.#choose(event.phase);
+    if (event) this.open(event.phase);
     if (!this.#lit) return;
     this.#lit.classList.add("lit");
     this.#lit.setAttribute("aria-current", "step");

@@ -14,7 +14,7 @@ const MOST_SMALLER = 1.35;
  * @param {import("../page.js").Page} page
  * @param {import("./kinds.js").AnyStage} stage
  * @param {typeof import("../text/page.js").pageText.stage} text
- * @param {{drawing: () => boolean, names: (recording: string) => boolean, onLook: () => void, onFraming: (framing: Framing | null) => void}} handlers
+ * @param {{drawing: () => boolean, names: (recording: string) => boolean, onLook: () => void, onFraming: (framing: Framing | null, lines: [[number, number], [number, number]][]) => void}} handlers
  *   drawing: the recording is a world that is being drawn; names: the recording is the one in the link; onLook: the visible part changed; onFraming: as of the close-up
  */
 export function createCamera(page, stage, text, { drawing, names, onLook, onFraming }) {
@@ -65,7 +65,7 @@ export function createCamera(page, stage, text, { drawing, names, onLook, onFram
     },
     /** @param {import("../wire.js").State} state */
     setState(state) {
-      const { recording, place: scans, framing, layers, world, view } = state;
+      const { recording, place: scans, framing, segments, layers, world, view } = state;
       stage.gridded = layers.grid;
       stage.place(world, view.ride === "on");
       // A drawn world stays where it is while it changes.
@@ -76,7 +76,7 @@ export function createCamera(page, stage, text, { drawing, names, onLook, onFram
         closeUp.forget();
         fit();
       } else grow(state);
-      closeUp.set(framing);
+      closeUp.set({ framing, segments });
       if (!wanted || !names(recording)) return;
       stage.lookAt(wanted);
       wanted = null;

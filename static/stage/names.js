@@ -7,12 +7,17 @@ import { symbols } from "../widgets/symbols.js";
 /** @typedef {{text: string, at: Point}} Name at: place of the scan [m] */
 /** @typedef {{text: string, start: Point, end: Point, beside?: boolean}} Measure beside: drawn beside its places */
 /** @typedef {{left: number, top: number, right: number, bottom: number}} Room */
+/** @typedef {import("../wire.js").Framing} Framing */
 
 const NEAR_PX = 14;
 const FARTHER_PX = [0, 20, 42, 66, 92, 124, 160];
 const ASIDE_PX = 16;
 const EDGE_PX = 6;
 const DOT_PX = 7;
+// A pixel of a line below a name counts as much as this many square pixels of another name.
+const LINE_COST = 10;
+// Nor should the way from a name to its place cross that of another.
+const CROSSING_COST = 200;
 // Where a name is put: first to both sides of the line, by turns from there towards the line.
 const TURNS = [0, 180, 35, -35, 145, -145, 70, -70, 110, -110].map((degrees) => (degrees * Math.PI) / 180);
 
@@ -30,8 +35,10 @@ export function createNames(holder, view) {
   let measures = [];
   /** @type {HTMLElement[]} */
   let parts = [];
+  /** Lines that names lie beside. @type {[Point, Point][]} */
+  let lines = [];
   /** @type {Point[]} */
-  let ways = [];
+  let turns = [];
   view.onMove(place);
 
   function place() {
@@ -44,25 +51,38 @@ export function createNames(holder, view) {
     ];
     /** @type {Room[]} */
     const taken = places.flatMap((at) => (at ? [roomAround(at, 2 * DOT_PX, 2 * DOT_PX)] : []));
+    const drawn = lines.flatMap((ends) => {
+      const [one, other] = ends.map((at) => view.project(...at));
+      return one && other ? [/** @type {[Point, Point]} */ ([one, other])] : [];
+    });
+    taken.push(...drawn.flat().map((end) => roomAround(end, 2 * DOT_PX, 2 * DOT_PX)));
     taken.push(...[...holder.querySelectorAll(".stage-tools, .scale, .scene-key")].map((part) => roomOf(part, holder)));
+    /** From each place to its name. @type {[Point, Point][]} */
+    const ways = [];
     for (const [k, at] of places.entries()) {
       const part = parts[k];
       part.hidden = at === null;
       if (!at) continue;
       const inset = { left: EDGE_PX, top: EDGE_PX, right: stage.right - EDGE_PX, bottom: stage.bottom - EDGE_PX };
-      const room = freeRoom(clamped(at, inset), part, inset, taken, ways);
+      const room = freeRoom(clamped(at, inset), part, inset, { taken, lines: drawn, ways, turns });
       taken.push(room);
+      ways.push([at, middleOfRoom(room)]);
       part.style.transform = `translate(${room.left}px, ${room.top}px)`;
       marks.append(leader(at, room));
     }
   }
 
   return {
-    /** @param {Name[]} nextNames @param {Measure[]} nextMeasures @param {Point} [normal] of the line that they are about */
-    set(nextNames, nextMeasures, [a, b] = [0, 1]) {
-      ways = TURNS.map((turn) => [a * Math.cos(turn) - b * Math.sin(turn), -(a * Math.sin(turn) + b * Math.cos(turn))]);
-      names = nextNames;
-      measures = nextMeasures;
+    /** @param {Framing | null} framing @param {[Point, Point][]} nextLines that names lie beside */
+    set(framing, nextLines) {
+      const [a, b] = framing?.normal ?? [0, 1];
+      turns = TURNS.map((turn) => [
+        a * Math.cos(turn) - b * Math.sin(turn),
+        -(a * Math.sin(turn) + b * Math.cos(turn)),
+      ]);
+      names = framing?.names ?? [];
+      measures = framing?.measures ?? [];
+      lines = nextLines;
       parts = [...names, ...measures].map(({ text }) => h("span", { class: "scene-name" }, ...symbols(text)));
       words.replaceChildren(...parts);
       place();
@@ -88,15 +108,18 @@ function middleOf({ start, end, beside }, marks, view) {
   return [(x1 + x2) / 2, (y1 + y2) / 2];
 }
 
-/** The nearest free place for a name; if there is none, the one that covers least. @param {Point} at @param {HTMLElement} part @param {Room} inset @param {Room[]} taken @param {Point[]} ways */
-function freeRoom([x, y], part, inset, taken, ways) {
+/** The nearest free place for a name; if there is none, the one that covers least. @param {Point} at @param {HTMLElement} part @param {Room} inset @param {{taken: Room[], lines: [Point, Point][], ways: [Point, Point][], turns: Point[]}} around */
+function freeRoom([x, y], part, inset, { taken, lines, ways, turns }) {
   const { offsetWidth: wide, offsetHeight: tall } = part;
   let best = { room: roomAround([x, y], wide, tall), cost: Infinity };
   for (const farther of FARTHER_PX) {
-    for (const [dx, dy] of ways) {
+    for (const [dx, dy] of turns) {
       const far = NEAR_PX + farther;
       const room = roomAround([x + dx * (far + wide / 2), y + dy * (far + tall / 2)], wide, tall);
-      const cost = taken.reduce((sum, other) => sum + shared(room, other), outside(room, inset));
+      const covered = lines.reduce((sum, line) => sum + within(line, room), 0);
+      const crossed = ways.filter((way) => cross(way, [[x, y], middleOfRoom(room)])).length;
+      const drawnOver = outside(room, inset) + LINE_COST * covered + CROSSING_COST * crossed;
+      const cost = taken.reduce((sum, other) => sum + shared(room, other), drawnOver);
       if (cost < 1) return room;
       if (cost < best.cost) best = { room, cost };
     }
@@ -124,6 +147,18 @@ function roomAround([x, y], wide, tall) {
   return { left: x - wide / 2, top: y - tall / 2, right: x + wide / 2, bottom: y + tall / 2 };
 }
 
+/** @param {Room} room @returns {Point} */
+function middleOfRoom({ left, top, right, bottom }) {
+  return [(left + right) / 2, (top + bottom) / 2];
+}
+
+/** Whether two ways cross. @param {[Point, Point]} one @param {[Point, Point]} other */
+function cross(one, other) {
+  const side = (/** @type {[Point, Point]} */ [[x1, y1], [x2, y2]], /** @type {Point} */ [x, y]) =>
+    Math.sign((x2 - x1) * (y - y1) - (y2 - y1) * (x - x1));
+  return side(one, other[0]) * side(one, other[1]) < 0 && side(other, one[0]) * side(other, one[1]) < 0;
+}
+
 /** @param {Element} part @param {HTMLElement} holder @returns {Room} */
 function roomOf(part, holder) {
   const [inner, outer] = [part.getBoundingClientRect(), holder.getBoundingClientRect()];
@@ -140,6 +175,22 @@ function shared(one, other) {
   const wide = Math.min(one.right, other.right) - Math.max(one.left, other.left);
   const tall = Math.min(one.bottom, other.bottom) - Math.max(one.top, other.top);
   return wide > 0 && tall > 0 ? wide * tall : 0;
+}
+
+/** How long a line is within a room. @param {[Point, Point]} line @param {Room} room */
+function within([[x1, y1], [x2, y2]], { left, top, right, bottom }) {
+  const [dx, dy] = [x2 - x1, y2 - y1];
+  let [from, to] = [0, 1];
+  for (const [step, low, high] of [
+    [dx, left - x1, right - x1],
+    [dy, top - y1, bottom - y1],
+  ]) {
+    if (step === 0 && (low > 0 || high < 0)) return 0;
+    if (step === 0) continue;
+    from = Math.max(from, Math.min(low / step, high / step));
+    to = Math.min(to, Math.max(low / step, high / step));
+  }
+  return Math.max(0, to - from) * Math.hypot(dx, dy);
 }
 
 /** How much of a room lies outside of another. @param {Room} room @param {Room} inset */

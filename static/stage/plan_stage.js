@@ -92,7 +92,7 @@ export class PlanStage {
 
   /** Where to look to see all of a box. @param {Box} box @param {typeof WHOLE} room */
   around(box, room) {
-    return around(box, this.size, room, room === WHOLE ? this.#covered : []);
+    return around(box, this.size, room, this.#covered);
   }
 
   /** Fits again what was fitted, unless a person has moved the camera since. */

@@ -42,7 +42,7 @@ export function mountScene(
     drawing,
     names: isNamed,
     onLook,
-    onFraming: (framing) => names.set(framing?.names ?? [], framing?.measures ?? [], framing?.normal),
+    onFraming: names.set,
   });
   const layers = createLayers(text, (switched) => page.change({ layers: switched }));
   const mapLines = createMapLines(page.sessionId);

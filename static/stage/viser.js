@@ -1,7 +1,7 @@
 // @ts-check
 // viser's camera (camera-controls on three.js): locked to the plan, or free; in the coordinates of the scan.
 
-/** @typedef {{control: any, camera: any, mutable: any}} Found viser's camera and its control */
+/** @typedef {{control: any, camera: any, mutable: any, nodes: () => Record<string, any>}} Found viser's camera and its control; nodes: of its scene, by name */
 /** What the plan shows, and from how high [m]. @typedef {{x: number, y: number, height: number}} Plan */
 
 export const PLAN_FOV_DEG = 10;
@@ -13,15 +13,20 @@ const FLAT = 0.002;
 /** The height of the drawing (app/scene/viser_scene.py) [m]. */
 const DRAWN_HEIGHT = 0.5;
 const WHEEL_SPEED = 1;
+/** The node as large as one pixel (app/scene/viser_scene.py). */
+const PIXEL = "/pixel";
 // camera-controls' actions
 const ACTION = { ROTATE: 1, TRUCK: 2, DOLLY: 16, TOUCH_ROTATE: 64, TOUCH_TRUCK: 128, TOUCH_DOLLY_TRUCK: 4096 };
 
 /** viser's camera, once viser has put it where it begins and tells where it is. @param {HTMLIFrameElement} frame @returns {Found | null} */
 export function cameraIn(frame) {
-  const mutable = /** @type {any} */ (frame.contentWindow)?.__viserMutable;
+  const scene = /** @type {any} */ (frame.contentWindow);
+  const mutable = scene?.__viserMutable;
   const control = mutable?.cameraControl;
   const camera = control?.camera ?? mutable?.camera;
-  return control && camera && mutable.sendCamera ? { control, camera, mutable } : null;
+  return control && camera && mutable.sendCamera
+    ? { control, camera, mutable, nodes: () => scene.__viserSceneTree?.getState() ?? {} }
+    : null;
 }
 
 /** Whether viser has heard what to draw; before, it shows axes on white. @param {HTMLIFrameElement} frame */
@@ -56,7 +61,8 @@ export function clip({ camera }, height) {
  */
 
 /** Shows the plan stretched and flat; null: as it is, in space. @param {Found} found @param {Stretch | null} stretch @param {number | null} height */
-export function bend({ camera, mutable }, stretch, height) {
+export function bend(found, stretch, height) {
+  const { camera, mutable } = found;
   const flat = height === null ? 1 : Math.min(1, (FLAT * height) / DRAWN_HEIGHT);
   const [u, v, w] = toThree([...(stretch?.normal ?? [0, 1]), 0]);
   const k = (stretch?.factor ?? 1) - 1;
@@ -71,7 +77,8 @@ export function bend({ camera, mutable }, stretch, height) {
     at[i] * (i === 1 ? 0 : 1) - row.reduce((sum, part, j) => sum + part * at[j], 0),
   ]);
   rememberBend(
-    camera,
+    found,
+    height,
     camera.matrixWorld
       .clone()
       .set(...rows, 0, 0, 0, 1)
@@ -80,10 +87,11 @@ export function bend({ camera, mutable }, stretch, height) {
   mutable.requestRender();
 }
 
-/** Makes the camera see the world moved by the inverse of `back`. @param {any} camera @param {any} back */
-function rememberBend(camera, back) {
+/** Makes the camera see the world moved by the inverse of `back`. @param {Found} found @param {number | null} height @param {any} back */
+function rememberBend(found, height, back) {
+  const { camera } = found;
   const first = !camera.userData.back;
-  camera.userData.back = back;
+  Object.assign(camera.userData, { back, height });
   if (!first) return;
   for (const name of ["updateMatrixWorld", "updateWorldMatrix"]) {
     const usual = camera[name];
@@ -91,7 +99,28 @@ function rememberBend(camera, back) {
       usual.apply(camera, given);
       camera.matrixWorld.premultiply(camera.userData.back);
       camera.matrixWorldInverse.copy(camera.matrixWorld).invert();
+      if (camera.userData.height !== null) sizeMarks(found, camera.userData.height);
     };
+  }
+}
+
+/**
+ * Gives the marks of the plan their size on the screen before each frame. The server changes it, too, but only when it
+ * has heard where the camera is, which may take seconds.
+ * @param {Found} found @param {number} height
+ */
+function sizeMarks({ mutable, nodes }, height) {
+  const all = nodes();
+  const pixel = all[PIXEL]?.message.props.point_size;
+  const { canvas } = mutable;
+  if (!pixel || !canvas?.clientHeight) return;
+  const density = canvas.height / canvas.clientHeight;
+  for (const [name, { message }] of Object.entries(all)) {
+    if (message.type !== "PointCloudMessage") continue;
+    const wide = (message.props.point_size / pixel) * 2 * height * density;
+    mutable.nodeRefFromName[name]?.traverse((/** @type {any} */ part) => {
+      if (part.isPoints && part.material.uniforms?.scale) part.material.uniforms.scale.value = wide;
+    });
   }
 }
 

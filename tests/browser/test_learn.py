@@ -288,6 +288,38 @@ def test_terms_are_explained_where_they_are_used_and_in_a_list(new_tab):
     tab.page.get_by_text("7 · ε: how far is too far").wait_for()
 
 
+def test_before_the_picture_of_a_lesson_nothing_else_is_shown_with_its_words(new_tab):
+    tab = learn(new_tab, "sample:hallway")
+    held = []
+    tab.page.route("**/api/lessons", lambda route: held.append(route))
+    tab.page.goto("about:blank")
+    tab.page.goto(f"{tab.address}#mode=learn&lesson=09_shallow&page=2")
+    # The lessons have not come, so that the page cannot know of which recording the link speaks.
+    tab.until("s.recording === 'sample:hallway' && s.view.lesson === '09_shallow'")
+    names = tab.page.locator(".stage > .name-marks")
+    assert not names.is_visible() and not tab.page.locator(".stage > .scene").is_visible()
+    tab.eventually(lambda: held, "the lessons are not asked for")
+    held[0].continue_()
+    tab.until("s.recording === 'lesson:5_shallow_corner' && s.step !== null")
+    tab.page.locator(".stage:not(.before-lesson)").wait_for()
+    assert tab.page.locator(".stage > .scene").is_visible()
+
+
+def test_a_lesson_begins_with_the_algorithm_that_it_is_about(new_tab):
+    tab = learn(new_tab, "sample:hallway")
+    for lesson, title in (
+        ("06_endpoints", "Endpoint generation"),
+        ("07_epsilon", "Algorithm 2: grow the line"),
+        ("04_collinear", "Algorithm 3: resolve overlaps"),
+        ("13_least_squares", "Algorithm 1: find a seed"),
+    ):
+        tab.page.locator(f"[data-lesson='{lesson}']").click()
+        tab.until(f"s.view.lesson === '{lesson}' && s.step === null")
+        tab.page.locator(".algorithm:not([hidden]) h3", has_text=title).wait_for()
+        tab.page.get_by_role("button", name="Back to the list of lessons").click()
+        tab.until("s.view.lesson === null")
+
+
 def test_leaving_a_lesson_gives_back_what_was_set_before_it(new_tab):
     tab = learn(new_tab, "sample:hallway", step=7, epsilon=0.05)
     tab.until("s.step === 7")

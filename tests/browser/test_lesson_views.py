@@ -28,6 +28,9 @@ SEEN = """() => {
             return [text, Math.hypot(one[0] - other[0], one[1] - other[1])];
         }),
         cut: boxes.filter((box) => !within(box)).length,
+        onEnds: boxes.filter((box) => lineseg.state.segments.flatMap(({ start, end }) => [start, end])
+            .map(at).some(([x, y]) => x + stage.left > box.left + 2 && x + stage.left < box.right - 2
+                && y + stage.top > box.top + 2 && y + stage.top < box.bottom - 2)).length,
         hidden: boxes.filter((box, k) => boxes.slice(0, k).some((other) => over(box, other))).length,
         words: document.querySelectorAll(".scene-name").length - framing.names.length - framing.measures.length,
     };
@@ -43,12 +46,12 @@ def step_of(lesson: NamedLesson, step: Step) -> int | None:
 
 
 def check_page(tab, place: str) -> None:
-    """What is named lies on the stage, and what is compared lies apart."""
+    """What is named lies on the stage and covers no end of a line, and what is compared lies apart."""
     tab.eventually(lambda: tab.page.evaluate(SEEN)["words"] == 0, f"{place}: names are missing")
     seen = tab.page.evaluate(SEEN)
     # Of a long line only the part under test is shown.
     outside = [name for name in seen["outside"] if not name.startswith(("P_b", "P_f"))]
-    assert (outside, seen["cut"], seen["hidden"]) == ([], 0, 0), place
+    assert (outside, seen["cut"], seen["hidden"], seen["onEnds"]) == ([], 0, 0, 0), place
     for text, pixels in seen["measures"]:
         assert pixels >= LEAST_PX, f"{place}: {text} is {pixels:.1f} px long"
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 from browser.conftest import Profile, Tab
+from lineseg_app.scene.looks import CLOUDS
 from live import Address
 
 CAMERA = """() => {
@@ -58,6 +59,37 @@ def test_the_camera_looks_straight_down_and_a_drag_moves_but_never_turns_it(tab)
         before = camera_when(tab, lambda camera, last=last: camera["at"] != last)
         assert looks_straight_down(before)
         assert before["up"] == PLAN_UP
+
+
+# The size of the points on the screen as they are drawn, and as they should be [px].
+MARKS = """() => {
+    const { cameraControl: control, nodeRefFromName: nodes, canvas } = window.__viserMutable;
+    const sizes = {};
+    for (const name of ["/seen/points", "/seen/endpoints"])
+        nodes[name]?.traverse((part) => {
+            if (!part.isPoints) return;
+            const density = canvas.height / canvas.clientHeight;
+            sizes[name] = part.material.uniforms.scale.value / control.distance / density / 2;
+        });
+    return sizes;
+}"""
+
+
+@pytest.mark.own_tab
+def test_marks_keep_their_size_on_the_screen_before_the_server_hears_of_the_camera(tab):
+    before = camera_when(tab, looks_straight_down)
+    tab.eventually(lambda: len(tab.scene.evaluate(MARKS)) == 2, "no marks in the scene")
+    tab.scene.evaluate("() => { window.__viserMutable.sendMessage = () => {}; }")
+    tab.page.mouse.move(*middle_of_scene(tab))
+    for _ in range(6):
+        tab.page.mouse.wheel(0, -480)
+    camera_when(tab, lambda camera: camera["eye"][1] < 0.5 * before["eye"][1])
+
+    def of_size() -> bool:
+        sizes = tab.scene.evaluate(MARKS)
+        return sizes == {name: pytest.approx(CLOUDS[name.split("/")[-1]][0], rel=0.02) for name in sizes}
+
+    tab.eventually(of_size, "the marks have another size")
 
 
 def test_the_wheel_zooms(tab):

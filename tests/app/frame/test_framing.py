@@ -77,3 +77,19 @@ def test_decisions_of_every_method_are_framed(method):
     for step in range(0, len(finding.trace), 7):
         framed = framing_of(finding, step)
         assert framed is None or np.isfinite(framed.box).all()
+
+
+@pytest.mark.parametrize("kind", ["growth stopped", "line kept"])
+def test_where_a_line_has_points_of_the_one_before_it_the_end_of_that_one_is_named(kind):
+    finding = found("lessons/9_wide_corner", Params(max_occluder=0.0))
+    step = max(each.index for each in finding.trace if each.kind == kind and each.candidate == 1)
+    before = finding.trace.lines_at(step)[0].last
+    (name,) = [each for each in framing(finding, step).names if each.text.startswith("line before")]
+    assert name.text == f"line before ends: {before}"
+    assert name.at == pytest.approx(tuple(finding.scan.xy[before]))
+
+
+def test_where_lines_share_no_points_the_end_of_the_one_before_is_not_named():
+    finding = found("lessons/8_noise_burst", Params(max_occluder=0.0, merge_rms=0.0))
+    for decision in finding.trace:
+        assert not any(each.text.startswith("line before") for each in framing(finding, decision.index).names)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterator
 from pathlib import Path
@@ -108,3 +109,30 @@ def test_marks_of_the_page_have_a_contrast_of_3_to_what_they_lie_on(number: int)
             if contrast(tuple(seen), ground) < 3:
                 low[where, name] = round(contrast(tuple(seen), ground), 2)
     assert low == {}
+
+
+# Below about 25, two lines are easily taken for the same colour.
+APART = 25.0
+
+
+def lab(colour: tuple[float, ...]) -> tuple[float, float, float]:
+    """CIE L*a*b* of sRGB, for the white D65."""
+    red, green, blue = (c / 12.92 if (c := each / 255) <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for each in colour)
+    x = (0.4124564 * red + 0.3575761 * green + 0.1804375 * blue) / 0.95047
+    y = 0.2126729 * red + 0.7151522 * green + 0.0721750 * blue
+    z = (0.0193339 * red + 0.1191920 * green + 0.9503041 * blue) / 1.08883
+    x, y, z = (c ** (1 / 3) if c > 216 / 24389 else (24389 / 27 * c + 16) / 116 for c in (x, y, z))
+    return 116 * y - 16, 500 * (x - y), 200 * (y - z)
+
+
+@pytest.mark.parametrize("theme", [LIGHT, DARK], ids=["light", "dark"])
+def test_no_line_that_was_found_has_the_colour_of_what_is_refused(theme: Theme):
+    refused = lab(theme.refused)
+    for colour in SEGMENTS.tolist():
+        assert math.dist(lab(tuple(colour)), refused) > APART, colour
+
+
+def test_colours_of_lines_differ_from_each_other():
+    for k, one in enumerate(SEGMENTS.tolist()):
+        for other in SEGMENTS.tolist()[:k]:
+            assert math.dist(lab(tuple(one)), lab(tuple(other))) > APART, (one, other)

@@ -161,6 +161,25 @@ def test_a_refused_seed_shows_its_window_its_line_and_where_the_beam_meets_it():
     assert np.hypot(*(drawing.points["candidate"].xyz[0, :2] - (x, y))) == pytest.approx(decision.value, abs=1e-5)
 
 
+@pytest.mark.parametrize(
+    ("name", "kind"),
+    [("3_collinear_overlap", "lines merged"), ("9_wide_corner", "lines kept apart"), ("9_wide_corner", "overlap cut")],
+)
+def test_two_lines_that_are_compared_are_drawn_as_they_were_and_their_merge_beside_them(name, kind):
+    recording = open_recording(SAMPLE.parent / "lessons" / f"{name}.npz")
+    found = findings(recording, 0, "region-growing", Params())
+    (step,) = found.trace.indices(kind)
+    drawn = draw(View(step=int(step)), recording).lines
+    one, two = found.trace.lines_at(int(step) - 1)
+    for line, (a, b, c) in (("first", one.line), ("other", two.line)):
+        ends = drawn[line].xyz[0, :, :2]
+        assert ends @ (a, b) + c == pytest.approx([0, 0], abs=1e-5), line
+    assert ("growing" in drawn) == (kind == "lines merged")
+    if kind == "lines merged":
+        a, b, c = found.trace[int(step)].line
+        assert drawn["growing"].xyz[0, :, :2] @ (a, b) + c == pytest.approx([0, 0], abs=1e-5)
+
+
 def test_the_band_is_epsilon_wide_on_both_sides():
     recording = Recording.from_scans([wall_ahead(noise=0.004)])
     params = Params(epsilon=0.05, epsilon_growth=0.02)

@@ -347,7 +347,7 @@ def _():
 
 @claim(
     "04_collinear",
-    "Both lines now share points",
+    "so both lines now share points",
     "smaller than α_merge = {merge_angle}",
 )
 def _():
@@ -705,6 +705,7 @@ def _():
     "well before the corner",
     "less than L_min = {left.limit}, and was dropped",
     "was the point farthest from the line between the two ends",
+    "loses a point at each split: the one before the split, and later the last one of a second part",
 )
 def _():
     split = trace_by(at("12_split_and_merge"), "split-and-merge", Params())
@@ -718,6 +719,11 @@ def _():
     (left,) = (d for d in split if d.kind == "line dropped" and d.first == split[0].beam)
     assert left.value < left.limit
     assert set(at("12_split_and_merge").wall[left.first : left.last + 1].tolist()) == {2}
+    parts = [(d.first, d.last) for d in split if d.kind == "farthest point"]
+    at_ninety, at_forty_one = parts[:2]
+    # The point before the split, then the last one of the second part.
+    assert (at_forty_one[1], middle.last) == (split[0].beam - 2, at_forty_one[1] - 1)
+    assert at_ninety[0] == at_forty_one[0]
 
 
 @claim(
@@ -879,6 +885,21 @@ def test_every_sentence_with_a_number_or_a_comparison_is_filled_or_claimed(lesso
 
 def test_every_rule_is_still_in_a_lesson():
     assert [rule for rule in RULES if not any(rule in REFERENCE.sub("", written(lesson)) for lesson in LESSONS)] == []
+
+
+def test_a_name_that_is_the_number_of_a_beam_is_at_that_beam():
+    named = [
+        each for lesson in LESSONS.values() for part in (*lesson.steps, lesson.task) for each in part.names.items()
+    ]
+    numbered = [(int(found[1]), beam) for words, beam in named if (found := re.fullmatch(r"beam (\d+)", words))]
+    assert len(numbered) > 5
+    assert [pair for pair in numbered if pair[0] != pair[1]] == []
+
+
+def test_the_named_beams_of_lesson_12_are_those_of_its_text():
+    texts = {words for words in LESSONS["12_split_and_merge"].steps[1].names if words.startswith("beam")}
+    told = LESSONS["12_split_and_merge"].steps[1].text
+    assert all(words in told for words in texts)
 
 
 @pytest.mark.parametrize("lesson", LESSONS.values(), ids=lambda lesson: lesson.id)
