@@ -75,7 +75,7 @@ export const pageText = {
     fit: "Fit the recording in view",
     free: "Rotate the scene freely in 3D",
     plan: "Back to the plan view",
-    across: (/** @type {number} */ factor) => `×${factor} across the line`,
+    across: (/** @type {number} */ factor) => `drawn ×${factor} across the line`,
     noWebGL:
       "This browser has no WebGL: the plan is drawn in 2D, and there is no free 3D view. Turning on graphics acceleration in the browser's settings may bring it back.",
     readout: (

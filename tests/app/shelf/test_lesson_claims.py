@@ -305,6 +305,19 @@ def _():
 
 
 @claim(
+    "03_growth",
+    "Noise easily turns a line through few points; each point that joins makes its direction surer",
+)
+def _():
+    kept = decisions("03_growth", "line kept")[0]
+    at_seed = decisions("03_growth", "seed found")[0]
+    later = [d for d in decisions("03_growth", "point added") if d.candidate == kept.candidate][1:]
+    first, *others = (abs(d.line[0] * kept.line[1] - d.line[1] * kept.line[0]) for d in (at_seed, *later))
+    assert first > max(others)
+    assert first > 2 * np.mean(others)
+
+
+@claim(
     "03_growth", "each of its points is nearer to the line of the first wall than ε", "points between them do not fit"
 )
 def _():
