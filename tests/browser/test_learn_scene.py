@@ -40,10 +40,14 @@ WALK = """async ([steps, expected, patience]) => {
     const lacks = ({ exactly, onLine }) => {
         for (const [name, numbers] of Object.entries(exactly))
             if (off(drawn(name), numbers)) return `${name}: ${drawn(name)} instead of ${numbers}`;
-        if (!onLine) return drawn("growing").length ? "a line is drawn, but none was fitted" : null;
-        const [[a, b, c], [x1, y1, x2, y2]] = [onLine, drawn("growing")];
-        const along = near(a * x1 + b * y1 + c, 0) && near(a * x2 + b * y2 + c, 0);
-        return along ? null : "the drawn line is not the fitted one";
+        for (const [name, line] of Object.entries(onLine)) {
+            if (!line && drawn(name).length) return `${name} is drawn, but there is no such line`;
+            if (!line) continue;
+            const [[a, b, c], [x1, y1, x2, y2]] = [line, drawn(name)];
+            const along = near(a * x1 + b * y1 + c, 0) && near(a * x2 + b * y2 + c, 0);
+            if (!along) return `${name} is drawn elsewhere`;
+        }
+        return null;
     };
     const seen = [];
     const late = Date.now() + 1000 * patience;
@@ -77,23 +81,23 @@ def expected_at(scan: Scan, traced: Trace, decision: Decision) -> dict[str, Any]
     """What the scene should draw after a decision, from the trace alone: x, y, x, y, … of each node; [] for nothing."""
     lines = traced.lines_at(decision.index)
     ends = [on_line(scan.xy[beam], line.line) for line in lines for beam in (line.first, line.last)]
-    candidate = [decision.beam] if decision.beam >= 0 else [decision.first, decision.last] if decision.ends else []
+    candidate = [decision.beam] if decision.beam >= 0 else []
+    outermost = [decision.first, decision.last] if decision.ends else []
     tried = decision.phase == "seed" or decision.kind == "line dropped"
     exactly = {
         "segments": np.ravel(ends).tolist(),
         "candidate": scan.xy[candidate].ravel().tolist(),
+        "outermost": scan.xy[outermost].ravel().tolist(),
         "window": scan.xy[traced.beams(decision.first, decision.last)].ravel().tolist() if tried else [],
     }
     if decision.ends:
         exactly["growing"] = list(decision.ends)
     fitted = np.isfinite(decision.line).all() and np.hypot(*decision.line[:2]) > 0.5
-    compared = decision.line
-    if decision.kind == "overlap cut":
-        # The lines as they were compared, before each was fitted to what it keeps.
-        (compared,) = (
-            line.line for line in traced.lines_at(decision.index - 1) if line.candidate == decision.candidate
-        )
-    return {"exactly": exactly, "onLine": list(compared) if fitted else None}
+    # Two lines as they were compared, before one or both are fitted to what they become.
+    before = {line.candidate: list(line.line) for line in traced.lines_at(decision.index - 1)}
+    pair = [before[which] for which in (decision.candidate, decision.partner)] if decision.partner >= 0 else [None] * 2
+    growing = list(decision.line) if fitted and (decision.partner < 0 or decision.kind == "lines merged") else None
+    return {"exactly": exactly, "onLine": {"growing": growing, "first": pair[0], "other": pair[1]}}
 
 
 def turns(traced: Trace) -> list[int]:
