@@ -49,6 +49,15 @@ def picture_file(folder: Path | None, name: str) -> Path:
     return path
 
 
+def _instead(folder: Path, suffix: str) -> str:
+    """Which files may have been meant: those with this ending first, and other lessons not at all."""
+    files = [each.name for each in folder.iterdir() if each.is_file() and not each.name.startswith(".")]
+    meant = [name for name in files if suffix == ".json" or not name.lower().endswith(".json")]
+    if not meant:
+        return "put it there"
+    return f"there is {', '.join(sorted(meant, key=lambda name: (not name.lower().endswith(suffix), name))[:8])}"
+
+
 def beside(folder: Path | None, name: str) -> Path:
     """A file directly in the folder of a lesson. Raises ValueError if it is not there, or would be elsewhere."""
     if folder is None:
@@ -57,8 +66,7 @@ def beside(folder: Path | None, name: str) -> Path:
         raise ValueError(f"{name[:60]!r} must be the name of a file beside the lesson, without folders")
     path = folder / name
     if not path.is_file():
-        there = sorted(each.name for each in folder.iterdir() if each.is_file() and not each.name.startswith("."))
-        raise ValueError(f"there is no {name} beside the lesson; there is {', '.join(there[:8])}")
+        raise ValueError(f"there is no {name} beside the lesson; {_instead(folder, Path(name).suffix.lower())}")
     if path.resolve().parent != folder.resolve():
         raise ValueError(f"{name} leads out of the folder of the lesson; put the file itself there")
     return path

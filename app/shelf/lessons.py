@@ -124,7 +124,8 @@ def scan_of(lesson: Lesson, home: Home | None = None) -> Scan:
 def _scan(lesson: Lesson, path: Path | None) -> Scan:
     recording = recording_of(lesson, path)
     if lesson.frame >= len(recording):
-        raise ValueError(f"frame is {lesson.frame}, but {lesson.recording or 'scan'} has {len(recording)} frames")
+        frames = f"{len(recording)} frame{'s' * (len(recording) > 1)}"
+        raise ValueError(f"frame is {lesson.frame}, but {lesson.recording or 'scan'} has {frames}")
     return recording[lesson.frame]
 
 
@@ -142,7 +143,7 @@ def _filled(home: Home, id: str, lesson: Lesson) -> NamedLesson:
         scan = _scan(lesson, path)
     except (ValueError, OSError) as error:
         raise MistakeError(("scan" if lesson.scan else "recording",), str(error)) from None
-    _check_beams(lesson, scan, recording)
+    _check_beams(lesson, scan)
     lesson = lesson.model_copy(update={"recording": recording, "scan": {}, "params": USUAL | lesson.params})
     usual = _params(Params(), lesson.params, ("params",))
     steps = []
@@ -202,12 +203,14 @@ def _at(place: Place, work: Callable[[], T]) -> T:
         raise MistakeError(place, str(error)) from None
 
 
-def _check_beams(lesson: Lesson, scan: Scan, recording: str) -> None:
+def _check_beams(lesson: Lesson, scan: Scan) -> None:
     """Raises MistakeError for a beam that the scan does not have."""
     beams = len(scan)
     for place, beam in _beams_of(lesson):
         if beam >= beams:
-            raise MistakeError(place, f"there is no beam {beam}; {recording} has beams 0 to {beams - 1}")
+            raise MistakeError(
+                place, f"there is no beam {beam}; {lesson.recording or 'the scan'} has beams 0 to {beams - 1}"
+            )
 
 
 def _beams_of(lesson: Lesson) -> Iterator[tuple[Place, int]]:

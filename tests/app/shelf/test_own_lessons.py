@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import json
 import logging
+import shutil
 from pathlib import Path
 from typing import Any
 
@@ -76,8 +77,8 @@ def task(**kind: Any) -> dict[str, Any]:
         (lesson(about=""), "about is '': string should have at least 1 character"),
         (lesson(recording=""), "a lesson has either recording or scan"),
         (lesson(recording="hallway"), "recording is 'hallway'; it must be lesson:NAME or sample:NAME of the program"),
-        (lesson(recording="folder:run.npz"), "recording: there is no run.npz beside the lesson; there is mine.json"),
-        (lesson(frame=3), "frame is 3, but lesson:1_perfect_corner has 1 frames"),
+        (lesson(recording="folder:run.npz"), "recording: there is no run.npz beside the lesson; put it there"),
+        (lesson(frame=3), "frame is 3, but lesson:1_perfect_corner has 1 frame"),
         (lesson(steps=[{"text": "![a wall](wall.png)"}]), "there is no wall.png beside the lesson"),
         (lesson(steps=[{"text": "[look](javascript:alert`1`)"}]), "must begin with https://, http:// or lesson:"),
         (lesson(steps=[{"text": "![](wall.png)"}]), "(wall.png) has no words in its square brackets"),
@@ -232,3 +233,16 @@ def test_of_dropped_lessons_that_others_have_replaced_nothing_is_kept(monkeypatc
     assert len(shelf._paths) == 2
     assert len(shelf._known) <= 2
     shelf.close()
+
+
+def test_a_missing_file_is_told_with_those_that_may_have_been_meant(tmp_path: Path):
+    for name in ("other.json", "b.png", "a.txt"):
+        (tmp_path / name).touch()
+    told = complaint(tmp_path, lesson(steps=[{"text": "![a wall](wall.png)"}]))
+    assert told.endswith("there is no wall.png beside the lesson; there is b.png, a.txt")
+
+
+def test_a_beam_that_is_not_there_is_told_of_the_recording_that_the_author_named(tmp_path: Path):
+    shutil.copy(data_folder("sample_scans") / "lessons" / "1_perfect_corner.npz", tmp_path / "run.npz")
+    near = step(near=[4000]) | {"recording": "folder:run.npz"}
+    assert "there is no beam 4000; folder:run.npz has beams 0 to 120" in complaint(tmp_path, near)
