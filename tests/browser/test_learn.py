@@ -305,6 +305,18 @@ def test_before_the_picture_of_a_lesson_nothing_else_is_shown_with_its_words(new
     assert tab.page.locator(".stage > .scene").is_visible()
 
 
+def test_in_a_low_window_the_scene_of_a_lesson_comes_first(new_tab):
+    tab = learn(new_tab, "sample:hallway")
+    tab.page.locator("[data-lesson='05_corner']").click()
+    tab.page.locator(".lesson-foot .primary").click()
+    tab.until("s.view.page === 1 && s.step !== null")
+    tab.page.set_viewport_size({"width": 900, "height": 560})
+    stage = tab.page.locator("#stage")
+    tab.eventually(lambda: stage.evaluate("(stage) => stage.clientHeight") >= 200, "the stage is low")
+    names = tab.page.locator(".scene-name")
+    tab.eventually(lambda: names.count() and all(each.is_visible() for each in names.all()), "names are hidden")
+
+
 def test_a_lesson_begins_with_the_algorithm_that_it_is_about(new_tab):
     tab = learn(new_tab, "sample:hallway")
     for lesson, title in (
