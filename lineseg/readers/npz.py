@@ -223,7 +223,8 @@ def _track(arrays: dict[str, NDArray], frames: int) -> Track | None:
     if poses is None:
         return None
     poses = np.where(np.isfinite(poses).all(axis=1, keepdims=True), poses, np.nan)
-    missing = "the others are NaN in the file" if np.isnan(poses).any() else ""
+    nan = np.isnan(poses).any(axis=1)
+    missing = f"{'all' if nan.all() else 'the others'} are NaN in the file" if nan.any() else ""
     upside_down = bool(np.any(arrays.get("upside_down", False)))
     return Track.of(poses, PoseSource("the array poses", upside_down=upside_down, missing=missing))
 

@@ -151,7 +151,7 @@ def test_what_one_place_alone_saw_is_unknown():
     ("thickness", "unknown", "shift", "trusted", "sentence"),
     [
         (0.010, 0.01, 0.01, True, "hold together. .* by 1 point .*, in one of ten by more than 4"),
-        (0.025, 0.01, 0.01, False, "It is uncertain: walls are 18 mm thick or thicker. .* by 2 points .* more than 9"),
+        (0.025, 0.01, 0.01, False, "It is uncertain: walls are 18 mm thick or thicker. .* by 4 points .* more than 13"),
         (0.010, 0.08, 0.01, False, "4% or more of the returns are unknown. "),
         (0.010, 0.01, 0.03, False, "a pose was corrected by 20 mm or more. "),
         (0.070, 0.01, 0.01, False, "Do not trust this truth: walls are 70 mm thick"),

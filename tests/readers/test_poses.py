@@ -232,6 +232,14 @@ def test_npz_keeps_poses_gaps_and_a_laser_upside_down(tmp_path):
     assert copy.pose_source.upside_down
 
 
+def test_an_array_of_poses_that_are_all_nan_says_so(tmp_path):
+    arrays = {"ranges": np.full((3, 20), 2.0), "angle_min": 0.0, "angle_increment": 0.05}
+    np.savez(tmp_path / "none.npz", **arrays, poses=np.full((3, 3), np.nan))
+    recording = open_recording(tmp_path / "none.npz")
+    assert recording.poses is None
+    assert recording.pose_source.missing == "all are NaN in the file"
+
+
 @pytest.mark.parametrize("turn", [AS_THE_ROBOT, UPSIDE_DOWN])
 def test_motion_within_a_sweep_is_removed(tmp_path, turn):
     """A wall at y = 5, seen by a laser that drives towards it with 2 m/s and turns while it measures."""
