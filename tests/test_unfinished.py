@@ -1,7 +1,9 @@
 """Files appear when they are complete; killed processes and full disks leave nothing that counts."""
 
+import contextlib
 import json
 import os
+import re
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -13,7 +15,8 @@ import pytest
 from lineseg_app.__main__ import main
 from lineseg_app.server import Settings
 from lineseg_app.shelf.recent import Recent
-from live import page_of, serving
+from live import connect, page_of, serving
+from waiting import SECONDS
 
 from lineseg import FrameLabels, Recording, Scan, open_recording, read_labels, save_labels
 from lineseg.readers import save_npz
@@ -170,6 +173,29 @@ def test_an_upload_for_which_the_disk_has_no_space_is_refused_with_a_sentence(ti
             told = answer.json()["message"]
             assert (answer.status_code, told) == (507, f"{name} could not be stored: No space left on device")
         assert not [left for left in tiny.rglob("*") if left.is_file() and left.stat().st_size]
+
+
+def test_tuning_for_whose_trials_the_disk_has_no_space_says_so(tiny):
+    pytest.importorskip("optuna", reason="tuning needs the extra tune")
+    wish = {"type": "auto", "job": 1, "objective": "label-free", "thresholds": ["epsilon"], "trials": 2, "params": {}}
+    with serving(Settings(files=(WALLS,), data_folder=tiny)) as server, page_of(server) as page:
+        page.hello()
+        with (tiny / "full").open("wb", buffering=0) as full, contextlib.suppress(OSError):
+            while True:
+                full.write(bytes(4096))
+        with connect(f"{server.ws}/api/tuning?session={page.welcome['session']}") as socket:
+            socket.send(json.dumps(wish))
+            while not (told := json.loads(socket.recv(SECONDS))).get("done"):
+                pass
+    assert re.fullmatch(r"[\w./-]+: No space left on device\.", told["message"].replace("the trials", "trials"))
+
+
+def test_rerun_s_viewer_for_which_the_disk_has_no_space_is_refused_with_a_sentence(tiny, tmp_path, monkeypatch):
+    pytest.importorskip("rerun", reason="the viewer needs the extra rerun")
+    with serving(Settings(data_folder=tmp_path / "data")) as server:
+        monkeypatch.setattr("tempfile.tempdir", str(tiny))
+        answer = server.get("/rerun/re_viewer_bg.wasm")
+    assert (answer.status_code, answer.json()["message"]) == (507, "rerun's viewer: No space left on device.")
 
 
 def test_the_list_of_recent_files_is_whole_whatever_the_disk_says(tiny, tmp_path):

@@ -13,6 +13,8 @@ from fastapi.responses import FileResponse, StreamingResponse
 from starlette.concurrency import run_in_threadpool
 from starlette.exceptions import HTTPException
 
+from lineseg.failing import sentence_of
+
 from ..places import data_folder
 from ..session.sessions import Sessions
 from ..shelf.library import Library
@@ -116,7 +118,7 @@ def add_rerun(app: FastAPI, library: Library, sessions: Sessions) -> RerunFiles:
         except ModuleNotFoundError as error:
             raise HTTPException(MISSING, str(error)) from None
         except OSError as error:
-            raise HTTPException(500, str(error)) from None
+            raise HTTPException(507, sentence_of(error, "rerun's viewer")) from None
         return FileResponse(file, media_type=types[name], headers={"Cache-Control": "no-cache"})
 
     return files

@@ -20,7 +20,7 @@ from starlette.exceptions import HTTPException
 from starlette.websockets import WebSocket, WebSocketDisconnect
 
 from lineseg import Cancelled, Params
-from lineseg.failing import mistake
+from lineseg.failing import mistake, sentence_of
 from lineseg.sweep import MEASURES, pool
 from lineseg.sweep.workers import Pool
 from lineseg.tuning import Objective, RecordingBlocks, Trial, Tuning
@@ -131,8 +131,10 @@ class Slot:
             self._send(about | {"done": True})
         except Cancelled:
             self._send(about | {"done": True, "stopped": True})
-        except (ValueError, OSError) as error:
+        except ValueError as error:
             self._send(about | {"done": True, "message": str(error)})
+        except OSError as error:
+            self._send(about | {"done": True, "message": sentence_of(error, str(error.filename or "the trials"))})
         except Exception as error:
             log.exception("%s failed", self._name)
             self._send(about | {"done": True, "message": mistake(error)})
