@@ -186,7 +186,15 @@ class View:
         # An empty id is what a page says that knows of no recording yet.
         ViewField(link="recording", mirrored=True, take=lambda view, id: id or view.recording),
     ] = ""
-    topic: Annotated[Name | None, ViewField(link="topic", mirrored=True, reset_by=("recording",))] = None
+    topic: Annotated[
+        Name | None,
+        ViewField(
+            link="topic",
+            mirrored=True,
+            reset_by=("recording",),
+            take=lambda view, name: name if name and name.strip() else None,
+        ),
+    ] = None
     reading: Annotated[
         Reading,
         ViewField(

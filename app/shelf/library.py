@@ -272,10 +272,15 @@ class Library:
             return self._open.get(key)
 
     def _key(self, id: str, reading: Reading) -> _Key:
+        """Of the file as it is now; of what was read of it last, if it is gone."""
         path = self.path(id)
         try:
             status = path.stat()
         except FileNotFoundError:
+            with self._lock:
+                known = [key for key in self._open if (key.path, key.reading) == (path, reading)]
+            if known:
+                return known[-1]
             raise ValueError(f"{shown(path.name)} is no longer in {shown(path.parent)}") from None
         except OSError as error:
             raise ValueError(f"{shown(path.name)} cannot be read: {error.strerror}") from None

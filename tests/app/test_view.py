@@ -202,3 +202,10 @@ def test_only_the_first_of_many_complaints_are_reported():
 
 def test_a_threshold_that_is_no_number_is_told_in_words():
     assert View().salvaged({"params": {"epsilon": "on"}})[1] == "params.epsilon is 'on': it must be a number"
+
+
+@pytest.mark.parametrize("topic", ["", "  "])
+def test_an_empty_topic_of_a_link_is_none_and_the_rest_of_the_link_counts(topic: str):
+    view, complaint = View(recording="sample:hallway").salvaged({"topic": topic, "frame": 16})
+    assert (view.topic, view.frame, complaint) == (None, 16, None)
+    assert view.read_as.topic is None

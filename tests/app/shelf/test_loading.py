@@ -248,3 +248,17 @@ def test_a_bag_that_is_gone_when_one_comes_back_to_its_first_scans_is_told_once(
         assert (state["label"], state["frames"]) == ("long.bag", first)
         (notice,) = (each for each in state["account"]["notices"] if each["kind"] == "not all")
         assert "is no longer in" in notice["text"]
+
+
+def test_a_tab_goes_on_with_what_was_read_of_a_file_that_is_gone(recordings: Path, tmp_path: Path):
+    walls = tmp_path / "walls.npz"
+    walls.write_bytes((recordings / "walls.npz").read_bytes())
+    with serving(Settings(files=(walls,), data_folder=tmp_path / "data")) as server:
+        with page_of(server) as page:
+            recording = page.hello()["recording"]
+            walls.unlink()
+            assert page.change(frame=3)["frame"] == 3
+            assert page.change(params={"epsilon": 0.05})["params"]["epsilon"] == 0.05
+        with page_of(server) as other:
+            assert other.hello(recording=recording, frame=2)["frame"] == 2
+            assert "is no longer in" in other.refused(reading={"every_beam": 2})["message"]
