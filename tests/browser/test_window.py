@@ -88,6 +88,7 @@ def test_a_frame_that_reaches_beyond_the_view_is_shown_whole(new_tab: Callable[.
             return at && at[0] >= 0 && at[1] >= 0 && at[0] <= stage.clientWidth && at[1] <= stage.clientHeight;
         });
     }"""
+    tab.eventually(lambda: tab.page.locator("iframe.scene.ready").count(), "no scene")
     tab.eventually(lambda: tab.page.evaluate(inside), "the first frame is cut")
     before = tab.page.evaluate("() => [lineseg.project(0, 0), lineseg.project(1, 0)]")
     tab.page.evaluate("() => { location.hash = location.hash.replace('frame=0', '') + '&frame=240'; }")
@@ -167,10 +168,10 @@ def test_on_a_phone_sentences_and_the_fields_of_a_dialog_are_whole(new_tab: Call
         const { scrollHeight, clientHeight } = document.querySelector(".stepper .decision");
         return scrollHeight <= clientHeight;
     }"""
+    step = tab.until("s.step === 0")["step"]
     for jump in "seed", "refusal", "line", "drop":
-        before = tab.state["step"]
         tab.page.locator(f".stepper [data-jump={jump}]").click()
-        tab.until(f"s.step !== {before}")
+        step = tab.until(f"s.step > {step}")["step"]
         assert tab.page.evaluate(whole), tab.page.locator(".stepper .decision").inner_text()
     close = tab.page.locator(".stepper .replay-said .icon-button").bounding_box()
     assert close is not None
