@@ -112,7 +112,7 @@ def test_csv_and_json_hold_every_row_and_markdown_names_the_best_first(done: Com
     assert "tuned, 4 settings tried" in text
     by_setting = [row.score for row in done.rows if row.method == "line-tracking"]
     assert "| Line tracking | " + " | ".join(f"{score:.3f}" for score in by_setting) + " |" in text
-    assert "## hallway.npz (1081 beams over 270°, points scatter by 12 mm)" in text
+    assert "## hallway.npz (1081 beams over 270°, points scatter by 11 mm)" in text
 
 
 def test_two_recordings_also_have_a_total(hallway: Recording):

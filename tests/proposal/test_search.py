@@ -11,7 +11,7 @@ from lineseg import EXTRACTORS, Cancelled, Params, extract, open_recording
 from lineseg.proposal import propose
 from lineseg.scan import Recording, Scan
 from lineseg.simulate.laser import LMS_200, RPLIDAR_A2, UTM_30LX
-from lineseg.simulate.world import Material, box, room
+from lineseg.simulate.world import Feature, Material, box, room
 from lineseg.simulate.worlds import WORLDS
 from lineseg.truth import Agreement, agreement, true_lines
 from lineseg.tuning import Objective
@@ -101,6 +101,16 @@ def test_one_straight_cabinet_does_not_hide_that_the_walls_bend(laser):
     assert score(recording, propose(recording).params) > 0.97 * best_score(recording)
 
 
+def test_lines_that_take_in_shallow_doors_are_not_taken_for_steady():
+    depths = [(0.09, 0.12), (0.07, 0.06), (0.05, 0.05), (0.06, 0.07)]
+    doors = {wall: [Feature(1.2, 0.95, one), Feature(3.4, 0.95, other)] for wall, (one, other) in enumerate(depths)}
+    bent = Material(returns=0.9985, warp=0.013, warp_length=1.7)
+    hall = room([(0, 0), (8, 0), (8, 8), (0, 8)], doors, bent)
+    laser = replace(RPLIDAR_A2, sigma=0.014, sigma_far=0.014)
+    recording = replace(WORLDS["boards"], world=lambda: hall, laser=laser).recording("hall", FRAMES)
+    assert score(recording, propose(recording).params) > 0.7 * best_score(recording)
+
+
 def test_nothing_is_proposed_if_the_current_values_are_as_good():
     recording = world("flat", 0.008, RPLIDAR_A2)
     found = propose(recording)
@@ -153,6 +163,13 @@ def test_a_sentence_says_why_nothing_can_be_proposed(recording, why):
     assert found.params == Params()
     assert found.fitting is None
     assert why in found.text
+
+
+def test_a_small_gain_is_told_with_the_values_that_fit(data_dir):
+    found = propose(open_recording(data_dir / "carmen_belgioioso" / "carmen_belgioioso.log.gz"))
+    assert found.changed
+    values = (found.params.epsilon, found.params.delta, found.params.epsilon_growth)
+    assert found.text.endswith("ε = {:g}, δ = {:g} and κ = {:g} fit slightly better.".format(*values))
 
 
 def test_a_search_that_is_no_longer_wanted_ends():

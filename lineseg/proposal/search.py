@@ -1,4 +1,4 @@
-"""Proposes thresholds that fit a laser, from its scans alone.
+"""The search for the ε that fits.
 
 If ε is too small, walls break wherever a point deviates more, and the points of what is left deviate by all that ε
 allows. If it is large enough, they deviate by what they do anyway, which is the smaller a share of ε the larger ε is.
@@ -6,30 +6,34 @@ So the smallest ε at which the lines of region growing scatter by no more than 
 laser and walls that bend, without a model of either.
 
 From there the search looks for steadiness. Where walls still break, as those do that are rough in some places only, a
-larger ε gives other lines, so the lines at ε are scored as if those at a larger ε were the truth. Points of the wall
-hardly raise the scatter of a line, points of doors and of what stands before the wall do. So a larger ε is proposed if
-lines gain more steadiness than scatter.
+larger ε gives other lines, so the lines at ε are scored as if those at a larger ε were the truth: whole, and cut where
+they step aside, because there they may have taken in a door. Points of the wall hardly raise the scatter of a line,
+points of what stands before the wall do. So a larger ε is proposed if lines gain more steadiness than scatter.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
-from .extractors import EXTRACTORS
-from .knobs import Knob, Thresholds
-from .noise import RangeNoise, noise
-from .params import Params
-from .readers import Cancelled
-from .scan import Floats, Recording, Scan
-from .segment import Extraction
-from .truth import Agreement, demands_of, match, quality
+from ..extractors import EXTRACTORS
+from ..knobs import Knob, Thresholds
+from ..noise import RangeNoise, noise
+from ..params import Params
+from ..readers import Cancelled
+from ..scan import Floats, Recording, Scan
+from ..segment import Extraction
+from ..truth import Agreement, demands_of, match, quality
+from .steps import cut_at_steps
 
 T = TypeVar("T", bound=Thresholds)
+# For each scan, the line that each beam belongs to, or −1.
+Labels = Sequence[NDArray[np.integer]]
 GROWING = EXTRACTORS["region-growing"]
 FRAMES = 24
 LEAST_FRAMES = 4
@@ -46,7 +50,9 @@ MORE = 1.1
 SHARE, SHARE_AT, POWER = 0.32, 0.05, 0.15
 # At an ε of SHARE_AT or less, lines must be so much steadier at a value where they scatter more by a factor of e; above
 # it, in proportion to the square of ε.
-WORTH = 0.25
+WORTH = 0.3
+# Where more of the lines at the smallest ε step aside, as on walls of boards, steps are no sign of doors.
+STEPPED = 0.2
 # Walls deviate from straight by no more than this [m]: lines that scatter more have taken in something else.
 BEND = 0.025
 # If lines at the proposed ε deviate by this many times as much, and as many times the noise, they lie on curves.
@@ -74,7 +80,7 @@ class Proposal:
     scatter: standard deviation of points at the median range from a wall that faces the laser [m]; bend: the part of it
     that the noise of the ranges does not explain, because walls are not straight; NaN if unknown. pieces: number of
     segments into which a wall breaks at the present values, on average. tried: (k,) values of ε, or of the method's
-    counterpart [m]; steady: (k,) score of the lines there, with the lines at 1.4 times that value as the truth, 0 to 1.
+    counterpart [m]; steady: (k,) score of the lines there, 0 to 1, with the lines at 1.4 times that value as the truth.
     text: what is proposed, or why nothing can be; "" if the present values are as good.
     """
 
@@ -189,7 +195,7 @@ class _Search:
         scales = suits * STEP ** np.arange(STEPS + APART + 1)
         lines = [self._extracted(self.fitting(scale, self.present)) for scale in scales.tolist()]
         tried = scales[: STEPS + 1]
-        steady = np.array([_agreement(lines[k], lines[k + APART]) for k in range(len(tried))])
+        steady = self._steadiness(lines)
         if not steady.max() > 0.0:
             return self.nothing("No ε that fits this noise gives steady lines.")
         best = self._worth(suits, np.array([_scatter(each) for each in lines[: STEPS + 1]]), steady)
@@ -203,13 +209,23 @@ class _Search:
                 f"laser explains {by_noise:.0f} mm."
             )
         around = [self._extracted(rescaled(proposed, factor)) for factor in BESIDE]
-        lacking = np.mean([_agreement(found, other) - _agreement(present, other) for other in around])
+        lacking = np.mean([_agreement(found, other) - _agreement(present, other) for other in map(_labels, around)])
         pieces, lost = _pieces(present, found)
         self.scatter = math.hypot(self._white, bend)
         answer = replace(self.nothing(""), fitting=proposed, bend=bend, pieces=pieces, tried=tried, steady=steady)
         if lacking <= AS_GOOD:
             return answer
         return replace(answer, params=proposed, changed=True, text=self._text(proposed, pieces, lost))
+
+    def _steadiness(self, lines: list[list[Extraction]]) -> Floats:
+        """For each value of ε that is tried, the agreement of its lines with those at a larger one, whole and cut."""
+        pairs = list(zip(lines, lines[APART:], strict=False))
+        whole = np.array([_agreement(found, _labels(looser)) for found, looser in pairs])
+        demands = demands_of(self.present)
+        if cut_at_steps(self._scans, lines[0], demands)[1] > STEPPED:
+            return whole
+        cut = [_agreement(found, cut_at_steps(self._scans, looser, demands)[0]) for found, looser in pairs]
+        return (whole + np.array(cut)) / 2
 
     def _worth(self, suits: float, scatter: Floats, steady: Floats) -> int:
         """Which of the values is proposed, from the scatter of the lines there [m] and how steady they are."""
@@ -293,9 +309,9 @@ class _Search:
             return f"{told}; {broken if one else f'{now} break walls into {pieces:.1f} pieces'}."
         if not 1 / MUCH <= higher <= MUCH:
             return f"{told} better than {now}."
-        *others, last = (f"{knob.symbol} to {value:g}" for knob, value in _changes(self.present, proposed))
-        new = f"{', '.join(others)} and {last}" if others else last
-        return f"Points scatter by {1e3 * self.scatter:.0f} mm here. Setting {new} would fit slightly better."
+        *others, last = (f"{knob.symbol} = {value:g}" for knob, value in _changes(self.present, proposed))
+        new = f"{', '.join(others)} and {last} fit" if others else f"{last} fits"
+        return f"Points scatter by {1e3 * self.scatter:.0f} mm here. {new} slightly better."
 
     def _reach(self, params: Thresholds) -> float:
         """How far a point at the median range may lie from its line [m]."""
@@ -341,9 +357,13 @@ def _leading(params: Thresholds) -> tuple[str, Knob]:
     return next((name, knob) for name, _, knob in params.knobs() if knob.scatter and getattr(params, name))
 
 
-def _agreement(found: list[Extraction], judges: list[Extraction]) -> float:
+def _labels(found: list[Extraction]) -> Labels:
+    return [one.labels for one in found]
+
+
+def _agreement(found: list[Extraction], walls: Labels) -> float:
     """Agreement of lines with other lines as the truth: the harmonic mean of TR and 1 − FR, times completeness."""
-    total = Agreement.of_all(match(one, other.labels).agreement for one, other in zip(found, judges, strict=True))
+    total = Agreement.of_all(match(one, other).agreement for one, other in zip(found, walls, strict=True))
     score = quality(total.true_rate, total.false_rate, total.completeness)
     return score if math.isfinite(score) else 0.0
 
