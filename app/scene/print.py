@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from lineseg.writers.figure import bar_length
 
 from ..frame.framing import Framing
+from ..frame.geometry import Bounds
 from .flat import code_of, look_of, shapes_of
 from .picture import Picture
 
@@ -20,6 +21,10 @@ INK, GROUND = "#14161a", "#ffffff"
 # Between the edge of a picture and a word [px]; about as wide as a letter is.
 EDGE, LETTER = 6.0, 6.4
 LINE = 14.0
+# A name moves no farther than this many lines of text to lie beside what is drawn.
+MOST_MOVED = 3
+# What names lie beside.
+BESIDE = ("segments", "growing", "first", "other")
 NOT_PRINTED = {"invalid"}
 INDEX = re.compile(r"(?<=[^\W_])_(\w+)(.*)")
 
@@ -35,7 +40,7 @@ def print_svg(picture: Picture, framing: Framing, words: str) -> str:
             f'aria-label="{escape(words)}" font-family="sans-serif" font-size="12" fill="{INK}">',
             f'<rect x="0.5" y="0.5" width="{WIDTH - 1:g}" height="{HEIGHT - 1:g}" fill="{GROUND}" stroke="#b9bec6"/>',
             *shapes,
-            *_names(framing, place),
+            *_names(framing, place, _drawn(picture, place)),
             *_bar(place),
             f'<text x="{WIDTH - EDGE:g}" y="{HEIGHT - EDGE:g}" text-anchor="end">{across}</text>',
             "</svg>",
@@ -73,20 +78,26 @@ def _shape(name: str, xy: NDArray[np.float32], colours: NDArray[np.uint8], place
     return f'<g stroke-width="{width:g}" stroke-linecap="round">{"".join(paths)}</g>'
 
 
-def _names(framing: Framing, place: _Place) -> Iterator[str]:
-    """Names and distances, none over another."""
+def _drawn(picture: Picture, place: _Place) -> NDArray[np.float64]:
+    """(n, 2, 2) the lines that names lie beside [px]."""
+    lines = [picture.lines[name].xyz[..., :2].reshape(-1, 2) for name in BESIDE if name in picture.lines]
+    return place(np.concatenate([*lines, np.empty((0, 2))])).reshape(-1, 2, 2)
+
+
+def _names(framing: Framing, place: _Place, drawn: NDArray[np.float64]) -> Iterator[str]:
+    """Names and distances, none over another. drawn: lines that they lie beside, where there is room."""
     taken: list[tuple[float, float, float]] = []
     for each in framing.measures:
         (x1, y1), (x2, y2) = place(np.array((each.start, each.end)))
         path = f"M{x1:.1f} {y1:.1f}L{x2:.1f} {y2:.1f}"
         yield f'<path d="{path}" stroke="{INK}" stroke-width="1.2" stroke-dasharray="4 2"/>'
-        yield _word(each.text, (x1 + x2) / 2 + 2 * EDGE, (y1 + y2) / 2, taken)
+        yield _word(each.text, (x1 + x2) / 2 + 2 * EDGE, (y1 + y2) / 2, taken, drawn)
     for name in framing.names:
         ((x, y),) = place(np.array(name.at))
-        yield _word(name.text, x + EDGE, y - 2 * EDGE, taken)
+        yield _word(name.text, x + EDGE, y - 2 * EDGE, taken, drawn)
 
 
-def _word(words: str, x: float, y: float, taken: list[tuple[float, float, float]]) -> str:
+def _word(words: str, x: float, y: float, taken: list[tuple[float, float, float]], drawn: NDArray[np.float64]) -> str:
     """A word inside the picture, as near to its place as others leave room."""
     wide = LETTER * len(words)
     x = min(max(x, EDGE), WIDTH - wide - EDGE)
@@ -95,14 +106,29 @@ def _word(words: str, x: float, y: float, taken: list[tuple[float, float, float]
     def free(at: float) -> bool:
         return all(abs(at - other) >= LINE or x + wide < left or right < x for left, right, other in taken)
 
-    steps = (k * way * LINE for k in range(int(HEIGHT / LINE)) for way in (-1, 1))
-    y = next((y + by for by in steps if LINE <= y + by <= HEIGHT - EDGE and free(y + by)), y)
+    steps = [k * way * LINE for k in range(int(HEIGHT / LINE)) for way in (-1, 1)]
+    places = [y + by for by in steps if LINE <= y + by <= HEIGHT - EDGE and free(y + by)]
+    near = (at for at in places if abs(at - y) <= MOST_MOVED * LINE)
+    clear = (at for at in near if not _crossed(drawn, (x, at - LINE, x + wide, at + EDGE)).any())
+    y = next(clear, places[0] if places else y)
     taken.append((x, x + wide, y))
     return (
         f'<text x="{x:.1f}" y="{y:.1f}" paint-order="stroke" stroke="{GROUND}" stroke-width="5"'
         f' stroke-linejoin="round">'
         f"{INDEX.sub(_lowered, escape(words, quote=False))}</text>"
     )
+
+
+def _crossed(lines: NDArray[np.float64], box: Bounds) -> NDArray[np.bool_]:
+    """Which of the lines (n, 2, 2) have a part in the box."""
+    start, step = lines[:, 0], lines[:, 1] - lines[:, 0]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        ways = (np.array(box).reshape(2, 1, 2) - start) / step
+    # A line along an axis is at all times between the edges across it, or at none.
+    inside = (start >= box[:2]) & (start <= box[2:])
+    enter = np.where(step == 0, np.where(inside, -np.inf, np.inf), ways.min(axis=0))
+    leave = np.where(step == 0, np.inf, ways.max(axis=0))
+    return np.maximum(enter.max(axis=1), 0) < np.minimum(leave.min(axis=1), 1)
 
 
 def _lowered(index: re.Match[str]) -> str:

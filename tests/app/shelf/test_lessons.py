@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import os
+import re
 import shutil
 from pathlib import Path
 
 import pytest
+from lineseg_app.places import data_folder
 from lineseg_app.shelf.lesson import NamedLesson
 from lineseg_app.shelf.lesson_numbers import found
 from lineseg_app.shelf.lesson_shelf import LessonShelf
@@ -94,3 +96,17 @@ def test_the_id_of_a_lesson_is_no_path(tmp_path):
     path = os.path.relpath(elsewhere, lesson.parent).removesuffix(".json")
     assert shelf.looked_at(path, 0) is None
     assert shelf.looked_at(str(elsewhere).removesuffix(".json"), 0) is None
+
+
+def test_the_readme_says_where_each_equation_figure_table_and_algorithm_of_the_paper_is():
+    readme = (data_folder("sample_scans") / "lessons" / "README.md").read_text("utf-8")
+    rows = [row.split("|")[1:3] for row in readme.splitlines() if re.match(r"\| (Eq|Alg|Fig|Tab)", row)]
+    found: dict[str, set[int]] = {}
+    for what, where in rows:
+        for kind, numbers in re.findall(r"(Eq|Algorithm|Fig|Table)s?\.? ([\d, –]+)", what):
+            for first, last in re.findall(r"(\d+)(?:–(\d+))?", numbers):
+                found.setdefault(kind, set()).update(range(int(first), int(last or first) + 1))
+        assert all(1 <= int(lesson) <= len(lesson_files()) for lesson in re.findall(r"\b\d+\b", where)), where
+    assert found == {
+        kind: set(range(1, n + 1)) for kind, n in (("Eq", 10), ("Algorithm", 3), ("Fig", 10), ("Table", 4))
+    }
