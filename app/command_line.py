@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
+import contextlib
+import inspect
+import io
 import logging
 import os
+import re
+import shutil
 import sys
-from collections.abc import Callable
+import textwrap
+from collections.abc import Callable, Iterator
 
 import tyro
 from tyro.conf import DisallowNone, FlagCreatePairsOff
@@ -47,11 +53,36 @@ def _call(arguments: list[str]) -> None:
     config = (DisallowNone, FlagCreatePairsOff)
     name, *rest = arguments
     if name in COMMANDS:
-        tyro.cli(command(name), prog=f"lineseg {name}", args=rest, config=config)
+        function = command(name)
+        # tyro would end a line of the help where one of the docstring ends.
+        function.__doc__ = _flowing(function.__doc__ or "")
+        with _wrapped() if {"-h", "--help"} & {*rest} else contextlib.nullcontext():
+            tyro.cli(function, prog=f"lineseg {name}", args=rest, config=config)
     else:
         about = "Line segments from 2D laser scans."
         every = {name: _listed(command(name)) for name in COMMANDS}
         tyro.extras.subcommand_cli_from_dict(every, prog="lineseg", description=about, args=arguments, config=config)
+
+
+def _flowing(docstring: str) -> str:
+    """A docstring in which each paragraph and each argument is one line."""
+    return re.sub(r"(?<=\S)\n(?!\n| {4}\S) *", " ", inspect.cleandoc(docstring))
+
+
+@contextlib.contextmanager
+def _wrapped() -> Iterator[None]:
+    """Prints a help text with a description that is no wider than the terminal: tyro wraps only what is in boxes."""
+    width = shutil.get_terminal_size().columns
+    # Encoding and terminal are the same, so that tyro draws its boxes as ever.
+    printed = io.TextIOWrapper(io.BytesIO(), sys.stdout.encoding)
+    printed.isatty = sys.stdout.isatty
+    try:
+        with contextlib.redirect_stdout(printed):
+            yield
+    finally:
+        printed.seek(0)
+        for line in printed.read().splitlines():
+            print(line if set(line) & set("│╭╰") else textwrap.fill(line, width, break_on_hyphens=False))
 
 
 def _listed(function: Callable[..., None]) -> Callable[[], None]:

@@ -9,6 +9,7 @@ import subprocess
 import sys
 import time
 import urllib.request
+from itertools import pairwise
 from subprocess import PIPE
 
 import numpy as np
@@ -127,6 +128,19 @@ def test_the_help_says_what_each_flag_does_and_nothing_that_only_python_knows(ca
     assert not re.search(r"\{None|\bSTR\b|--no-no-|type: ignore|default: (\)|None)", text)
     for flag in re.split(r"(?m)^ +(?=-)", flags)[1:]:
         assert len(re.sub(r"\([\w: .-]*\)", "", flag).split()) > 2, flag
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_the_lines_of_the_help_fill_the_terminal_and_are_no_wider(capsys, monkeypatch, command):
+    monkeypatch.setenv("COLUMNS", "80")
+    with pytest.raises(SystemExit):
+        main([command, "--help"])
+    text = capsys.readouterr().out
+    assert [line for line in text.splitlines() if len(line) > 80] == []
+    # The first word of the next line of the same flag would not have fitted.
+    rows = [line[1:-1].rstrip() for line in text.splitlines()]
+    pairs = [(row, after) for row, after in pairwise(rows) if row[:3].strip() == "" and after.startswith(" " * 15)]
+    assert [(row, after) for row, after in pairs if len(row) + 1 + len(after.split()[0]) < 77] == []
 
 
 def test_info_says_what_a_recording_holds(run, hall):
