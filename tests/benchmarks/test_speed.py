@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from lineseg import Params, Recording, Scan, extract, open_recording, survey, trace
-from lineseg.bench import floor_pass
+from lineseg.bench.timing import floor_pass
 from lineseg.region_growing import Memory, extract_lines
 from lineseg.region_growing.limits import limits_of
 

@@ -13,8 +13,8 @@ from types import TracebackType
 import numpy as np
 from numpy.typing import NDArray
 
-from .scan import Scan
-from .writers.finite import finite_or_none
+from ..scan import Scan
+from ..writers.finite import finite_or_none
 
 # A frame takes any program far less; one that is silent for longer waits for something else.
 PATIENCE = 30.0

@@ -11,8 +11,9 @@ from scenes import corner, room
 from waiting import SECONDS
 
 from lineseg import Params, Recording, save_npz
-from lineseg.against import Against, AgainstError
-from lineseg.bench import bench, floor_pass, table
+from lineseg.bench import bench, table
+from lineseg.bench.against import Against, AgainstError
+from lineseg.bench.timing import floor_pass
 
 NAMES = ["floor", "kernel", "extract", "trace", "survey", "survey with scores"]
 
@@ -25,7 +26,7 @@ def recording():
 @pytest.fixture(autouse=True)
 def short_survey(monkeypatch):
     """What is measured is the same."""
-    monkeypatch.setattr("lineseg.bench.SURVEY_BEAMS", 40_000)
+    monkeypatch.setattr("lineseg.bench.timing.SURVEY_BEAMS", 40_000)
 
 
 def test_everything_is_timed_beside_the_floor(recording):

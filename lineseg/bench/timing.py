@@ -12,14 +12,14 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
+from ..extractors import extract, trace
+from ..kernel import keep
+from ..params import Params
+from ..region_growing import Memory, extract_lines
+from ..region_growing.limits import limits_of
+from ..scan import Recording, Scan
+from ..survey import cores, survey
 from .against import Against
-from .extractors import extract, trace
-from .kernel import keep
-from .params import Params
-from .region_growing import Memory, extract_lines
-from .region_growing.limits import limits_of
-from .scan import Recording, Scan
-from .survey import cores, survey
 
 FRAMES = 300
 # A shorter survey would mostly measure the start of its threads.
@@ -75,7 +75,7 @@ def bench(
     """Times of the floor, of one frame in several ways, and of the whole recording.
 
     Single frames are up to FRAMES of the recording; for a survey they are repeated until there are SURVEY_BEAMS.
-    against: command of another program to time on the same frames, see `lineseg.against`; raises its AgainstError.
+    against: command of another program to time on the same frames, see `Against`; raises AgainstError.
     """
     params = params or Params()
     scans = [recording[frame] for frame in np.unique(np.linspace(0, len(recording) - 1, FRAMES, dtype=int))]
