@@ -33,10 +33,10 @@ PICTURES: list[int] = []
 
 
 class Server:
-    """A server in a process of its own."""
+    """A server in a process of its own, with these recordings or the samples."""
 
-    def __init__(self, folder: str) -> None:
-        command = [sys.executable, "-m", "lineseg_app", "view", "--no-browser", "--port", "0"]
+    def __init__(self, folder: str, *files: str) -> None:
+        command = [sys.executable, "-m", "lineseg_app", "view", *files, "--no-browser", "--port", "0"]
         environment = os.environ | {"XDG_DATA_HOME": folder, "TMPDIR": folder}
         self._process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment)
         assert self._process.stdout is not None

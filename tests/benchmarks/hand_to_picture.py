@@ -1,6 +1,7 @@
 """The way from a hand to the picture, in headless Chromium: hand_to_picture.py [RECORDING] [SECONDS]
 
-Drags ε at 60 Hz, then presses arrow keys at 30 Hz, and prints the time from the input to each stage that the page marks
+RECORDING is a sample or a file; more of a link may follow it, as in sample:hallway&space=world. The benchmark drags ε
+at 60 Hz, then presses arrow keys at 30 Hz, and prints the time from the input to each stage that the page marks
 (static/view/stages.js), and, if the segments are others, to the first drawing of the scene with new data. It does so
 with a page and a scene that the processor paints, with the scene alone painted so, and with no scene painted, as if a
 graphics card did it: the differences are the renderer's share.
@@ -11,6 +12,7 @@ from __future__ import annotations
 import shutil
 import sys
 import tempfile
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -84,16 +86,18 @@ MOVED = """async ([seconds, hertz, key]) => {
 def main(recording: str, seconds: float) -> None:
     chromium = next(filter(None, map(shutil.which, ("chromium-headless-shell", "chromium", "google-chrome"))))
     with tempfile.TemporaryDirectory() as folder, sync_playwright() as playwright:
-        server = Server(folder)
+        name, _, more = recording.partition("&")
+        is_file = Path(name).is_file()
+        server = Server(folder, *([name] if is_file else []))
         try:
-            for name, (flags, script) in SCREENS.items():
+            for screen, (flags, script) in SCREENS.items():
                 browser = playwright.chromium.launch(executable_path=chromium, args=[*FLAGS, *flags])
-                print(name)
+                print(screen)
                 try:
                     page = browser.new_page(viewport={"width": 1440, "height": 900})
                     for each in (script, WATCHED):
                         page.add_init_script(each)
-                    page.goto(f"http://{server.address}/#recording={recording}")
+                    page.goto(f"http://{server.address}/#{more if is_file else f'recording={recording}'}")
                     page.wait_for_function("window.lineseg?.state && window.lineseg.settled", timeout=120_000)
                     page.wait_for_timeout(5000)
                     for label, hertz, key in (("drag", 60, False), ("keys", 30, True)):
