@@ -17,7 +17,7 @@ from .reading import RADIANS, around_ranges, columns_of
 from .source import Reader, Source
 from .stamping import in_seconds
 from .tables.beam_rows import beams_of, words_of
-from .tables.headers import LENGTHS, STAMPS, TURNS, Name, is_angle, is_distance, name_of
+from .tables.headers import LENGTHS, STAMPS, TURNS, Name, geometry_in, is_angle, is_distance, name_of
 from .tables.scan_columns import alike, with_angles
 from .tables.scan_rows import scans_of
 from .tables.turns import regularity
@@ -143,6 +143,9 @@ def _of_two(source: Source, pair: list[tuple[Name, NDArray]], format: str) -> Re
 
 def recording_of_arrays(source: Source, arrays: Mapping[str, NDArray], format: str) -> Recording:
     """The scans of arrays of which one can be the ranges. Raises ValueError with the line of Python that helps."""
+    said = geometry_in((name, array.item()) for name, array in arrays.items() if array.size == 1)
+    said = {name: value for name, value in said.items() if getattr(source.reading, name) is None}
+    source = replace(source, reading=source.reading.but(**said))
     found = {name: pairs for name, array in arrays.items() if (pairs := _pairs(array)) is not None}
     if len(found) == 1 and all(array.ndim < 2 for name, array in arrays.items() if name not in found):
         ((name, pairs),) = found.items()

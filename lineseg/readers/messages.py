@@ -20,7 +20,7 @@ from .source import Reader, Source, Sweeps
 from .stamping import in_seconds
 from .tables.beam_rows import beams_of, read_beams
 from .tables.dialect import LEFT_OUT, Dialect, Row
-from .tables.headers import LASERS, NAMES, SCANS, STAMPS, array_columns, is_angle, is_distance, name_of
+from .tables.headers import LASERS, NAMES, SCANS, STAMPS, array_columns, field_of, is_angle, is_distance, name_of
 from .tables.numbers import all_numbers, is_number
 from .tables.scan_rows import scans_of
 
@@ -212,8 +212,11 @@ def _messages(value: Any, topic: str, depth: int = 0) -> Iterator[tuple[str, Map
         else:
             named = value.get("topic")
             stamp = {key: held for key, held in value.items() if key in STAMP_NAMES and not isinstance(held, Mapping)}
+            shared = _shared_geometry(value)
             for inner in value.values():
                 for name, message in _messages(inner, named if isinstance(named, str) and named else topic, depth + 1):
+                    if shared and isinstance(message, Mapping) and not _has_angles(message):
+                        message = {**message, **shared}
                     lacks = stamp and isinstance(message, Mapping) and not {*STAMP_NAMES, "header"} & message.keys()
                     yield name, {**message, **stamp} if lacks and isinstance(message, Mapping) else message
     elif isinstance(value, list) and _is_table(value := as_list(value)):
@@ -221,6 +224,21 @@ def _messages(value: Any, topic: str, depth: int = 0) -> Iterator[tuple[str, Map
     elif isinstance(value, list):
         for inner in value:
             yield from _messages(inner, topic, depth + 1)
+
+
+def _shared_geometry(value: Mapping[str, Any]) -> dict[str, Any]:
+    """The angles that stand once beside scans, also in an object such as "meta"; {} if they do not say all."""
+    inner = [held for held in value.values() if isinstance(held, Mapping) and _ranges_key(held) is None]
+    for each in (value, *inner):
+        found = {key: held for key, held in each.items()
+                 if _is_number_or_none(held) and (field_of(name_of(str(key))) or "").startswith("angle_")}  # fmt: skip
+        if len(found) > 1:
+            return found
+    return {}
+
+
+def _has_angles(message: Mapping[str, Any]) -> bool:
+    return any((field_of(name_of(str(key))) or "").startswith("angle") for key in message)
 
 
 def _records(value: Mapping[str, Any]) -> list[dict[str, Any]] | None:

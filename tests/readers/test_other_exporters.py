@@ -17,6 +17,7 @@ NUMBERS = ",".join(map(str, range(181)))
 ARRAYS = [str(each) for each in SCANS]
 BOTH = np.tile(DEGREES, 2)
 AT = np.repeat([0, 1], 181)
+ORDER = np.random.default_rng(1).permutation(362)
 UNEVEN = DEGREES + 0.3 * (np.arange(181) % 2)
 
 FORMS = {
@@ -50,6 +51,8 @@ FORMS = {
     "a list of messages": "scans:\n" + "".join(
         f"  - stamp: {at}.5\n    angle_min: {BEARINGS[0]}\n    angle_increment: {np.pi / 180}\n"
         f"    ranges: [{row(each, ', ')}]\n" for at, each in enumerate(SCANS)),
+    "rows in no order": "scan,angle,distance\n"
+    + lines(*(each[ORDER] for each in (AT, BOTH, SCANS.ravel()))),
     "a flag": "".join(f"{at % 2},{row(SCANS[at // 4])}\n" for at in range(8)),
 }  # fmt: skip
 
@@ -141,6 +144,34 @@ def test_angles_that_the_columns_of_a_table_give_in_degrees_are_degrees(tmp_path
     assert np.rad2deg(recording[0].bearings) == pytest.approx(DEGREES)
     assert recording.account is not None
     assert [guess.field for guess in recording.account.guesses] == ["unit"]
+
+
+STATED = {
+    "in comments": (f"# start angle [deg]: -60\n# step [deg]: 0.5\n{row(NEAR)}\n{row(FAR)}\n", "a.csv"),
+    "above the table": ("angle_min,-1.0471976\nangle_increment,0.00872665\nunit,m\n" + f"{row(NEAR)}\n" * 6, "a.csv"),
+    "above a list": ("angle_min: -1.0471976\nangle_increment: 0.00872665\nscans:\n"
+                     + "".join(f"  - [{row(each, ', ')}]\n" for each in (NEAR,) * 6), "a.yaml"),
+    "once in JSON": (json.dumps({"start_angle_deg": -60, "step_deg": 0.5, "scans": [{"ranges": NEAR.tolist()}] * 2}),
+                     "a.json"),
+    "in an object of JSON": (json.dumps({"meta": {"angle_min": -1.0471976, "angle_step": 0.00872665},
+                                         "scans": [{"ranges": NEAR.tolist()}]}), "a.json"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("form", STATED)
+def test_angles_that_are_stated_once_are_no_guess(tmp_path: Path, form: str):
+    recording = read(tmp_path, *STATED[form])
+    assert np.rad2deg(recording[0].bearings[[0, -1]]) == pytest.approx([-60, 30], abs=1e-3)
+    assert recording.account is not None
+    assert "angle_min" not in {guess.field for guess in recording.account.guesses}
+
+
+def test_angles_in_degrees_beside_an_array_are_no_guess(tmp_path: Path):
+    np.savez(tmp_path / "a.npz", scan=SCANS, start_angle_deg=-60.0, step_deg=0.5)
+    recording = open_recording(tmp_path / "a.npz")
+    assert np.rad2deg(recording[0].bearings[[0, -1]]) == pytest.approx([-60, 30], abs=1e-3)
+    again = open_recording(tmp_path / "a.npz", angle_min=-1.0)
+    assert again[0].bearings[0] == pytest.approx(-1.0)
 
 
 def test_rows_that_do_not_close_a_circle_are_half_of_one(tmp_path: Path):

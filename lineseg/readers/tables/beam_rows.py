@@ -568,11 +568,21 @@ def _from_points(x: Floats, y: Floats) -> tuple[Floats, Floats]:
     return np.arctan2(y, x), np.hypot(x, y)
 
 
+def _are_scattered(scans: Floats) -> bool:
+    """Whether rows of one scan do not stand together, although scans have many rows."""
+    runs = np.count_nonzero(np.diff(scans)) + 1
+    return bool(runs * FEW_ROWS > len(scans) > LEAST_ROWS * len(np.unique(scans)))
+
+
 def _recording(
     source: Source, table: NDArray[np.float64], roles: Roles, bearings: Floats, ranges: Floats,
     names: list[Name] | None,
 ) -> Recording:  # fmt: skip
     if roles.scan is not None:
+        if _are_scattered(table[:, roles.scan]):
+            source.notes.notice("order", "The rows were sorted by the number of the scan and by their angles.")
+            order = np.lexsort((bearings % (2 * np.pi), table[:, roles.scan]))
+            table, bearings, ranges = table[order], bearings[order], ranges[order]
         edges = [0, *(np.flatnonzero(np.diff(table[:, roles.scan]) != 0) + 1).tolist(), len(table)]
     else:
         edges = turns(bearings)

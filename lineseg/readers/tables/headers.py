@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 import re
+from collections.abc import Iterable
 from functools import lru_cache
 from typing import NamedTuple
 
-from ..reading import AngleUnit, Unit
+from ..reading import RADIANS, AngleUnit, Unit
 
 ANGLES = (
     "angle", "angles", "ang", "theta", "thetas", "bearing", "bearings", "azimuth", "azimuths", "az", "azi", "phi",
@@ -211,6 +213,27 @@ def field_of(name: Name) -> str | None:
     if name.unit in LENGTHS or any(word in DISTANCES for word in words):
         return next((OF_DISTANCE[word] for word in words if word in OF_DISTANCE), None)
     return None
+
+
+def geometry_in(said: Iterable[tuple[str, object]]) -> dict[str, float]:
+    """angle_min and angle_increment [rad] among names and their values, such as ("start angle [deg]", "-135").
+
+    Without a unit, all are in degrees if one of them is too large for radians.
+    """
+    found: dict[str, float] = {}
+    units: set[AngleUnit] = set()
+    for text, value in said:
+        name = name_of(text)
+        if (field := field_of(name)) in ("angle_min", "angle_increment"):
+            try:
+                found[field] = float(value) * name.scale  # type: ignore[arg-type]
+            except (TypeError, ValueError):
+                continue
+            units |= {TURNS[name.unit]} if name.unit in TURNS else set()
+    large = any(abs(value) > 2 * math.pi + 0.2 for value in found.values())
+    usual: AngleUnit = "deg" if large else "rad"
+    unit = next(iter(units), usual)
+    return {field: value * RADIANS[unit] for field, value in found.items()} if len(units) < 2 else {}
 
 
 def is_beam(name: Name) -> bool:

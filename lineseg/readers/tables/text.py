@@ -39,6 +39,7 @@ from .headers import (
     array_columns,
     column_of,
     field_of,
+    geometry_in,
     is_angle,
     is_beam,
     is_distance,
@@ -60,6 +61,10 @@ from .table import FIELDS, MANY_BEAMS, echo_columns, is_long_list, read_table
 
 ECHO = re.compile(rb"%time[,;\t]field\.")  # the first line of `rostopic echo -p`
 SETTING = re.compile(rb"(\w+)\s*[=:]\s*([^\s,;]+)")
+# A setting in a line of its own, above a table.
+SETTING_LINE = re.compile(
+    rb"[#%/\s]*([A-Za-z][\w .()\[\]/\xb0\xc2]{0,60})[=:,;]\s*([-+]?[\d.]+(?:e[-+]?\d+)?)\s*", re.IGNORECASE
+)
 TEXT_FORMS = "use one scan per row, or columns of angle and distance, or a table with a column named ranges."
 # What the programs of its maker write, and how its driver calls raw angles.
 OF_RPLIDAR = re.compile(
@@ -107,13 +112,15 @@ class Text(Reader):
             first = next(rows, None)
         if first is None:
             raise ValueError(f"{source.name} has no line of numbers; {TEXT_FORMS}")
-        reading = _with_comments(source, said)
+        reading = _with_settings(source, _with_comments(source, said), comments)
         above = b"\n".join([*comments, first.text])
         if OF_RPLIDAR.search(above) and not OF_ROS.search(above):
             source.notes.clockwise = "an RPLIDAR counts its angles so"
         rest = (row for row in rows if not row.text.startswith(COMMENTS))
         head, rest = _without_headings(source, [first, *islice(rest, SAMPLE)], rest)
-        head = _below_titles(source, head)
+        below = _below_titles(source, head)
+        reading = _with_settings(source, reading, [row.text for row in head[: len(head) - len(below)]])
+        head = below
         recording = _read(source, reading, head, chain(head, rest), comments[-1])
         laser = source.notes.found.get("frame_id", "")
         return recording if any(recording.frame_ids) else replace(recording, frame_ids=(laser,) * len(recording))
@@ -222,6 +229,14 @@ def _with_comments(source: Source, said: dict[str, str]) -> Reading:
         raise ValueError(f"{source.name}: {error}") from None
     source.notes.found |= found
     return reading
+
+
+def _with_settings(source: Source, reading: Reading, lines: list[bytes]) -> Reading:
+    """The Reading, completed from lines such as "start angle [deg]: -135" above the table."""
+    said = [(text_of(found[1]), found[2]) for line in lines if (found := SETTING_LINE.fullmatch(line))]
+    found = {name: value for name, value in geometry_in(said).items() if getattr(reading, name) is None}
+    source.notes.found |= found
+    return reading.but(**found)
 
 
 def _read(source: Source, reading: Reading, head: list[Row], rows: Iterable[Row], comment: bytes) -> Recording:
