@@ -29,7 +29,7 @@ from .bridge import Told, hand_all
 from .dds_domain import join
 from .dds_types import serialised_type
 from .outgoing import Message, full_type
-from .topics import LASER_SCAN, LOOK_SECONDS, Offer, awaited_topic, of_lasers
+from .topics import LASER_SCAN, LOOK_SECONDS, Offer, awaited_topic, of_lasers, why_silent
 
 PREFIX = "rt"
 MOST_WAITING = 1000
@@ -193,7 +193,7 @@ class _Watch:
                 self._tell_quiet(told, now)
             return
         self.fits_since = 0.0
-        why = _why_no_match(self.topic, reader) if offered else f"{self.topic} is no longer published; waiting for it"
+        why = _why_no_match(self.topic, reader) if offered else why_silent(self.topic)
         if why != self.said:
             self.said = why
             told.misses(why)

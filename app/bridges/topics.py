@@ -58,6 +58,11 @@ def awaited_topic(
     return None
 
 
+def why_silent(topic: str) -> str:
+    """What is said of a topic that was published before."""
+    return f"{topic} is no longer published; waiting for it"
+
+
 def why_none(topic: str | None, offers: Sequence[tuple[str, str]], lasers: Sequence[str]) -> str:
     """Why there are no scans of `topic`, or of any if it is None. offers: topics and types; lasers: topics of scans."""
     if topic is None:

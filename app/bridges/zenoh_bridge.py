@@ -29,7 +29,7 @@ from lineseg.readers.laser_scan import decode_cdr
 
 from .bridge import LARGEST_SAMPLE, OPEN_SECONDS, Told, hand_all
 from .outgoing import Message, dds_type, full_type, typestore
-from .topics import LASER_SCAN, LOOK_SECONDS, Offer, awaited_topic, of_lasers
+from .topics import LASER_SCAN, LOOK_SECONDS, Offer, awaited_topic, of_lasers, why_silent
 
 SPACE = "@ros2_lv"
 PUBLISHER, NODE, SUBSCRIPTION = "MP", "NN", "MS"
@@ -218,7 +218,7 @@ class Zenoh:
                 gone, heard = False, time.monotonic()
             elif not gone and time.monotonic() - heard > GONE_SECONDS and not self._offered(topic):
                 gone = True
-                told.misses(f"{topic} is no longer published; waiting for it")
+                told.misses(why_silent(topic))
 
     def _lost_before(self, attached: bytes) -> int:
         """How many messages of the same writer are missing between this one and the one before it."""

@@ -1,6 +1,6 @@
 // @ts-check
 // What Learn opens with: the block diagram of the method (Fig. 3), with the lessons of each block.
-import { chooseFile } from "../open/files.js";
+import { chooseFile } from "../widgets/choose_file.js";
 import { drawText } from "../text/draw.js";
 import { h } from "../widgets/dom.js";
 import { icon } from "../widgets/icon.js";

@@ -1,6 +1,5 @@
 // @ts-check
 // Files of the user: chosen, dropped, sent to the server.
-import { h } from "../widgets/dom.js";
 import { messageOf } from "../fetch.js";
 
 const PARAMETERS = /\.(ya?ml|launch|xml|json|py)$|flags[^/]*\.txt$/i;
@@ -152,15 +151,6 @@ export function nameOfAll(files) {
   let length = 0;
   while (length < names[0].length && names.every((name) => name[length] === names[0][length])) length++;
   return names[0].slice(0, length).replace(/[\W_]+$/, "") || "bag";
-}
-
-/**
- * @param {(files: File[]) => void} onFiles
- */
-export function chooseFile(onFiles) {
-  const input = h("input", { type: "file", multiple: true });
-  input.addEventListener("change", () => onFiles([...(input.files ?? [])]));
-  input.click();
 }
 
 /**

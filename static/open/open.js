@@ -5,7 +5,8 @@ import { hasLesson, sendLessons } from "../learn/dropped.js";
 import { progressIn } from "../learn/progress.js";
 import { fetchText } from "../fetch.js";
 import { toast } from "../widgets/toast.js";
-import { catchDrops, chooseFile, hasScans, nameOfAll, pick, uploadAll } from "./files.js";
+import { chooseFile } from "../widgets/choose_file.js";
+import { catchDrops, hasScans, nameOfAll, pick, uploadAll } from "./files.js";
 
 /**
  * @param {import("../page.js").Page} page

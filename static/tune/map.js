@@ -1,6 +1,6 @@
 // @ts-check
 // A measure over two thresholds, of the open recording or of an opened sweep; a click sets both thresholds.
-import { chooseFile } from "../open/files.js";
+import { chooseFile } from "../widgets/choose_file.js";
 import { h, setText } from "../widgets/dom.js";
 import { withUnit } from "../widgets/scale.js";
 import { MapChoices } from "./map_choices.js";

@@ -2,7 +2,7 @@
 // Profiles: thresholds, Reading, layers and layout under a name, in this browser and as small files.
 import { keep, recalled } from "../kept.js";
 import { sizesIn } from "../layout/layout.js";
-import { chooseFile } from "../open/files.js";
+import { chooseFile } from "../widgets/choose_file.js";
 import { fieldOf } from "../view/fields.js";
 import { isIn } from "../view/key.js";
 import { download } from "../widgets/clipboard.js";
