@@ -47,6 +47,7 @@ export function createInspect(page, text, { pointing, timeline, onTags, onMend }
   });
   const truth = createTruth(text.truth, {
     session: page.sessionId,
+    answered: page.answered,
     onShow: (verdicts) => page.change({ layers: { verdicts } }),
     onReference: (reference) => page.change({ reference }),
     onWalls: (made) => readWalls(page, onMend, made),

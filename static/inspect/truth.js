@@ -8,7 +8,7 @@ import { TruthTable } from "./truth_table.js";
 
 /** @typedef {import("../wire.js").State} State */
 /** @typedef {typeof import("../text/inspect.js").inspectText.truth} Text */
-/** @typedef {{session: () => string, onShow: (shown: boolean) => void, onReference: (reference: "labels" | "wall") => void,
+/** @typedef {{session: () => string, answered: () => boolean, onShow: (shown: boolean) => void, onReference: (reference: "labels" | "wall") => void,
  *            onWalls: (made: boolean) => void}} Handlers  onWalls: makes the truth from poses, or forgets it */
 
 const REST_MS = 300;
@@ -27,6 +27,7 @@ export function createTruth(text, handlers) {
 class Truth {
   #text;
   #session;
+  #answered;
   /** @type {State | null} */ #state = null;
   /** Key of the last request for numbers of the recording. */ #asked = "";
   #waiting = 0;
@@ -40,9 +41,10 @@ class Truth {
   #fromPoses;
 
   /** @param {Text} text @param {Handlers} handlers */
-  constructor(text, { session, onShow, onReference, onWalls }) {
+  constructor(text, { session, answered, onShow, onReference, onWalls }) {
     this.#text = text;
     this.#session = session;
+    this.#answered = answered;
     const show = h("input", { type: "checkbox", onchange: () => onShow(show.checked) });
     const by = h("select", {
       class: "select",
@@ -93,6 +95,12 @@ class Truth {
 
   /** Requests the numbers of the recording. */
   async #ask() {
+    // A change that is under way may remove the truth, or have removed it.
+    if (!this.#answered()) return this.#wait();
+    if (!this.#state?.judgedBy) {
+      this.#asked = "";
+      return;
+    }
     const query = new URLSearchParams({ session: this.#session() });
     const { words, trouble } = await fetchText(`/api/truth?${query}`);
     if (trouble) return;

@@ -62,7 +62,7 @@ class Tab:
 
     def _hear(self, message: ConsoleMessage) -> None:
         if message.type == "error":
-            self.complaints.append(f"console: {message.text}")
+            self.complaints.append(f"console: {message.text} {message.location['url']}")
 
     def _watch(self, url: str) -> None:
         host = re.sub(r"^\w+://", "", self.address).split("/")[0]

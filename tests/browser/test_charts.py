@@ -12,7 +12,7 @@ SAMPLES = data_folder("sample_scans")
 
 def test_the_truth_of_a_frame_is_told_and_shown_in_the_scene(new_tab):
     recording = open_recording(SAMPLES / "hallway.npz")
-    tab = new_tab("#frame=39")
+    tab = new_tab("#frame=39&reference=wall")
     figures = tab.page.locator(".truth-figures")
     (told,) = agreements(recording.only(np.array([39])))
     wanted = f"TR {told.true_rate:.0%} · FR {told.false_rate:.0%}".replace("%", " %")

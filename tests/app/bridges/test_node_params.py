@@ -7,7 +7,7 @@ import threading
 from collections.abc import Iterator
 
 import pytest
-from lineseg_app.bridges import node_params
+from lineseg_app.bridges import node_params, websocket
 from lineseg_app.server import Settings
 from live import Address, serving
 from rosbridge_peer import RosBridgePeer
@@ -37,8 +37,8 @@ def bridge() -> Iterator[RosBridgePeer]:
 @pytest.fixture(autouse=True)
 def patient(monkeypatch: pytest.MonkeyPatch) -> None:
     """What is sent is the same."""
-    for name in ("OPEN_SECONDS", "ALL_SECONDS"):
-        monkeypatch.setattr(node_params, name, SECONDS)
+    monkeypatch.setattr(websocket, "OPEN_SECONDS", SECONDS)
+    monkeypatch.setattr(node_params, "ALL_SECONDS", SECONDS)
 
 
 @pytest.fixture

@@ -95,22 +95,24 @@ def test_the_oldest_uploads_make_room_and_all_are_removed_in_the_end(tmp_path, r
 
 
 def test_files_of_the_command_line_are_remembered(tmp_path, recordings):
-    file = tmp_path / "mine.npz"
-    shutil.copy(recordings / "walls.npz", file)
+    files = tmp_path / "mine.npz", tmp_path / "gone.npz"
+    for file in files:
+        shutil.copy(recordings / "walls.npz", file)
     with (
-        serving(Settings(files=(file,), data_folder=tmp_path / "data")),
+        serving(Settings(files=files, data_folder=tmp_path / "data")),
         serving(Settings(data_folder=tmp_path / "data")) as server,
         page_of(server) as page,
     ):
         page.hello()
-        (recent,) = [entry for entry in page.welcome["recordings"] if entry["group"] == "Recent"]
-        assert (recent["label"], recent["missing"]) == ("mine.npz", False)
-        assert page.change(recording=recent["id"])["label"] == "mine.npz"
-        file.unlink()
+        recent = {entry["label"]: entry for entry in page.welcome["recordings"] if entry["group"] == "Recent"}
+        assert {label: entry["missing"] for label, entry in recent.items()} == {"mine.npz": False, "gone.npz": False}
+        assert page.change(recording=recent["mine.npz"]["id"])["label"] == "mine.npz"
+        files[1].unlink()
         with page_of(server) as later:
             later.hello()
-            assert [entry["missing"] for entry in later.welcome["recordings"] if entry["group"] == "Recent"] == [True]
-            assert "no longer" in later.refused(recording=recent["id"])["message"]
+            missing = [entry["label"] for entry in later.welcome["recordings"] if entry["missing"]]
+            assert missing == ["gone.npz"]
+            assert "no longer" in later.refused(recording=recent["gone.npz"]["id"])["message"]
 
 
 def test_recent_files_are_few_and_newest_first(tmp_path):
