@@ -220,7 +220,7 @@ def browser() -> Iterator[Browser]:
         browser.close()
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def address(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Address]:
     with serving(Settings(data_folder=tmp_path_factory.mktemp("recent"))) as address:
         yield address
