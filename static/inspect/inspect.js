@@ -45,9 +45,7 @@ export function createInspect(page, text, { pointing, timeline, onTags, onMend }
     onAdopt: () => page.view.against && page.change({ ...page.view.against, against: null, step: null }),
     onNext: nextDifference,
   });
-  const truth = createTruth(text.truth, {
-    session: page.sessionId,
-    answered: page.answered,
+  const truth = createTruth(text.truth, page, {
     onShow: (verdicts) => page.change({ layers: { verdicts } }),
     onReference: (reference) => page.change({ reference }),
     onWalls: (made) => readWalls(page, onMend, made),

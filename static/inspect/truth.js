@@ -8,7 +8,8 @@ import { TruthTable } from "./truth_table.js";
 
 /** @typedef {import("../wire.js").State} State */
 /** @typedef {typeof import("../text/inspect.js").inspectText.truth} Text */
-/** @typedef {{session: () => string, answered: () => boolean, onShow: (shown: boolean) => void, onReference: (reference: "labels" | "wall") => void,
+/** @typedef {{sessionId: () => string, answered: () => boolean}} Page */
+/** @typedef {{onShow: (shown: boolean) => void, onReference: (reference: "labels" | "wall") => void,
  *            onWalls: (made: boolean) => void}} Handlers  onWalls: makes the truth from poses, or forgets it */
 
 const REST_MS = 300;
@@ -19,9 +20,9 @@ function keyOfAll(state) {
   return keyOf({ ...state, labelled: state.judgedBy === "labels" ? state.labels?.stamp : "" }, ...PARTS);
 }
 
-/** @param {Text} text @param {Handlers} handlers */
-export function createTruth(text, handlers) {
-  return new Truth(text, handlers);
+/** @param {Text} text @param {Page} page @param {Handlers} handlers */
+export function createTruth(text, page, handlers) {
+  return new Truth(text, page, handlers);
 }
 
 class Truth {
@@ -40,10 +41,10 @@ class Truth {
   #unknown;
   #fromPoses;
 
-  /** @param {Text} text @param {Handlers} handlers */
-  constructor(text, { session, answered, onShow, onReference, onWalls }) {
+  /** @param {Text} text @param {Page} page @param {Handlers} handlers */
+  constructor(text, { sessionId, answered }, { onShow, onReference, onWalls }) {
     this.#text = text;
-    this.#session = session;
+    this.#session = sessionId;
     this.#answered = answered;
     const show = h("input", { type: "checkbox", onchange: () => onShow(show.checked) });
     const by = h("select", {
