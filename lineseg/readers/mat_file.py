@@ -60,7 +60,8 @@ class MatFile(Reader):
             for element in _elements(memoryview(data)[HEADER:], order):
                 if element.kind == COMPRESSED:
                     unpack = zlib.decompressobj()
-                    plain = unpack.decompress(element.data, limit)
+                    # 0 would be without a limit.
+                    plain = unpack.decompress(element.data, max(limit, 1))
                     limit -= len(plain)
                     if unpack.unconsumed_tail or limit < 0:
                         raise TooLargeError(too_large(source.name, limit_of(len(data))))
@@ -125,9 +126,8 @@ def _elements(data: memoryview, order: str) -> Iterator[Element]:
         if start + size > len(data):
             raise ValueError("it breaks off")
         yield Element(kind, data[start : start + size])
-        at = at + 8 if start == at + 4 else start + size
-        if kind != COMPRESSED:
-            at += -at % 8
+        # Those after a compressed one may lie anywhere.
+        at = at + 8 if start == at + 4 else start + size + (-size % 8 if kind != COMPRESSED else 0)
 
 
 def _matrix(data: memoryview, order: str, depth: int) -> tuple[str, Any]:
@@ -158,6 +158,8 @@ def _structs(parts: list[Element], order: str, depth: int) -> Any:
     longest = int(_numbers(parts[0], order)[0])
     letters = bytes(parts[1].data)
     names = [letters[at : at + longest].split(b"\0")[0].decode("latin-1") for at in range(0, len(letters), longest)]
+    if not names:
+        return {}
     values = [_matrix(each.data, order, depth + 1)[1] for each in parts[2:][:MOST_CELLS]]
     found = [dict(zip(names, values[at : at + len(names)], strict=False)) for at in range(0, len(values), len(names))]
     return found[0] if len(found) == 1 else found

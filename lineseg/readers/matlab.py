@@ -82,8 +82,10 @@ def recording_of_variables(source: Source, pairs: Iterable[tuple[str, Value]], f
     for name, value in pairs:
         last = name.split(".")[-1]
         arrays[field_of(name_of(last)) or last] = _in_own_unit(source, name_of(last), np.squeeze(np.asarray(value)))
-    if not {"angle_increment", "angle_max", "bearings"} & arrays.keys() and (low := arrays.pop("angle_min", None)):
+    low = arrays.get("angle_min", np.empty(0))
+    if low.size == 1 and not {"angle_increment", "angle_max", "bearings"} & arrays.keys():
         # The step is that of a common laser, or given.
+        del arrays["angle_min"]
         angle_min = float(low) if source.reading.angle_min is None else source.reading.angle_min
         source = replace(source, reading=source.reading.but(angle_min=angle_min))
     if not is_exchange(arrays):

@@ -121,3 +121,22 @@ def test_damaged_bytes_are_one_sentence(tmp_path: Path):
             open_recording(tmp_path / "b.mat")
         except ValueError as error:
             assert "b.mat" in str(error)
+
+
+def test_empty_structs_and_arrays_end_nothing(tmp_path: Path):
+    recording = open_recording(
+        saved(tmp_path, empty={}, nothing=np.zeros((0, 0)), ranges=SCANS, angle_min=BEARINGS[0], angle_increment=STEP)
+    )
+    check(recording)
+
+
+@pytest.mark.parametrize("length", range(8))
+def test_variables_after_a_compressed_one_are_read_wherever_they_lie(tmp_path: Path, length: int):
+    path = saved(tmp_path, compressed=True, note="a" * length)
+    packed = path.read_bytes()
+    path.write_bytes(packed + saved(tmp_path, angles=BEARINGS, ranges=SCANS).read_bytes()[128:])
+    check(open_recording(path))
+
+
+def test_an_angle_min_of_zero_is_no_missing_one(tmp_path: Path):
+    assert open_recording(saved(tmp_path, ranges=SCANS, angle_min=0.0))[0].bearings[0] == 0
