@@ -16,7 +16,7 @@ from .guessing import angle_unit_of
 from .reading import RADIANS, around_ranges, columns_of
 from .source import Reader, Source
 from .stamping import in_seconds
-from .tables.beam_rows import beams_of, words_of
+from .tables.beam_rows import LEAST_REGULAR, beams_of, words_of
 from .tables.headers import LENGTHS, STAMPS, TURNS, Name, geometry_in, is_angle, is_distance, name_of
 from .tables.scan_columns import alike, with_angles
 from .tables.scan_rows import scans_of
@@ -158,7 +158,8 @@ def recording_of_arrays(source: Source, arrays: Mapping[str, NDArray], format: s
         return _of_two(source, [(name_of(name), tables[name]) for name in pair], format)
     rows = {name: array for name, array in arrays.items() if _plain(array) and array.ndim == 1}
     plain = {name: name_of(name) for name in rows}
-    angles = next((name for name in rows if name.lower().startswith(ANGLE_NAMES) or is_angle(plain[name])), None)
+    turning = [name for name in rows if name.lower().startswith(ANGLE_NAMES) or is_angle(plain[name])]
+    angles = next(iter(turning), None)
     stamps = next((name for name in rows if name.lower().startswith(STAMP_NAMES) or plain[name].plain in STAMPS), None)
     named = {name: array for name, array in rows.items() if name not in (angles, stamps)}
     if len(tables) > 1:
@@ -184,12 +185,14 @@ def recording_of_arrays(source: Source, arrays: Mapping[str, NDArray], format: s
         source.notes.found["unit"] = unit
     else:
         source.notes.unstated.add("unit")
+    angles = next((each for each in turning if len(rows[each]) == array.shape[-1]), angles)
+    if angles is not None and array.ndim == 2 and array.shape[1] != len(rows[angles]) == array.shape[0]:
+        # Angles that do not go around evenly are the robot's, one for each scan.
+        array, angles = (array.T, angles) if _unevenness(rows[angles]) < LEAST_REGULAR else (array, None)
     if angles is not None and (turn := TURNS.get(name_of(angles).unit)):
         source.notes.found["angle_unit"] = turn
     if angles is None and array.ndim == 2:
         angles = next((each for each in named if _may_be_angles(rows[each], array)), None)
-    if angles is not None and array.ndim == 2 and array.shape[1] != len(rows[angles]) == array.shape[0]:
-        array = array.T
     if angles is not None and len(rows[angles]) != array.shape[-1]:
         raise ValueError(_which(source, arrays, f"{angles} has {len(rows[angles])} values, but a row of {name} "
                                 f"{array.shape[-1]}"))  # fmt: skip
@@ -203,8 +206,13 @@ def _may_be_angles(row: NDArray, ranges: NDArray[np.float64]) -> bool:
     """Whether numbers rise, or fall, evenly, one for each beam, while the ranges do not."""
     if len(row) != ranges.shape[-1] or len(row) < LEAST_BEAMS or ranges.shape[0] == len(row):
         return False
+    return _unevenness(row) < EVEN <= regularity(ranges[0])
+
+
+def _unevenness(row: NDArray) -> float:
+    """How unequal the steps of angles are, in the unit that they seem to have; see `regularity`."""
     values = row.astype(np.float64)
-    return regularity(values * RADIANS[angle_unit_of(values)]) < EVEN <= regularity(ranges[0])
+    return regularity(values * RADIANS[angle_unit_of(values)])
 
 
 def _with_stamps(source: Source, recording: Recording, arrays: Mapping[str, NDArray]) -> Recording:

@@ -182,6 +182,37 @@ def test_rows_that_do_not_close_a_circle_are_half_of_one(tmp_path: Path):
     assert np.rad2deg(around[0].bearings[[0, -1]]) == pytest.approx([-180, 179])
 
 
+def test_rows_of_a_laser_that_stands_still_are_a_circle_also_if_an_edge_lies_at_the_seam(tmp_path: Path):
+    beams = np.r_[np.full(120, 4.0), np.full(60, 2.0), np.linspace(3, 2, 180)]
+    recording = read(tmp_path, "".join(row(beams + 0.001 * at) + "\n" for at in range(5)))
+    assert np.rad2deg(recording[0].bearings[[0, -1]]) == pytest.approx([-180, 179])
+
+
+@pytest.mark.filterwarnings("error")
+def test_rows_without_any_return_are_scans_in_which_nothing_is_seen(tmp_path: Path):
+    around = [row(np.linspace(2, 2.2, 360))] * 5
+    assert len(read(tmp_path, "\n".join([*around, row(np.full(360, np.nan)), row(np.full(360, np.inf))]))) == 7
+
+
+def test_angles_of_the_robot_beside_ranges_are_not_those_of_beams(tmp_path: Path):
+    scans, turning = np.tile(SCANS, (10, 1)), np.random.default_rng(1).normal(size=20)
+    np.savez(tmp_path / "a.npz", scans=scans, angular_velocity=turning)
+    np.savez(tmp_path / "b.npz", scans=scans, angular_velocity=turning, angles=BEARINGS)
+    for name in ("a.npz", "b.npz"):
+        assert [len(scan) for scan in open_recording(tmp_path / name)] == [181] * 20
+    assert open_recording(tmp_path / "b.npz")[0].bearings == pytest.approx(BEARINGS)
+
+
+@pytest.mark.parametrize(
+    "said", ["# angle_min: -1.5708\n# angle_increment: 0.01745\n", "# Start angle [deg]: -90\n# Step [deg]: 1\n"]
+)
+def test_beams_below_the_angles_of_their_laser_are_beams(tmp_path: Path, said: str):
+    beams = "".join(f"{degree} {metres:.3f}\n" for degree, metres in zip(DEGREES, NEAR, strict=True))
+    recording = read(tmp_path, said + beams)
+    assert len(recording) == 1
+    assert recording[0].ranges == pytest.approx(NEAR, abs=1e-3)
+
+
 def test_notes_beside_the_one_bag_of_a_folder_do_not_hide_it(tmp_path: Path):
     np.savez(tmp_path / "a.npz", ranges=SCANS, angle_min=-1.5, angle_increment=0.01)
     (tmp_path / "notes.txt").write_text("second floor\n")

@@ -53,7 +53,7 @@ LEAST_PAIRS, FAR_APART = 30, 8.0
 # So many rows of real ranges have more different numbers than these.
 MANY_ROWS, FEW_LEVELS = 30, 8
 # Scans in which the seam shows whether beams go all around, and the leap there as a share of the ranges.
-FEW_SCANS, SEAM_SHARE = 4, 0.15
+FEW_SCANS, MANY_SCANS, SEAM_SHARE, NEARLY_ALL = 4, 1000, 0.15, 0.9
 # Rows of two lasers differ so many times as much as those of one.
 UNLIKE = 2.0
 
@@ -483,7 +483,9 @@ def _differ(rows: list[Floats], after: int) -> float:
     pairs = list(zip(rows, rows[after:], strict=False))
     if any(len(one) != len(other) for one, other in pairs):
         return math.inf
-    return float(np.median([np.nanmedian(np.abs(one - other)) for one, other in pairs]))
+    both = (np.isfinite(one) & np.isfinite(other) for one, other in pairs)
+    gaps = [np.median(np.abs(one - other)[seen]) for (one, other), seen in zip(pairs, both, strict=True) if seen.any()]
+    return float(np.median(gaps)) if gaps else math.inf
 
 
 # Angles
@@ -497,7 +499,7 @@ def _angles(
     rows: the ranges of the scans.
     """
     usual = usual_angles(beams)
-    if usual is not None and abs(usual[1] * beams - 360) < usual[1] / 2 and _leap_at_seam(rows):
+    if usual is not None and abs(usual[1] * beams - 360) < usual[1] / 2 and _leap_at_seam(rows, beams):
         # No full circle: half of one, at half the steps.
         usual = (usual[0] / 2, usual[1] / 2)
     low, step = (math.nan, math.nan) if usual is None else map(math.radians, usual)
@@ -520,16 +522,23 @@ def _angles(
     return low, step
 
 
-def _leap_at_seam(rows: list[Floats]) -> bool:
-    """Whether in nearly all scans the last range is far from the first, where neighbours in a circle would be near."""
-    if len(rows) < FEW_SCANS:
+def _leap_at_seam(rows: list[Floats], beams: int) -> bool:
+    """Whether in nearly all scans of so many beams the last range is far from the first, where neighbours in a circle
+    would be near.
+
+    False if neighbours elsewhere are as far apart in nearly all of them, as they may be while a laser stands still.
+    """
+    ranges = np.array([row for row in rows[:: max(len(rows) // MANY_SCANS, 1)] if len(row) == beams])
+    ranges = np.where(np.isfinite(ranges) & (ranges > 0), ranges, np.nan)
+    ranges = ranges[np.isfinite(ranges[:, [0, -1]]).all(axis=1)]
+    if len(ranges) < FEW_SCANS:
         return False
-    gaps = np.array([abs(row[0] - row[-1]) for row in rows])
-    steps = np.array([np.nanmedian(np.abs(np.diff(row))) for row in rows])
-    usual = np.array([np.nanmedian(row) for row in rows])
-    known = np.isfinite(gaps)
-    leaps = (gaps > FAR_APART * steps) & (gaps > SEAM_SHARE * usual)
-    return bool(known.sum() >= FEW_SCANS and leaps[known].mean() > 0.9)
+    steps = np.abs(np.diff(ranges, axis=1, append=ranges[:, :1]))
+    far = (steps > FAR_APART * np.nanmedian(steps, axis=1, keepdims=True)) & (
+        steps > SEAM_SHARE * np.nanmedian(ranges, axis=1, keepdims=True)
+    )
+    *inside, seam = far.mean(axis=0) > NEARLY_ALL
+    return bool(seam and not any(inside))
 
 
 def tell_usual_angles(notes: Notes, reading: Reading, where: str, beams: int, low: float, step: float) -> None:

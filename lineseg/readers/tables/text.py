@@ -553,7 +553,7 @@ def _read_numbers(
     if reading.skip_columns is None and (spans := scans_over_lines(source, dialect, head, width)) is not None:
         return scans_of(source, reading, *spans, 0, None)
     few = width == 2 or (2 < width < FEW_COLUMNS and len(head) >= MANY_ROWS)
-    if few and reading.skip_columns is None and reading.angle_increment is None:
+    if few and reading.skip_columns is None and source.reading.angle_increment is None:
         return read_beams(source, reading, rows, dialect, None)
     numbers, values, double = parsed(source, rows, dialect)
     if angles_between(values, reading):
