@@ -23,7 +23,7 @@ class SocketLimit:
         if scope["type"] != "websocket":
             await self._app(scope, receive, send)
             return
-        kind = scope["path"].removeprefix("/api").split("/")[1]
+        kind = "/".join(scope["path"].removeprefix("/api").split("/")[:2])
         if self._open[kind] >= MOST_SOCKETS:
             socket = WebSocket(scope, receive, send)
             await socket.accept()

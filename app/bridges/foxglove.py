@@ -23,6 +23,8 @@ MESSAGE_DATA = 1
 HEADER = struct.Struct("<BIQ")
 SUBSCRIPTION = 1
 MOST_CHANNELS, MOST_BYTES = 10_000, 16 * 1024 * 1024
+# Those of ROS have at most 255 letters.
+LONGEST_NAME = 1000
 
 
 class Channel(NamedTuple):
@@ -115,7 +117,8 @@ class Foxglove:
     def _add(self, said: Any) -> None:
         """A channel, if it has what every channel has: an id, and the names of its topic, its type and its encoding."""
         named = isinstance(said, dict) and type(said.get("id")) is int
-        if not named or not all(isinstance(said.get(name), str) for name in ("topic", "schemaName", "encoding")):
+        names = [said.get(name) for name in ("topic", "schemaName", "encoding")] if named else []
+        if not named or not all(isinstance(name, str) and len(name) <= LONGEST_NAME for name in names):
             return
         channel = _channel(said)
         self._channels.pop(said["id"], None)

@@ -19,7 +19,7 @@ from starlette.exceptions import HTTPException
 from starlette.types import Message, Receive, Scope, Send
 from uvicorn.server import ServerState
 from waiting import SECONDS
-from websockets.exceptions import ConnectionClosed
+from websockets.exceptions import ConnectionClosed, InvalidStatus
 
 HEAD = "{} HTTP/1.1\r\nHost: 127.0.0.1\r\n"
 
@@ -202,6 +202,11 @@ def test_sockets_of_one_kind_do_not_use_up_those_of_the_others(
             with pytest.raises(ConnectionClosed, match="2 connections like this are open"):
                 third.recv(SECONDS)
     page.hello()
+
+
+def test_a_socket_at_no_place_at_all_is_refused(server: Address):
+    with pytest.raises(InvalidStatus, match="403"), connect(f"{server.ws}/api"):
+        pass
 
 
 def test_a_message_of_bytes_to_read_as_gets_a_sentence_and_the_next_one_is_answered(server: Address):

@@ -190,11 +190,13 @@ def test_a_name_of_a_frame_takes_no_more_memory_than_a_name():
     assert decode_cdr(message).frame_id == "x" * 200
 
 
-def test_schemas_of_a_foxglove_server_are_kept_of_scans_alone_and_not_without_bound():
+def test_of_a_foxglove_server_only_schemas_of_scans_are_kept_and_no_name_without_bound():
     def talk(socket: ServerConnection) -> None:
         for id, name in enumerate(["std_msgs/msg/String"] * 9 + [SCAN] * 9, 2):
             channel = CHANNEL | {"id": id, "topic": f"/{id}", "schemaName": name, "schema": "x" * 3_000_000}
             says(op="advertise", channels=[channel])(socket)
+            long = channel | {"id": 100 + id, "topic": "/" + "x" * 3_000_000, "schemaName": "std_msgs/msg/String"}
+            says(op="advertise", channels=[long | {"schema": ""}])(socket)
         says(op="advertise", channels=[CHANNEL])(socket)
 
     tracemalloc.start()
