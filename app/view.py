@@ -52,8 +52,8 @@ STRIP_SCORES = {**SCORES, SUSPICION.name: SUSPICION, DIFFERENCE.name: DIFFERENCE
 class Layers:
     """What is drawn; `replay` is the geometry of the decision on the screen, `ghosts` the missed lines in Inspect.
 
-    In the world: `trajectory` of the laser, `past` scans, `all_lines` of the recording, and the
-    `line_map` that they are merged into; `other_lasers` of the robot at the time of the frame.
+    In the world: `trajectory` of the laser, `past` scans, `all_lines` of the recording, and the `line_map` that they
+    are merged into; `other_lasers` of the robot at the time of the frame.
     """
 
     points: bool = True

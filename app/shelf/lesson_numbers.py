@@ -3,8 +3,8 @@
 `{epsilon}`: a threshold, as it is with this text. `{beams}`, `{returns}`: of the scan. `{lines}`, `{shortest}`,
 `{longest}`: of the result. `{beam}`, `{first}`, `{last}`, `{points}`, `{value}`, `{limit}`, `{over}`: of the decision
 that the text shows; `{aside}`: how far its first beam is from its line; `{joined}`: how far its beam would be from the
-line fitted with it. `{NAME.beam}` and so on: of a decision that the
-lesson names in `decisions`; `{NAME.count}`: how many match it. `:mm`, `:cm`, `:deg` after the name choose the unit.
+line fitted with it. `{NAME.beam}` and so on: of a decision that the lesson names in `decisions`; `{NAME.count}`: how
+many match it. `:mm`, `:cm`, `:deg` after the name choose the unit.
 """
 
 from __future__ import annotations

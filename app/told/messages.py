@@ -183,8 +183,7 @@ class LiveStatus(BaseModel):
 
     rate: scans per second; delay: of the last scan, from its stamp to its arrival [s]. total: scans since the source
     began; the newest `most` are kept; refused: messages that were not scans; notDrawn: scans that this tab passed over,
-    because newer ones had arrived. publisher: the tab whose segments go
-    back to the robot, if any.
+    because newer ones had arrived. publisher: the tab whose segments go back to the robot, if any.
     """
 
     type: Literal["live"] = "live"

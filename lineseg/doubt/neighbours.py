@@ -29,9 +29,9 @@ def compare_frames(segments, offsets, views, start, stop, votes, brief, gone, ju
 
     brief: total length of the segments that neither the previous nor the next frame has, after correcting for motion
     [m]; gone: of those that both have and this frame lacks although it looks there [m]. jump: how many more, or fewer,
-    segments the frame has than both. turn: angle by which the sensor turned since the previous frame
-    [rad]; jolt: see `turned_back`; both 0 unless the lines show that it turned so, see `explains`. All are 0 for the
-    first and the last frame.
+    segments the frame has than both. turn: angle by which the sensor turned since the previous frame [rad]; jolt: see
+    `turned_back`; both 0 unless the lines show that it turned so, see `explains`. All are 0 for the first and the last
+    frame.
     """
     known = -1
     forth = (1.0, 0.0, 0.0, 0.0)

@@ -209,9 +209,8 @@ def over_split(lines, count, circle, limits, pairs):
 def are_one_line(lines, i, j, limits):
     """Whether segment j continues segment i.
 
-    With (x₂, y₂) the end of i and (x₁, y₁) the start of j: |sin of the angle between the lines| <
-    sin SPLIT_ANGLE, |(x₁, y₁) − (x₂, y₂)| ≤ SPLIT_GAP, and each of the two points lies within LOOSER·ε of the other's
-    line.
+    With (x₂, y₂) the end of i and (x₁, y₁) the start of j: |sin of the angle between the lines| < sin SPLIT_ANGLE,
+    |(x₁, y₁) − (x₂, y₂)| ≤ SPLIT_GAP, and each of the two points lies within LOOSER·ε of the other's line.
     """
     line, other = line_at(lines, i), line_at(lines, j)
     x, y, x_next, y_next = lines[i].x2, lines[i].y2, lines[j].x1, lines[j].y1

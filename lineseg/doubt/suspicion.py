@@ -1,8 +1,8 @@
 """Combines scores into one: in how many lines a frame is probably wrong.
 
 By default that is what the committee disputes (`lineseg/survey/committee.py`), and more where a frame has no line
-before walls, lacks what its neighbours have, was knocked farther aside than the robot turns, or lost
-beams. Scores that move with the robot, or are normal for a place, have the weight 0: they do not follow the truth
+before walls, lacks what its neighbours have, was knocked farther aside than the robot turns, or lost beams. Scores that
+move with the robot, or are normal for a place, have the weight 0: they do not follow the truth
 (`tests/benchmarks/suspicion.py`).
 """
 
