@@ -56,7 +56,7 @@ def sheet_of(shelf: LessonShelf, lesson: NamedLesson, pictures: Callable[[str], 
         f'<section class="sheet-step">{drawn(step)}<div>{words(step.text)}</div></section>' for step in lesson.steps
     ]
     return (
-        f"<main><header><h1>{_line(lesson.title)}</h1><p>{_line(lesson.about)}</p>"
+        f"<main><header><h1>{inline(lesson.title)}</h1><p>{inline(lesson.about)}</p>"
         f'<p class="sheet-name">Name: <span></span> Date: <span></span></p></header>{"".join(steps)}'
         f'<section class="sheet-task"><h2>Your turn</h2>{drawn(lesson.task)}'
         f"<div>{words(lesson.task.text)}{''.join(_room(lesson.task))}</div></section></main>"
@@ -66,7 +66,7 @@ def sheet_of(shelf: LessonShelf, lesson: NamedLesson, pictures: Callable[[str], 
 def _room(task: Task) -> Iterator[str]:
     """Room for the answer."""
     for option in task.choice:
-        yield f'<p class="sheet-choice"><span></span>{_line(option.text)}</p>'
+        yield f'<p class="sheet-choice"><span></span>{inline(option.text)}</p>'
     if task.number:
         unit = re.sub(r"^[-−]?[\d.]+\s*", "", task.number.answer)
         yield f'<p class="sheet-number">Answer: <span></span> {escape(unit)}</p>'
@@ -89,7 +89,7 @@ def _picture(recording, scan: Scan, lesson: NamedLesson, page: Step | Task) -> s
     shown = picture(replace(view, dark=False), recording, found, bounds_of(recording))
     count = len(found.extraction.segments)
     words = found.trace[step].text if step is not None else f"{count} {'line' if count == 1 else 'lines'}"
-    return f"<figure>{print_svg(shown, framing, words)}<figcaption>{_line(words)}</figcaption></figure>"
+    return f"<figure>{print_svg(shown, framing, words)}<figcaption>{inline(words)}</figcaption></figure>"
 
 
 def _words(pictures: Callable[[str], str], text: str) -> str:
@@ -100,12 +100,12 @@ def _words(pictures: Callable[[str], str], text: str) -> str:
         if link and link[1]:
             parts.append(f'<p><img src="{escape(pictures(link[3]))}" alt="{escape(link[2])}"></p>')
         else:
-            parts.append(f"<p>{_line(part)}</p>")
+            parts.append(f"<p>{inline(part)}</p>")
     return "".join(parts)
 
 
-def _line(text: str) -> str:
-    """Paper has no links, so that their words are left."""
+def inline(text: str) -> str:
+    """HTML of a text with its emphasis and indices. Paper has no links, so that their words are left."""
     plain = escape(LINK.sub(lambda link: link[2], text), quote=False)
     plain = EMPHASIS.sub(r"<em>\1</em>", plain)
     return INDEX.sub(r"<i>\1</i><sub>\2</sub>", plain)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import html
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from string import Template
@@ -14,6 +13,7 @@ from ..shelf.lesson import NamedLesson
 from ..shelf.lesson_shelf import LessonShelf
 from .handouts import lesson_page
 from .page import GENERATOR, document, list_style
+from .sheet import inline
 
 INDEX = "index.html"
 TITLE = "Lessons on line extraction"
@@ -73,9 +73,7 @@ def _is_ours(path: Path) -> bool:
 def index_page(lessons: Sequence[NamedLesson], names: dict[str, str]) -> str:
     """The list of lessons. names: of their files, by id."""
     items = [
-        ITEM.substitute(
-            address=quote(names[lesson.id]), title=html.escape(lesson.title), about=html.escape(lesson.about)
-        )
+        ITEM.substitute(address=quote(names[lesson.id]), title=inline(lesson.title), about=inline(lesson.about))
         for lesson in lessons
     ]
     return document(TITLE, LIST.substitute(title=TITLE, items="\n".join(items)), list_style())

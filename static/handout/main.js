@@ -71,7 +71,7 @@ class Page {
     this.view = this.#firstView();
     const holder = place("stage");
     this.#stage = new CanvasStage(holder, pageText.stage, { onPick: (at) => this.#pick(at) });
-    this.#key = createKey(holder, pageText.stage.key, this.#stage);
+    this.#key = createKey(holder, pageText.stage.key, this.#stage, () => names.place());
     const names = createNames(holder, this.#stage);
     this.#overlay = createOverlay(holder, this.#stage);
     this.#closeUp = createCloseUp(/** @type {any} */ (this), /** @type {any} */ (this.#stage), {

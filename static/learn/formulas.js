@@ -1,6 +1,7 @@
 // @ts-check
 // The formulas behind a decision, with its numbers put in. Terms carry the name of their geometry (shapes.js).
 import { h, scrollInPanel } from "../widgets/dom.js";
+import { symbols } from "../widgets/symbols.js";
 import { fit, lengthOf } from "./geometry.js";
 import { fraction, math, num, power, root, row, signed, term, words } from "./mathml.js";
 
@@ -55,7 +56,7 @@ export function createFormulas(text, onTerm) {
           h(
             "div",
             { class: "formula" },
-            h("h3", {}, title),
+            h("h3", {}, ...symbols(title)),
             ...rows.map((row) => h("div", { class: "formula-row" }, row)),
           ),
         ),
@@ -306,7 +307,8 @@ function endpoint({ first, ends }, trace, [a, b, c], text) {
         num(y1),
         words(" m"),
       ),
-      math(words("P₀ = ("), num(x), ",", num(y), words("),  (a, b, c) = ("), num(a), ",", num(b), ",", num(c), ")"),
+      math(words("P₀ = ("), num(x), ",", num(y), ")"),
+      math(words("(a, b, c) = ("), num(a), ",", num(b), ",", num(c), ")"),
     ],
   };
 }

@@ -8,6 +8,8 @@ import { addressOfPicture } from "./picture.js";
 
 const INLINE = /\*(\S(?:[^*\n]*\S)?)\*|\[([^\]\n]+)\]\(([^()\s]+)\)/u;
 const PICTURE = /^!\[([^\]\n]+)\]\(([^()\s]+)\)$/u;
+const OPENING = /[(“‘]+$/u;
+const CLOSING = /^[.,:;!?)”’]+/u;
 const WEB = /^https?:\/\//u;
 const LESSON = "lesson:";
 
@@ -28,11 +30,33 @@ function pictureOf(name, words, id) {
 export function rich(words, mark, of) {
   // Between the plain parts stand what is emphasised, or the words and the target of a link.
   const parts = words.split(new RegExp(INLINE, "gu"));
-  return parts.flatMap((part, k) => {
-    if (k % 4 === 0) return mark(part);
-    if (k % 4 === 1 && part !== undefined) return [h("em", {}, ...mark(part))];
-    return k % 4 === 2 && part !== undefined ? [linkOf(part, parts[k + 1], of)] : [];
-  });
+  return unbroken(
+    parts.flatMap((part, k) => {
+      if (k % 4 === 0) return mark(part);
+      if (k % 4 === 1 && part !== undefined) return [h("em", {}, ...unbroken(mark(part)))];
+      return k % 4 === 2 && part !== undefined ? [linkOf(part, parts[k + 1], of)] : [];
+    }),
+  );
+}
+
+/** Keeps a button of a text on one line with the bracket before it and the full stop after it, as a word would be. @param {(Node | string)[]} parts */
+function unbroken(parts) {
+  /** @type {(Node | string)[]} */
+  const kept = [];
+  for (let k = 0; k < parts.length; k++) {
+    const [part, next] = [parts[k], parts[k + 1]];
+    if (!(part instanceof HTMLButtonElement)) {
+      kept.push(part);
+      continue;
+    }
+    const [before, after] = [kept.at(-1), next].map((each) => (typeof each === "string" ? each : ""));
+    const opening = before.match(OPENING)?.[0] ?? "";
+    const closing = after.match(CLOSING)?.[0] ?? "";
+    if (opening) kept[kept.length - 1] = before.slice(0, -opening.length);
+    if (closing) parts[k + 1] = after.slice(closing.length);
+    kept.push(opening || closing ? h("span", { class: "unbroken" }, opening, part, closing) : part);
+  }
+  return kept;
 }
 
 /** @param {string} words @param {string} target @param {Of} of */

@@ -7,17 +7,20 @@ import { h } from "../widgets/dom.js";
 const TALL_PX = 420;
 
 const ROOM_PX = 12;
+// As in stage.css.
+const BELOW_TOOLS_PX = 60;
 // So far beside the line its band and its names still are.
 const BESIDE_PX = 30;
 // A place with a name counts as much as this many places of the line.
 const NAMED = 4;
 
 /**
- * It lies in the lower right corner of the stage, or in the upper left one if there it covers less.
+ * It lies in the corner of the stage where it covers least: the lower right one, the upper left one, or below the tools.
  * @param {HTMLElement} holder the stage @param {Text} text
  * @param {{project: (x: number, y: number) => [number, number] | null, onMove: (listener: () => void) => void}} view
+ * @param {() => void} onPlaced it may now lie elsewhere; after a move of the view it is placed without this
  */
-export function createKey(holder, text, view) {
+export function createKey(holder, text, view, onPlaced) {
   const list = h("ul");
   const element = h("details", { class: "scene-key", hidden: true }, h("summary", {}, text.label), list);
   // Whoever opens or closes it decides for the rest.
@@ -26,16 +29,30 @@ export function createKey(holder, text, view) {
   /** @type {import("../wire.js").Framing | null} */
   let shown = null;
   view.onMove(place);
-  element.addEventListener("toggle", place);
+  element.addEventListener("toggle", () => {
+    place();
+    onPlaced();
+  });
 
   function place() {
     if (!shown || element.hidden) return;
     const { clientWidth: right, clientHeight: bottom } = holder;
     const spots = spotsOf(shown).flatMap(([x, y]) => [view.project(x, y) ?? []]);
     const [wide, tall] = [element.offsetWidth + ROOM_PX, element.offsetHeight + ROOM_PX];
-    const above = spots.filter(([x, y]) => x < wide + BESIDE_PX && y < tall + BESIDE_PX);
-    const below = spots.filter(([x, y]) => x > right - wide - BESIDE_PX && y > bottom - tall - BESIDE_PX);
-    element.classList.toggle("low", below.length <= above.length);
+    const covered = (/** @type {boolean} */ aside, /** @type {number} */ from) => {
+      const [left, top] = [aside ? right - wide : 0, from];
+      return spots.filter(
+        ([x, y]) =>
+          (aside ? x > left - BESIDE_PX : x < wide + BESIDE_PX) && y > top - BESIDE_PX && y < top + tall + BESIDE_PX,
+      ).length;
+    };
+    const corners = /** @type {const} */ ([
+      ["low", covered(true, bottom - tall)],
+      ["upper-left", covered(false, 0)],
+      ["below-tools", covered(true, BELOW_TOOLS_PX)],
+    ]);
+    const [best] = corners.reduce((one, other) => (other[1] < one[1] ? other : one));
+    for (const [name] of corners) element.classList.toggle(name, name === best);
   }
 
   return {
@@ -53,6 +70,7 @@ export function createKey(holder, text, view) {
         ),
       );
       place();
+      onPlaced();
     },
   };
 }

@@ -73,6 +73,8 @@ export function createNames(holder, view) {
   }
 
   return {
+    /** Places them anew, since something else on the stage has moved. */
+    place,
     /** @param {Framing | null} framing @param {[Point, Point][]} nextLines that names lie beside */
     set(framing, nextLines) {
       const [a, b] = framing?.normal ?? [0, 1];

@@ -36,7 +36,7 @@ export function mountScene(
 ) {
   const stage = createStage(holder, text.stage, { onKey, onFrame, onPick: createPick(page) });
   const notices = mountNotices(holder, text.stage, { onCancel, onRetry });
-  const key = createKey(holder, text.stage.key, stage);
+  const key = createKey(holder, text.stage.key, stage, () => names.place());
   const names = createNames(holder, stage);
   const camera = createCamera(page, stage, text.stage, {
     drawing,

@@ -310,6 +310,8 @@ def test_in_a_low_window_the_scene_of_a_lesson_comes_first(new_tab):
     tab.page.locator("[data-lesson='05_corner']").click()
     tab.page.locator(".lesson-foot .primary").click()
     tab.until("s.view.page === 1 && s.step !== null")
+    tab.page.set_viewport_size({"width": 1024, "height": 700})
+    tab.page.locator(".timeline.single").wait_for(state="hidden")
     tab.page.set_viewport_size({"width": 900, "height": 560})
     stage = tab.page.locator("#stage")
     tab.eventually(lambda: stage.evaluate("(stage) => stage.clientHeight") >= 200, "the stage is low")

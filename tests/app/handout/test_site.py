@@ -7,6 +7,8 @@ from pathlib import Path
 
 import pytest
 from lineseg_app.__main__ import main
+from lineseg_app.handout.site import index_page
+from taught import taught
 
 
 def test_lessons_become_a_folder_of_pages_that_lead_to_each_other(tmp_path: Path, capsys):
@@ -19,6 +21,13 @@ def test_lessons_become_a_folder_of_pages_that_lead_to_each_other(tmp_path: Path
     assert "<script" not in index and "What a seed is" in index
     assert all(path.stat().st_size <= 3_000_000 for path in site.iterdir())
     assert main(["lessons", "01_seed", "-o", str(site)]) == 0
+
+
+def test_the_list_sets_indices_as_the_lessons_do():
+    lessons = taught().lessons
+    index = index_page(lessons, {lesson.id: f"{lesson.id}.html" for lesson in lessons})
+    told = re.sub(r'href="[^"]*"', "", index[index.index("<ol") :])
+    assert "<i>S</i><sub>num</sub>" in told and not re.search(r"[A-Za-z]_[a-z]", told)
 
 
 @pytest.mark.parametrize(

@@ -126,10 +126,10 @@ def lab(colour: tuple[float, ...]) -> tuple[float, float, float]:
 
 
 @pytest.mark.parametrize("theme", [LIGHT, DARK], ids=["light", "dark"])
-def test_no_line_that_was_found_has_the_colour_of_what_is_refused(theme: Theme):
-    refused = lab(theme.refused)
-    for colour in SEGMENTS.tolist():
-        assert math.dist(lab(tuple(colour)), refused) > APART, colour
+def test_no_line_that_was_found_has_the_colour_of_what_is_refused_or_under_test(theme: Theme):
+    for mark in (theme.refused, theme.candidate):
+        for colour in SEGMENTS.tolist():
+            assert math.dist(lab(tuple(colour)), lab(mark)) > APART, colour
 
 
 def test_colours_of_lines_differ_from_each_other():
