@@ -14,13 +14,15 @@ from .guessing import guess_angle_unit
 from .laser_scan import LaserScan, decode_json
 from .source import Source
 from .tables.dialect import Dialect, seconds_of
-from .tables.headers import LENGTHS, TIMES, TURNS, Name, field_of, is_angle, is_distance, name_of
+from .tables.headers import LASERS, LENGTHS, TIMES, TURNS, Name, field_of, is_angle, is_distance, name_of
 from .tables.numbers import all_numbers, is_number
 from .tables.scan_columns import tell_unknown_direction
 from .tables.scan_rows import tell_usual_angles, usual_angles
 
 # A text of fewer numbers is none of ranges.
 LEAST_NUMBERS = 8
+# What stands before an object in its line, such as the topic that mosquitto_sub -v prints, or the time of a log.
+BEHIND = re.compile(rb"([^\n\r{}\"']{0,119}?[\w\])>/])[\s:=|,;]*(\{\s*\"[^\"\n]{1,60}\"\s*:)")
 NO_DIALECT = Dialect(b";")
 # So much of a step may angles be off their places [1], because they are rounded.
 UNEVEN = 0.1
@@ -72,7 +74,8 @@ def number_in(value: Any) -> Any:
 def json_values(source: Source) -> Iterator[tuple[str, Any]]:
     """(place, value): the whole file as one value, or one a line, or one after the other up to where it breaks off."""
     first = next((line for _, line in source.lines() if line.strip()), b"").removeprefix(b"\xef\xbb\xbf")
-    if parsed(first) is None:
+    behind = BEHIND.match(first) is not None
+    if not behind and parsed(first) is None:
         text = source.path.read_bytes().removeprefix(b"\xef\xbb\xbf").decode("utf-8", "replace")
         whole = parsed(text)
         if whole is not None:
@@ -89,11 +92,21 @@ def json_values(source: Source) -> Iterator[tuple[str, Any]]:
     for number, line in source.lines():
         if not line.strip():
             continue
-        value = parsed(line.removeprefix(b"\xef\xbb\xbf") if number == 1 else line)
+        value = _behind(line) if behind else parsed(line.removeprefix(b"\xef\xbb\xbf") if number == 1 else line)
         if value is None:
             source.notes.skip(f"{source.name}:{number}", "the line is not JSON; is it complete?")
         else:
             yield f"{source.name}:{number}", value
+
+
+def _behind(line: bytes) -> Any:
+    """The object at the end of a line, under the topic before it if there is one; None if it has none."""
+    found = BEHIND.match(line)
+    value = parsed(line[found.start(2) :]) if found else parsed(line)
+    if found is None or value is None:
+        return value
+    topic = next((word for word in found[1].split() if b"/" in word), b"").decode("utf-8", "replace")
+    return {"topic": topic, "msg": value} if topic else value
 
 
 def _one_by_one(text: str) -> Iterator[tuple[int, int, Any]]:
@@ -141,8 +154,8 @@ def scan_of(source: Source, message: Mapping[str, Any]) -> LaserScan:
     plain = {field: value for field, (_, value) in found.items() if field not in ("angles", "stamp", "frame_id")}
     header = message.get("header")
     header = dict(header) if isinstance(header, Mapping) else {}
-    if "frame_id" in found:
-        header.setdefault("frame_id", found["frame_id"][1])
+    if (laser := found["frame_id"][1] if "frame_id" in found else _laser(message)) is not None:
+        header.setdefault("frame_id", laser)
     _take_units(source, found)
     beams = len(found["ranges"][1]) if isinstance(found.get("ranges", ("", 0))[1], list) else 0
     plain |= _angles(source, found, beams)
@@ -152,6 +165,12 @@ def scan_of(source: Source, message: Mapping[str, Any]) -> LaserScan:
         return decode_json(plain | {"header": header | {"stamp": stamp}})
     scan = decode_json(plain | {"header": header})
     return scan if stamp is None else _with_time(source, scan, stamp, name)
+
+
+def _laser(message: Mapping[str, Any]) -> str | None:
+    """What a message calls its laser, such as "sensor": "front"; None if it does not."""
+    held = (value for key, value in message.items() if name_of(key).plain in LASERS)
+    return next((str(value) for value in held if isinstance(value, str | int)), None)
 
 
 def _listed(name: Name, value: Any) -> str | None:

@@ -13,14 +13,25 @@ from typing import Any, TypeGuard
 import numpy as np
 
 from ..scan import Floats, Recording, Topic
-from .json_scans import as_list, is_even, json_values, number_in, parsed, scan_of
+from .json_scans import BEHIND, as_list, is_even, json_values, number_in, parsed, scan_of
 from .laser_scan import LaserScan, decode_json
-from .lasers import laser_of, rows_of_one_laser
+from .lasers import MOST_LASERS, laser_of, rows_of_one_laser
 from .source import Reader, Source, Sweeps
 from .stamping import in_seconds
 from .tables.beam_rows import beams_of, read_beams
 from .tables.dialect import LEFT_OUT, Dialect, Row
-from .tables.headers import LASERS, NAMES, SCANS, STAMPS, array_columns, field_of, is_angle, is_distance, name_of
+from .tables.headers import (
+    LASERS,
+    NAMES,
+    SCANS,
+    STAMPS,
+    array_columns,
+    field_of,
+    geometry_in,
+    is_angle,
+    is_distance,
+    name_of,
+)
 from .tables.numbers import all_numbers, is_number
 from .tables.scan_rows import scans_of
 
@@ -56,13 +67,20 @@ class JsonMessages(Reader):
     @staticmethod
     def recognises(head: bytes) -> bool:
         start = head.removeprefix(b"\xef\xbb\xbf").lstrip()
-        return bool(re.match(rb"(?:\[\s*)?\{\s*[\"}]", start))
+        return bool(re.match(rb"(?:\[\s*)?\{\s*[\"}]", start)) or _is_behind(start)
 
     @staticmethod
     def read(source: Source) -> Recording:
         source.notes.kind = "JSON"
         recording = recording_of_values(source, json_values(source), JsonMessages.format)
         return recording_of(source, {}, JsonMessages.format) if recording is None else recording
+
+
+def _is_behind(head: bytes) -> bool:
+    """Whether the first line ends with an object, or is longer than what is known of it."""
+    line, ended, _ = head.partition(b"\n")
+    found = BEHIND.match(line)
+    return found is not None and (not ended or parsed(line[found.start(2) :]) is not None)
 
 
 class EchoYaml(Reader):
@@ -121,9 +139,12 @@ def recording_of_values(source: Source, values: Iterable[tuple[str, Any]], forma
     beams: list[Mapping[str, Any]] = []
     tables: list[Table] = []
     rows: list[tuple[str, Floats]] = []
+    shared: dict[str, Any] = {}
     for place, value in values:
         messages = list(_messages(value, "scan"))
         rows += [] if messages or found else _long_lists(value)
+        if isinstance(value, Mapping) and not messages:
+            shared |= _shared_geometry(value)
         for topic, message in messages:
             if isinstance(message, list):
                 tables.append(message)
@@ -142,7 +163,9 @@ def recording_of_values(source: Source, values: Iterable[tuple[str, Any]], forma
     if not found and len(beams) >= LEAST_BEAMS:
         return replace(_beams(source, beams), format=format)
     if not found and not tables and rows:
-        return _of_lists(source, rows, format)
+        said = geometry_in(shared.items(), max(len(ranges) for _, ranges in rows))
+        said = {name: angle for name, angle in said.items() if getattr(source.reading, name) is None}
+        return _of_lists(replace(source, reading=source.reading.but(**said)), rows, format)
     if not found and tables:
         table = np.array([row for each in tables for row in each], dtype=np.float64)
         return beams_of(source, source.reading, table, None, format=format)
@@ -213,10 +236,16 @@ def _messages(value: Any, topic: str, depth: int = 0) -> Iterator[tuple[str, Map
             named = value.get("topic")
             stamp = {key: held for key, held in value.items() if key in STAMP_NAMES and not isinstance(held, Mapping)}
             shared = _shared_geometry(value)
-            for inner in value.values():
+            lasers = _laser_keys(value)
+            of_all = {key: held for key, held in value.items() if name_of(key).plain in LASERS and key != "topic"
+                      and isinstance(held, str | int)}  # fmt: skip
+            for key, inner in value.items():
+                laser = {"laser": key} if key in lasers else of_all
                 for name, message in _messages(inner, named if isinstance(named, str) and named else topic, depth + 1):
                     if shared and isinstance(message, Mapping) and not _has_angles(message):
                         message = {**message, **shared}
+                    if laser and isinstance(message, Mapping) and not _has_laser(message):
+                        message = {**message, **laser}
                     lacks = stamp and isinstance(message, Mapping) and not {*STAMP_NAMES, "header"} & message.keys()
                     yield name, {**message, **stamp} if lacks and isinstance(message, Mapping) else message
     elif isinstance(value, list) and _is_table(value := as_list(value)):
@@ -235,6 +264,19 @@ def _shared_geometry(value: Mapping[str, Any]) -> dict[str, Any]:
         if len(found) > 1:
             return found
     return {}
+
+
+def _laser_keys(value: Mapping[str, Any]) -> list[str]:
+    """The keys under which the scans of several lasers stand, such as front and rear; [] if they number scans."""
+    keys = [key for key, held in value.items() if isinstance(held, Mapping) and _ranges_key(held) is not None]
+    plain = {re.sub(r"\d+", "", key) for key in keys}
+    return keys if 1 < len(keys) == len(plain) <= MOST_LASERS else []
+
+
+def _has_laser(message: Mapping[str, Any]) -> bool:
+    header = message.get("header")
+    names = {name_of(key).plain for key in message}
+    return bool(names & {*LASERS, "frame_id"}) or (isinstance(header, Mapping) and bool(header.get("frame_id")))
 
 
 def _has_angles(message: Mapping[str, Any]) -> bool:
@@ -323,12 +365,27 @@ def _is_table(value: Any) -> TypeGuard[Table]:
 
 def _keyed(value: Mapping[str, Any]) -> Table | None:
     """The beams of an object whose keys are angles; None if they are not."""
-    if len(value) < LEAST_BEAMS or not all(isinstance(held, int | float) for held in value.values()):
+    if len(value) < LEAST_BEAMS:
+        return None
+    columns = list(value.values())
+    scans = len(columns[0]) if isinstance(columns[0], list) else 0
+    # A longer list is a scan under its number, or its time.
+    if scans and 0 < scans < LONG_LIST <= len(value) and all(_is_list_of(held, scans) for held in columns):
+        rows = list(zip(*columns, strict=True))
+    elif all(map(_is_number_or_none, columns)):
+        rows = [tuple(columns)]
+    else:
         return None
     try:
-        return [[float(key), float(held)] for key, held in value.items()]
+        angles = [float(key) for key in value]
     except ValueError:
         return None
+    return [[angle, np.nan if held is None else float(held)] for row in rows
+            for angle, held in zip(angles, row, strict=True)]  # fmt: skip
+
+
+def _is_list_of(value: Any, count: int) -> bool:
+    return isinstance(value, list) and len(value) == count and all(map(_is_number_or_none, value))
 
 
 def _beams(source: Source, beams: list[Mapping[str, Any]]) -> Recording:

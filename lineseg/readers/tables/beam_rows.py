@@ -41,6 +41,8 @@ FEW_ROWS = 8
 # Of so many rows, most turns have more than FEW_ROWS.
 LEAST_ROWS = 30
 LONGEST_NAME = 24
+# With fewer angles among the rows than this, the column is no angle.
+MOST_WITH_ANGLE = 0.9
 CLOCKWISE = re.compile(r"(?<!counter_)(?<!anti_)(?:clockwise|(?<![^_])cw(?![^_]))")
 # What poses have beside x and y; the first column of the quaternion in TUM's rows.
 HEADINGS, QUATERNION = {"heading", "yaw"}, 4
@@ -225,6 +227,10 @@ def with_roles(
     if "unit" not in notes.found:
         notes.unstated.add("unit")
     first, second = (_scaled(table, names, column) for column in (roles.first, roles.second))
+    if roles.polar and (there := np.isfinite(first)).any() and not there.all() and there.mean() > MOST_WITH_ANGLE:
+        for at in np.flatnonzero(~there).tolist():
+            notes.skip(f"row {at + 1} of the beams", "it has no angle")
+        table, first, second = table[there], first[there], second[there]
     bearings, ranges = _polar(source, reading, first, second) if roles.polar else _from_points(first, second)
     if roles.polar and names is not None and CLOCKWISE.search(names[roles.first].plain):
         notes.found["direction"] = "clockwise"

@@ -17,7 +17,7 @@ from .labelled import without_labels
 PLAIN = frozenset(b"%c" % each for each in b"+-.0123456789")
 SEPARATOR = re.compile(rb"sep=.", re.IGNORECASE)  # the first line of Excel's tables
 # A remark after a semicolon, and one behind the numbers of a line.
-REMARK, INLINE = re.compile(rb";+\s*[A-Za-z][^;]*"), re.compile(rb"\s+#\s.*$")
+REMARK, INLINE = re.compile(rb";+\s*[A-Za-z][^;]*"), re.compile(rb"\s+(?:#|//)\s.*$")
 # The time at which a terminal received a line, such as `12:00:00.120 -> ` of Arduino's.
 RECEIVED = re.compile(
     rb"\s*(\[)?((?:\d{4}-\d\d-\d\d[ T])?\d\d:\d\d:\d\d(?:[.,]\d+)?(?:Z|[-+]\d\d:?\d\d)?)(?(1)\]\s+|\s*->\s*)(?=\S)"
@@ -130,7 +130,7 @@ def _whole_lines(source: Source) -> Iterator[tuple[int, bytes]]:
 
 def _lines(source: Source) -> Iterator[Row]:
     for number, line in _whole_lines(source):
-        if line[:1] in PLAIN and b"#" not in line:
+        if line[:1] in PLAIN and b"#" not in line and b"//" not in line:
             yield Row(number, line)
             continue
         text = line.removeprefix(b"\xef\xbb\xbf") if number == 1 else line
@@ -140,7 +140,7 @@ def _lines(source: Source) -> Iterator[Row]:
             continue
         if stripped.startswith(b";") and REMARK.fullmatch(stripped):
             stripped = b"#" + stripped
-        elif b"#" in stripped:
+        elif b"#" in stripped or b"//" in stripped:
             text = INLINE.sub(b"", text)
         yield Row(number, stripped if not stripped or stripped.startswith(COMMENTS) else text)
 

@@ -27,7 +27,8 @@ BESIDE = {
     "min", "max", "minimum", "maximum", "limit", "increment", "resolution", "start", "end", "std", "stddev", "sigma",
     "var", "variance", "err", "error", "noise", "rate", "valid", "quality", "type", "status", "time",
 }  # fmt: skip
-STAMPS = ("stamp", "timestamp", "time", "t", "secs", "sec", "seconds", "zeit", "rosbagtimestamp", "datetime")
+STAMPS = ("stamp", "timestamp", "time", "t", "secs", "sec", "seconds", "zeit", "rosbagtimestamp", "datetime",
+          "sim_time", "simtime", "simulation_time", "elapsed", "elapsed_time")  # fmt: skip
 BEAMS = (
     "beam", "beam_id", "beam_index", "beam_idx", "beam_number", "beam_no", "beam_nr", "ray", "ray_id", "ray_index",
     "point_id", "point_index", "point_idx", "point_number", "point_no", "point_nr", "index", "idx", "i", "step",
@@ -215,16 +216,17 @@ def field_of(name: Name) -> str | None:
     return None
 
 
-def geometry_in(said: Iterable[tuple[str, object]]) -> dict[str, float]:
+def geometry_in(said: Iterable[tuple[str, object]], beams: int = 0) -> dict[str, float]:
     """angle_min and angle_increment [rad] among names and their values, such as ("start angle [deg]", "-135").
 
     Without a unit, all are in degrees if one of them is too large for radians.
+    beams: how many a scan has, if known, so that angle_max gives the increment.
     """
     found: dict[str, float] = {}
     units: set[AngleUnit] = set()
     for text, value in said:
         name = name_of(text)
-        if (field := field_of(name)) in ("angle_min", "angle_increment"):
+        if (field := field_of(name)) in ("angle_min", "angle_max", "angle_increment"):
             try:
                 found[field] = float(value) * name.scale  # type: ignore[arg-type]
             except (TypeError, ValueError):
@@ -233,6 +235,9 @@ def geometry_in(said: Iterable[tuple[str, object]]) -> dict[str, float]:
     large = any(abs(value) > 2 * math.pi + 0.2 for value in found.values())
     usual: AngleUnit = "deg" if large else "rad"
     unit = next(iter(units), usual)
+    high = found.pop("angle_max", None)
+    if high is not None and beams > 1 and "angle_min" in found:
+        found.setdefault("angle_increment", (high - found["angle_min"]) / (beams - 1))
     return {field: value * RADIANS[unit] for field, value in found.items()} if len(units) < 2 else {}
 
 

@@ -15,6 +15,7 @@ WORD = re.compile(rb"[^\s,;]+")
 EXACT_POWERS = 10.0 ** np.arange(23)  # the powers of ten that a double represents exactly
 # What Fortran prints for 1.0e+00.
 FORTRAN = re.compile(rb"([-+]?(?:\d+\.\d*|\.\d+))[dD]([-+]?\d{1,3})")
+HEX, JULIA = re.compile(rb"0[xX][0-9a-fA-F]{1,8}"), re.compile(rb"([-+]?(?:NaN|Inf))(?:16|32)")
 MOST_DIGITS = 15  # decimal digits that a double represents exactly
 
 
@@ -61,10 +62,17 @@ def all_numbers(text: bytes) -> Floats | None:
 
 
 def number_of(word: bytes) -> float:
-    """The same as `float`, and the number of what Fortran prints, such as 1.0D+00. Raises ValueError for other text."""
+    """The same as `float`, and the number of what Fortran, C and Julia print: 1.0D+00, 0x1F, NaN32.
+
+    Raises ValueError for other text.
+    """
     try:
         return float(word)
     except ValueError:
+        if HEX.fullmatch(word.strip()):
+            return float(int(word, 16))
+        if (none := JULIA.fullmatch(word.strip())) is not None:
+            return float(none[1])
         plain = FORTRAN.fullmatch(word.strip())
         if plain is None:
             raise

@@ -431,10 +431,14 @@ def _rises(column: Floats) -> bool:
 
 
 def _leaps(values: list[Floats], lead: int) -> bool:
-    """Whether the last of `lead` columns differs from the first range much more than neighbouring ranges do."""
-    gaps = np.array([abs(row[lead - 1] - row[lead]) for row in values])
-    usual = np.array([np.nanmedian(np.abs(np.diff(row[lead:]))) for row in values])
-    return bool(np.nanmedian(gaps) > 8 * max(float(np.nanmedian(usual)), 1e-9))
+    """Whether the last of `lead` columns differs from the first ranges much more than neighbouring ranges do.
+
+    Some of these may stand for no return, so the nearest of several counts.
+    """
+    gaps = np.array([np.nanmin(np.abs(row[lead - 1] - row[lead : lead + 5]), initial=np.inf) for row in values])
+    usual = np.concatenate([np.abs(np.diff(row[lead:])) for row in values])
+    gaps, usual = gaps[np.isfinite(gaps)], usual[~np.isnan(usual)]
+    return bool(gaps.size and usual.size and np.median(gaps) > 8 * max(float(np.median(usual)), 1e-9))
 
 
 def _stamps(

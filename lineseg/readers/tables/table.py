@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections import deque
 from collections.abc import Iterable
 from itertools import chain
 from typing import NamedTuple
@@ -101,7 +102,9 @@ def read_table(source: Source, reading: Reading, rows: Iterable[Row], dialect: D
         notes.found.setdefault("angle_unit", layout.turn)
     sweeps = Sweeps()
     stamps: list[float] = []
+    latest: deque[Row] = deque(maxlen=3)
     for row in rows:
+        latest.append(row)
         try:
             stamps.append(_add(source, reading, sweeps, row, dialect, layout))
         except ValueError as error:
@@ -109,6 +112,7 @@ def read_table(source: Source, reading: Reading, rows: Iterable[Row], dialect: D
     if not sweeps:
         notes.nothing_left()
         raise ValueError(f"{source.name} has column names, but no scans below them.")
+    _tell_cut(source, dialect, len(names), list(latest))
     times = np.array(stamps)
     if layout.stamp is not None and layout.seconds is None and layout.header is None:
         # ROS 1 exports header.stamp as whole nanoseconds, other tools as seconds.
@@ -127,6 +131,17 @@ def read_table(source: Source, reading: Reading, rows: Iterable[Row], dialect: D
     topics = (Topic("scan", len(sweeps)),)
     topic = source.choose(list(topics))
     return sweeps.recording(source, topic=topic, topics=topics, format="text", stamps=times)
+
+
+def _tell_cut(source: Source, dialect: Dialect, width: int, latest: list[Row]) -> None:
+    """Tells that the last row breaks off, if it is shorter than the two before, which are whole."""
+    *before, last = (dialect.width(row.text) for row in latest)
+    # A comma at the end of a row may stand before an empty cell.
+    if len(before) > 1 and {*before} == {width} and last < width - 1:
+        source.notes.notice(
+            "breaks off",
+            f"The last row has {last} of {width} columns; it was read up to there, and its last number may be cut.",
+        )
 
 
 def _layout(names: list[Name], first: list[bytes]) -> Layout:

@@ -70,6 +70,8 @@ TEXT_FORMS = "use one scan per row, or columns of angle and distance, or a table
 OF_RPLIDAR = re.compile(
     rb"rplidar|slamtec|^[S ]*theta: *[\d.]+ +Dist: *[\d.]+ +Q:|angle_z?_?q\d", re.IGNORECASE | re.MULTILINE
 )
+# In which sense comments say that angles count.
+SENSE = re.compile(rb"(?:counter|anti)?[- ]?clockwise", re.IGNORECASE)
 # Its driver for ROS turns them.
 OF_ROS = re.compile(rb"(?<![A-Za-z])ros|/scan\b|LaserScan", re.IGNORECASE)
 # An angle as the name of a column, such as -134.5°.
@@ -116,6 +118,8 @@ class Text(Reader):
         above = b"\n".join([*comments, first.text])
         if OF_RPLIDAR.search(above) and not OF_ROS.search(above):
             source.notes.clockwise = "an RPLIDAR counts its angles so"
+        elif {each.strip().lower() for each in SENSE.findall(b"\n".join(comments))} == {b"clockwise"}:
+            source.notes.clockwise = "a comment says so"
         rest = (row for row in rows if not row.text.startswith(COMMENTS))
         head, rest = _without_headings(source, [first, *islice(rest, SAMPLE)], rest)
         below = _below_titles(source, head)
