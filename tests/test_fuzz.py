@@ -54,9 +54,17 @@ def test_a_long_run_is_not_read_again_for_each_of_its_characters(tmp_path: Path,
         open_recording(tmp_path / name)
 
 
-def test_what_a_short_file_computes_is_bounded(tmp_path: Path):
+@pytest.mark.parametrize(
+    "statements",
+    [
+        pytest.param("".join(f"a{k} = linspace(0, 1, 16000000);\n" for k in range(100)), id="kept"),
+        pytest.param("a = linspace(0, 1, 1000000) + nothing;\n" * 100, id="not kept"),
+        pytest.param(f"a = [{'1;' * 400}1];\nb = a * linspace(0, 1, 1000000) * nothing;\n", id="column and row"),
+    ],
+)
+def test_what_a_short_file_computes_is_bounded(tmp_path: Path, statements: str):
     path = tmp_path / "computed.m"
-    path.write_text(MATRIX + "".join(f"a{k} = linspace(0, 1, 16000000);\n" for k in range(100)))
+    path.write_text(MATRIX + statements)
     with pytest.raises(ValueError, match=r"computed\.m would have more than 256 MB"):
         open_recording(path)
 

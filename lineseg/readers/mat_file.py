@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..scan import Recording
-from .containers.bounded import TooLargeError, limit_of, too_large
+from .containers.bounded import Budget, TooLargeError
 from .matlab import recording_of_variables
 from .messages import recording_of_values
 from .source import Reader, Source
@@ -30,6 +30,8 @@ STORED = {
 CELL, STRUCT, TEXT, FIRST_NUMBER, LAST_NUMBER = 1, 2, 4, 6, 15
 IS_COMPLEX = 0x0800
 MOST_DEPTH, MOST_CELLS = 8, 1 << 20
+# What Python keeps of an element or of a name [bytes], at least.
+ELEMENT, NAME = 256, 64
 
 
 class Element(NamedTuple):
@@ -54,20 +56,16 @@ class MatFile(Reader):
     def read(source: Source) -> Recording:
         data = source.path.read_bytes()
         order = ">" if data[126:128] == b"MI" else "<"
-        limit = limit_of(len(data))
+        budget = Budget(source.name, len(data))
         variables: dict[str, Any] = {}
         try:
-            for element in _elements(memoryview(data)[HEADER:], order):
+            for element in _elements(memoryview(data)[HEADER:], order, budget):
                 if element.kind == COMPRESSED:
-                    unpack = zlib.decompressobj()
-                    # 0 would be without a limit.
-                    plain = unpack.decompress(element.data, max(limit, 1))
-                    limit -= len(plain)
-                    if unpack.unconsumed_tail or limit < 0:
-                        raise TooLargeError(too_large(source.name, limit_of(len(data))))
-                    element = next(_elements(memoryview(plain), order))
+                    plain = zlib.decompressobj().decompress(element.data, budget.left + 1)
+                    budget.spend(len(plain))
+                    element = next(_elements(memoryview(plain), order, budget))
                 if element.kind == MATRIX:
-                    name, value = _matrix(element.data, order, 0)
+                    name, value = _matrix(element.data, order, budget, 0)
                     if value is not None:
                         variables[name] = value
         except TooLargeError:
@@ -114,7 +112,7 @@ def _plain(value: Any) -> Any:
     return value
 
 
-def _elements(data: memoryview, order: str) -> Iterator[Element]:
+def _elements(data: memoryview, order: str, budget: Budget) -> Iterator[Element]:
     """The elements that lie one after the other. Raises ValueError if the last one breaks off."""
     at = 0
     while at + 8 <= len(data):
@@ -125,42 +123,48 @@ def _elements(data: memoryview, order: str) -> Iterator[Element]:
             kind, size, start = kind & 0xFFFF, kind >> 16, at + 4
         if start + size > len(data):
             raise ValueError("it breaks off")
+        budget.spend(ELEMENT)
         yield Element(kind, data[start : start + size])
         # Those after a compressed one may lie anywhere.
         at = at + 8 if start == at + 4 else start + size + (-size % 8 if kind != COMPRESSED else 0)
 
 
-def _matrix(data: memoryview, order: str, depth: int) -> tuple[str, Any]:
+def _matrix(data: memoryview, order: str, budget: Budget, depth: int) -> tuple[str, Any]:
     """The name and the value of a matrix: an array, a text, a dict for a struct, a list for cells or several structs;
     None for others."""
-    parts = list(_elements(data, order))
+    parts = list(_elements(data, order, budget))
     if depth > MOST_DEPTH or len(parts) < 3:
         return "", None
     flags = int(_numbers(parts[0], order)[0])
     kind, shape = flags & 0xFF, [int(size) for size in _numbers(parts[1], order)]
     name, rest = bytes(parts[2].data).decode("latin-1"), parts[3:]
     if kind == CELL:
-        return name, [_matrix(each.data, order, depth + 1)[1] for each in rest[:MOST_CELLS]]
+        return name, [_matrix(each.data, order, budget, depth + 1)[1] for each in rest[:MOST_CELLS]]
     if kind == STRUCT:
-        return name, _structs(rest, order, depth)
+        return name, _structs(rest, order, budget, depth)
     if kind == TEXT and rest:
-        return name, "".join(map(chr, _numbers(rest[0], order)))
+        letters = _numbers(rest[0], order)
+        budget.spend(NAME * len(letters))
+        return name, "".join(map(chr, letters))
     if not FIRST_NUMBER <= kind <= LAST_NUMBER or not rest:
         return name, None
-    values = _numbers(rest[0], order).astype(np.float64)
+    stored = _numbers(rest[0], order)
+    budget.spend(stored.size * np.dtype(np.complex128 if flags & IS_COMPLEX else np.float64).itemsize)
+    values = stored.astype(np.float64)
     if flags & IS_COMPLEX:
         values = values + 1j * _numbers(rest[1], order)
     return name, values.reshape(shape, order="F")
 
 
-def _structs(parts: list[Element], order: str, depth: int) -> Any:
+def _structs(parts: list[Element], order: str, budget: Budget, depth: int) -> Any:
     """A dict of the fields of a struct; a list of them for several, which lie one after the other."""
     longest = int(_numbers(parts[0], order)[0])
     letters = bytes(parts[1].data)
+    budget.spend(NAME * (len(letters) // max(longest, 1)))
     names = [letters[at : at + longest].split(b"\0")[0].decode("latin-1") for at in range(0, len(letters), longest)]
     if not names:
         return {}
-    values = [_matrix(each.data, order, depth + 1)[1] for each in parts[2:][:MOST_CELLS]]
+    values = [_matrix(each.data, order, budget, depth + 1)[1] for each in parts[2:][:MOST_CELLS]]
     found = [dict(zip(names, values[at : at + len(names)], strict=False)) for at in range(0, len(values), len(names))]
     return found[0] if len(found) == 1 else found
 

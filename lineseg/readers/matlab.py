@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import math
 import operator
 import re
 from collections import ChainMap
@@ -15,7 +16,7 @@ from numpy.typing import NDArray
 
 from ..scan import Recording
 from .arrays import is_exchange, recording_of_arrays
-from .containers.bounded import TooLargeError, limit_of, too_large
+from .containers.bounded import Budget, TooLargeError
 from .npz import recording_of_exchange
 from .reading import RADIANS
 from .source import Reader, Source
@@ -37,6 +38,8 @@ OPERATORS: dict[type, Any] = {
     ast.USub: operator.neg, ast.UAdd: operator.pos,
 }  # fmt: skip
 MOST_VALUES = 1 << 24
+# Of a value.
+BYTES = 8
 LONGEST_EXPRESSION = 4000
 Value = float | NDArray[np.float64]
 
@@ -63,13 +66,11 @@ class Matlab(Reader):
     @staticmethod
     def read(source: Source) -> Recording:
         text = source.path.read_bytes().decode("utf-8", "replace")
-        pairs = _saved(text) if text.startswith(OCTAVE.decode()) else _assigned(text)
-        size, limit = 0, limit_of(len(text))
+        budget = Budget(source.name, len(text))
+        pairs = _saved(text) if text.startswith(OCTAVE.decode()) else _assigned(text, budget)
         found: list[tuple[str, Value]] = []
         for name, value in pairs:
-            size += np.asarray(value).nbytes
-            if size > limit:
-                raise TooLargeError(too_large(source.name, limit))
+            budget.spend(np.asarray(value).nbytes)
             found.append((name, value))
         if not found:
             raise ValueError(f"{source.name} has no matrix; it needs {Matlab.expects}")
@@ -107,7 +108,7 @@ def _in_own_unit(source: Source, name: Name, values: NDArray[Any]) -> NDArray[An
 # MATLAB
 
 
-def _assigned(text: str) -> Iterator[tuple[str, Value]]:
+def _assigned(text: str, budget: Budget) -> Iterator[tuple[str, Value]]:
     """(name, value) of the statements that are understood."""
     text = COMMENT.sub("", CONTINUED.sub(" ", text))
     known: dict[str, Value] = {"pi": np.pi}
@@ -128,7 +129,7 @@ def _assigned(text: str) -> Iterator[tuple[str, Value]]:
             else:
                 expression.append(text[at])
                 at += 1
-        value = _value("".join(expression).strip(" ,\t\r"), ChainMap(matrices, known))
+        value = _value("".join(expression).strip(" ,\t\r"), ChainMap(matrices, known), budget)
         if value is not None:
             known[found[1]] = value
             yield found[1], value
@@ -142,45 +143,58 @@ def _matrix(text: str) -> NDArray[np.float64] | None:
     return np.array(rows, np.float64)
 
 
-def _value(expression: str, known: MutableMapping[str, Value]) -> Value | None:
-    """The value of an expression; None if it is not understood."""
+def _value(expression: str, known: MutableMapping[str, Value], budget: Budget) -> Value | None:
+    """The value of an expression; None if it is not understood. What is made on the way is spent too, because it takes
+    time.
+    """
     if len(expression) > LONGEST_EXPRESSION:
         return None
     expression = expression.replace(".*", "*").replace("./", "/")
     try:
         if found := COLON.fullmatch(expression):
-            first, *middle, last = (float(_of(part, known)) for part in found.groups()[:3] if part)
+            first, *middle, last = (float(_of(part, known, budget)) for part in found.groups()[:3] if part)
             step = middle[0] if middle else 1.0
             steps = np.floor((last - first) / step + 1e-9)
             if not 0 <= steps < MOST_VALUES:
                 return None
-            return _of(f"values{found[4] or ''}", ChainMap({"values": first + step * np.arange(steps + 1)}, known))
-        return _of(expression, known)
+            budget.spend(BYTES * int(steps + 1))
+            values = first + step * np.arange(steps + 1)
+            return _of(f"values{found[4] or ''}", ChainMap({"values": values}, known), budget)
+        return _of(expression, known, budget)
+    except TooLargeError:
+        raise
     except (ValueError, TypeError, KeyError, SyntaxError, ZeroDivisionError, OverflowError, RecursionError):
         return None
 
 
-def _of(expression: str, known: Mapping[str, Value]) -> Value:
-    return _evaluated(ast.parse(expression.strip(), mode="eval").body, known)
+def _of(expression: str, known: Mapping[str, Value], budget: Budget) -> Value:
+    return _evaluated(ast.parse(expression.strip(), mode="eval").body, known, budget)
 
 
-def _evaluated(node: ast.AST, known: Mapping[str, Value]) -> Value:
+def _evaluated(node: ast.AST, known: Mapping[str, Value], budget: Budget) -> Value:
+    def made(operator: Any, *nodes: ast.AST) -> Value:
+        values = [_evaluated(each, known, budget) for each in nodes]
+        # A column and a row make a table.
+        budget.spend(BYTES * math.prod(np.broadcast_shapes(*map(np.shape, values))))
+        return operator(*values)
+
     match node:
         case ast.Constant(value=int() | float() as value):
             return float(value)
         case ast.Name(id=name):
             return known[name]
         case ast.UnaryOp(op=op, operand=operand):
-            return OPERATORS[type(op)](_evaluated(operand, known))
+            return made(OPERATORS[type(op)], operand)
         case ast.BinOp(left=left, op=op, right=right):
-            return OPERATORS[type(op)](_evaluated(left, known), _evaluated(right, known))
+            return made(OPERATORS[type(op)], left, right)
         case ast.Call(func=ast.Name(id="deg2rad"), args=[value]):
-            return np.deg2rad(_evaluated(value, known))
+            return made(np.deg2rad, value)
         case ast.Call(func=ast.Name(id="linspace"), args=[first, last, count]):
-            number = int(_evaluated(count, known))
-            if not 0 < number < MOST_VALUES:
+            start, stop, number = (float(_evaluated(each, known, budget)) for each in (first, last, count))
+            if not 1 <= number < MOST_VALUES:
                 raise ValueError
-            return np.linspace(float(_evaluated(first, known)), float(_evaluated(last, known)), number)
+            budget.spend(BYTES * int(number))
+            return np.linspace(start, stop, int(number))
     raise ValueError
 
 

@@ -140,3 +140,34 @@ def test_variables_after_a_compressed_one_are_read_wherever_they_lie(tmp_path: P
 
 def test_an_angle_min_of_zero_is_no_missing_one(tmp_path: Path):
     assert open_recording(saved(tmp_path, ranges=SCANS, angle_min=0.0))[0].bearings[0] == 0
+
+
+def numbers(kind: int, stored: int, count: int, flags: int = 0) -> bytes:
+    """A matrix of zeros, each of one byte."""
+    zeros = element(stored, bytes(count))
+    head = element(6, struct.pack("<II", kind | flags, 0)) + element(5, struct.pack("<2i", 1, count))
+    return element(14, head + element(1, b"ranges") + zeros * (2 if flags else 1))
+
+
+def holding(kind: int, *parts: bytes) -> bytes:
+    head = element(6, struct.pack("<II", kind, 0)) + element(5, struct.pack("<2i", 1, 1)) + element(1, b"ranges")
+    return element(14, head + b"".join(parts))
+
+
+@pytest.mark.parametrize(
+    "made",
+    [
+        pytest.param(lambda: numbers(8, 1, 1 << 18), id="bytes"),
+        pytest.param(lambda: numbers(8, 1, 1 << 17, flags=0x0800), id="complex numbers"),
+        pytest.param(lambda: numbers(4, 2, 1 << 18), id="a text"),
+        pytest.param(lambda: holding(1, bytes(1 << 18)), id="empty cells"),
+        pytest.param(lambda: holding(2, element(5, struct.pack("<i", 1)), element(1, bytes(1 << 18))), id="names"),
+    ],
+)
+def test_what_a_mat_file_becomes_in_memory_is_counted_not_only_what_it_unpacks_to(tmp_path, monkeypatch, made):
+    monkeypatch.setattr("lineseg.readers.containers.bounded.SMALL", 1 << 20)
+    packed = zlib.compress(made())
+    path = tmp_path / "scans.mat"
+    path.write_bytes(HEADER + struct.pack("<II", 15, len(packed)) + packed)
+    with pytest.raises(ValueError, match=r"scans\.mat would have more than 1 MB unpacked, which is not allowed"):
+        open_recording(path)

@@ -21,6 +21,20 @@ class TooLargeError(ValueError):
     """Data would become larger than allowed."""
 
 
+class Budget:
+    """What a file of `size` bytes may become in memory, spent before it is made."""
+
+    def __init__(self, name: str, size: int) -> None:
+        self._name, self._limit = name, limit_of(size)
+        self.left = self._limit
+
+    def spend(self, size: int) -> None:
+        """Raises TooLargeError if there is not so much left."""
+        if size > self.left:
+            raise TooLargeError(too_large(self._name, self._limit))
+        self.left -= size
+
+
 def limit_of(packed: int) -> int:
     """The most bytes that `packed` bytes may become."""
     return min(max(SMALL, LARGEST_RATIO * packed), MOST)
