@@ -6,7 +6,7 @@ import { clamp } from "../widgets/scale.js";
 import { FrameList } from "./frame_list.js";
 
 /** @typedef {import("../wire.js").Score} Score */
-/** @typedef {{score: string, recording: string, values: Float32Array, complete: boolean, message: string | null}} Scored */
+/** @typedef {{score: string, recording: string, values: Float32Array, complete: boolean, stale: boolean, message: string | null}} Scored */
 /** @typedef {typeof import("../text/inspect.js").inspectText.frames} Text */
 /**
  * @typedef {object} Handlers
@@ -17,6 +17,7 @@ import { FrameList } from "./frame_list.js";
  * @property {(frame: number) => string} words what looks wrong in it
  * @property {HTMLElement} said all that looks wrong in the frame on the screen
  * @property {(frame: number) => boolean} passes whether it is listed
+ * @property {() => boolean} answered whether the server has answered every change
  * @property {() => void} onRows other frames became visible
  * @property {HTMLElement} extra below the score
  * @property {HTMLElement} filter below the range
@@ -32,12 +33,13 @@ class Frames {
   #passes;
   #number;
   #onFrame;
+  #answered;
   /** @type {Scored | null} */ #scored = null;
   /** @type {Score[]} */ #scores = [];
   #recording = "";
   #frame = 0;
   /** The last frame that was opened from the list. */ #led = -1;
-  /** Whether the first frame of the list is to be opened once it is known. */ #leads = false;
+  #leads = false;
   /** The score and the recording of the range. */ #ranged = "";
   /** Range of the listed scores. */ #low = -Infinity;
   #high = Infinity;
@@ -50,11 +52,12 @@ class Frames {
   #list;
 
   /** @param {Text} text @param {Handlers} handlers */
-  constructor(text, { onFrame, onScore, number, value, words, said, passes, onRows, extra, filter }) {
+  constructor(text, { onFrame, onScore, number, value, words, said, passes, answered, onRows, extra, filter }) {
     this.#text = text;
     this.#passes = passes;
     this.#number = number;
     this.#onFrame = onFrame;
+    this.#answered = answered;
     this.#extra = extra;
     const select = h("select", { class: "select", "aria-label": text.score, onchange: () => onScore(select.value) });
     this.#select = select;
@@ -153,6 +156,20 @@ class Frames {
     this.#leads = this.#frame === this.#number(0);
   }
 
+  /** Whether the first frame of the list is to be opened once it is known. */
+  get leads() {
+    return this.#leads;
+  }
+
+  #leadNow() {
+    const { complete, stale, score, recording } = this.#scored ?? {};
+    const known = complete && !stale && score === "suspicion" && recording === this.#recording;
+    if (!this.#leads || !known || !this.#answered()) return;
+    this.#leads = false;
+    const [first] = this.#list.order;
+    if (first !== undefined) this.#go(first);
+  }
+
   /** @param {Score[]} scores */
   setScores(scores) {
     this.#scores = scores;
@@ -169,10 +186,7 @@ class Frames {
     if (scored) this.#select.value = scored.score;
     this.#extra.hidden = scored?.score !== "suspicion";
     this.sort();
-    if (this.#leads && scored?.complete && scored.score === "suspicion" && scored.recording === this.#recording) {
-      this.#leads = false;
-      this.next(1);
-    }
+    this.#leadNow();
   }
 
   /** @param {Readonly<import("../wire.js").View>} view */

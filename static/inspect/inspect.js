@@ -35,6 +35,7 @@ export function createInspect(page, text, { pointing, timeline, onTags, onMend }
     words: inOneLine,
     said: said.element,
     passes: (frame) => filter.passes(frame),
+    answered: page.answered,
     filter: filter.element,
     onRows: () => inspecting() && words.need(),
     extra: weights.element,
@@ -50,6 +51,9 @@ export function createInspect(page, text, { pointing, timeline, onTags, onMend }
     onReference: (reference) => page.change({ reference }),
     onWalls: (made) => readWalls(page, onMend, made),
   });
+  const showScored = () => inspecting() && frames.setScored(timeline().scored.current);
+  // Fresh scores may have come before the state to which they belong.
+  const setState = () => (showSaid(), frames.leads && showScored());
 
   /** Tags, note and remarks of a frame. @param {number} frame */
   function inOneLine(frame) {
@@ -83,7 +87,7 @@ export function createInspect(page, text, { pointing, timeline, onTags, onMend }
   }
 
   return {
-    parts: [ab, frames, truth, words, filter, weights, { setState: showSaid }],
+    parts: [ab, frames, truth, words, filter, weights, { setState }],
     pages: {
       frames: { name: "frames", label: text.tabs.frames, content: frames.element },
       truth: { name: "truth", label: text.tabs.truth, content: truth.element },
@@ -93,7 +97,7 @@ export function createInspect(page, text, { pointing, timeline, onTags, onMend }
     togglePin,
     nextDifference,
     /** The values of the strip changed, or the mode was entered. */
-    showScored: () => inspecting() && frames.setScored(timeline().scored.current),
+    showScored,
   };
 }
 
