@@ -8,24 +8,23 @@ import { FrameList } from "./frame_list.js";
 /** @typedef {import("../wire.js").Score} Score */
 /** @typedef {{score: string, recording: string, values: Float32Array, complete: boolean, stale: boolean, message: string | null}} Scored */
 /** @typedef {typeof import("../text/inspect.js").inspectText.frames} Text */
+/** @typedef {Pick<import("../page.js").Page, "goToFrame" | "answered">} Page */
 /**
  * @typedef {object} Handlers
- * @property {(frame: number) => void} onFrame
  * @property {(score: string) => void} onScore
  * @property {(place: number) => number} number the number of the frame at a place
  * @property {(frame: number) => string} value its score, in words
  * @property {(frame: number) => string} words what looks wrong in it
  * @property {HTMLElement} said all that looks wrong in the frame on the screen
  * @property {(frame: number) => boolean} passes whether it is listed
- * @property {() => boolean} answered whether the server has answered every change
  * @property {() => void} onRows other frames became visible
  * @property {HTMLElement} extra below the score
  * @property {HTMLElement} filter below the range
  */
 
-/** @param {Text} text @param {Handlers} handlers */
-export function createFrames(text, handlers) {
-  return new Frames(text, handlers);
+/** @param {Text} text @param {Page} page @param {Handlers} handlers */
+export function createFrames(text, page, handlers) {
+  return new Frames(text, page, handlers);
 }
 
 class Frames {
@@ -51,12 +50,12 @@ class Frames {
   #note = h("p", { class: "hint" });
   #list;
 
-  /** @param {Text} text @param {Handlers} handlers */
-  constructor(text, { onFrame, onScore, number, value, words, said, passes, answered, onRows, extra, filter }) {
+  /** @param {Text} text @param {Page} page @param {Handlers} handlers */
+  constructor(text, { goToFrame, answered }, { onScore, number, value, words, said, passes, onRows, extra, filter }) {
     this.#text = text;
     this.#passes = passes;
     this.#number = number;
-    this.#onFrame = onFrame;
+    this.#onFrame = goToFrame;
     this.#answered = answered;
     this.#extra = extra;
     const select = h("select", { class: "select", "aria-label": text.score, onchange: () => onScore(select.value) });

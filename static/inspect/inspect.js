@@ -27,15 +27,13 @@ export function createInspect(page, text, { pointing, timeline, onTags, onMend }
   });
   const said = createSaid(text.said, pointing);
   const filter = createFilter(text.filter, { words: words.texts, onChange: listFrames, onTags });
-  const frames = createFrames(text.frames, {
-    onFrame: page.goToFrame,
+  const frames = createFrames(text.frames, page, {
     onScore: (score) => page.change({ score }),
     number: (place) => timeline().scored.number(place),
     value: (frame) => timeline().scored.words(frame),
     words: inOneLine,
     said: said.element,
     passes: (frame) => filter.passes(frame),
-    answered: page.answered,
     filter: filter.element,
     onRows: () => inspecting() && words.need(),
     extra: weights.element,
@@ -63,9 +61,8 @@ export function createInspect(page, text, { pointing, timeline, onTags, onMend }
   }
 
   function showSaid() {
-    const drawn = page.drawn;
-    if (drawn && inspecting()) said.set(filter.line(drawn.frame), words.of(drawn.frame));
-    else said.set("", []);
+    const frame = inspecting() ? page.drawn?.frame : undefined;
+    said.set(frame === undefined ? "" : filter.line(frame), frame === undefined ? [] : words.of(frame));
   }
 
   function listFrames() {
