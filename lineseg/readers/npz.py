@@ -18,7 +18,7 @@ from ..poses import PoseSource, Track
 from ..scan import Recording, Topic
 from ..unfinished import temporary_folder, whole_file
 from .arrays import header_of, is_exchange, loaded, recording_of_arrays
-from .containers.bounded import TooLargeError, limit_of, too_large
+from .containers.bounded import Budget, TooLargeError
 from .containers.cut_zip import unpack_cut
 from .source import Reader, Source
 
@@ -26,6 +26,8 @@ ENTRY = ".npy"
 SHAPES = "ranges (frames, beams) or (beams,), angle_min and angle_increment scalars or (frames,)"
 
 LONGEST_SOURCE = 2000
+# What a scan without beams takes.
+SCAN_BYTES = 64
 # Fields of view [rad] that a laser has, and that none has.
 NARROW_VIEW, LEAST_VIEW, MOST_VIEW = np.deg2rad((10.0, 60.0, 365.0))
 
@@ -131,11 +133,13 @@ def _load(file: Path | BinaryIO, source: Source) -> dict[str, NDArray]:
     try:
         with zipfile.ZipFile(file) as archive:
             entries = [each for each in archive.infolist() if each.filename.endswith(ENTRY)]
-        limit = limit_of(sum(each.compress_size for each in entries))
-        if sum(each.file_size for each in entries) > limit:
-            raise TooLargeError(too_large(source.name, limit))
+        packed = sum(each.compress_size for each in entries)
+        Budget(source.name, packed).spend(sum(each.file_size for each in entries))
         with np.load(file, allow_pickle=False) as archive:
-            return {name: _array(archive, name) for name in (each.filename.removesuffix(ENTRY) for each in entries)}
+            names = [each.filename.removesuffix(ENTRY) for each in entries]
+            arrays = {name: _array(archive, name) for name in names}
+        Budget(source.name, packed).spend(sum(map(_size_as_scans, arrays.values())))
+        return arrays
     except TooLargeError:
         raise
     except (zipfile.BadZipFile, zlib.error, EOFError, OSError) as error:
@@ -144,6 +148,11 @@ def _load(file: Path | BinaryIO, source: Source) -> dict[str, NDArray]:
         raise ValueError(f"{source.name}: a damaged NPZ file ({reason(error)}); save it again.") from None
     except (ValueError, NotImplementedError) as error:
         raise ValueError(f"{source.name}: {error}.") from None
+
+
+def _size_as_scans(array: NDArray) -> int:
+    """The bytes of an array whose numbers become floats, and whose rows become scans."""
+    return max(8, array.itemsize) * array.size + (SCAN_BYTES * len(array) if array.ndim > 1 else 0)
 
 
 def _of_cut(path: Path, source: Source) -> dict[str, NDArray]:

@@ -108,6 +108,13 @@ def test_a_zip_archive_that_states_more_than_memory_holds_is_refused(tmp_path):
         open_recording(path)
 
 
+@pytest.mark.parametrize("ranges", [np.ones((1, 1 << 26), np.uint8), np.ones((1 << 23, 0))])
+def test_numbers_of_a_byte_and_scans_without_beams_are_counted_as_what_they_become(tmp_path, ranges):
+    np.savez_compressed(tmp_path / "hall.npz", ranges=ranges, angle_min=0.0, angle_increment=1e-7)
+    with pytest.raises(ValueError, match=r"^hall.npz would have more than 256 MB unpacked, which is not allowed"):
+        open_recording(tmp_path / "hall.npz")
+
+
 def test_arrays_that_would_become_too_large_are_refused_and_what_is_no_array_is_not_unpacked(tmp_path):
     path = tmp_path / "hall.npz"
     np.savez(path, ranges=np.ones((2, 11), np.float32), **GEOMETRY)
