@@ -171,3 +171,12 @@ def test_what_a_mat_file_becomes_in_memory_is_counted_not_only_what_it_unpacks_t
     path.write_bytes(HEADER + struct.pack("<II", 15, len(packed)) + packed)
     with pytest.raises(ValueError, match=r"scans\.mat would have more than 1 MB unpacked, which is not allowed"):
         open_recording(path)
+
+
+def test_two_lasers_in_structs_are_not_mixed_and_the_second_is_told(tmp_path: Path):
+    front, rear = {"ranges": SCANS, "angles": BEARINGS}, {"ranges": SCANS + 1.0, "angles": BEARINGS[::-1]}
+    recording = open_recording(saved(tmp_path, front=front, rear=rear))
+    check(recording)
+    assert any(
+        "front.ranges was read; rear.ranges, rear.angles were not" in each.text for each in recording.account.notices
+    )
