@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from .segment import Segment
 
 # Found by search near Paul Tol's "vibrant" scheme. Each has a contrast of at least 3 : 1 to white and to the dark
-# ground, and they stay far apart under the common colour deficiencies. None is red, which means refused,
-# or the pink of a point under test.
+# ground, and they stay far apart under the common colour deficiencies. None is red, which means refused, or the pink of
+# a point under test.
 SEGMENTS = np.array(
     [(39, 86, 240), (218, 117, 0), (21, 116, 95), (132, 96, 42), (13, 155, 220), (216, 0, 168)], dtype=np.uint8
 )

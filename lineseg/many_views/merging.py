@@ -33,7 +33,7 @@ Floats = NDArray[np.float64]
 def without_shadows(cells: Cells, walls: Walls, owner: NDArray[np.int32]) -> tuple[Walls, NDArray[np.int32]]:
     """The walls without those that outliers of a stronger wall form next to it."""
     parts = parts_of(walls, owner)
-    table = np.column_stack((walls.normal, walls.offset, walls.low, walls.high, walls.rms))
+    table = walls.table
     strength = [np.bincount(*_bins(cells, part, wall)) for part, wall in zip(parts, table, strict=True)]
     alive = np.ones(len(parts), np.bool_)
     for strong in np.argsort([-each.sum() for each in strength]).tolist():

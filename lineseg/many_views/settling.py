@@ -27,7 +27,7 @@ def settled(cells: Cells, walls: Walls, owner: NDArray[np.int32]) -> tuple[Walls
     walls claim, the median over the squares of both tells whether the surface lies on the line of the stronger one.
     """
     parts, owner = parts_of(walls, owner), owner.copy()
-    table = np.column_stack((walls.normal, walls.offset, walls.low, walls.high, walls.rms))
+    table = walls.table
     weights = np.minimum(cells.views, MOST_VIEWS)
     alive, waiting = np.ones(len(parts), np.bool_), np.ones(len(parts), np.bool_)
     for one in np.argsort([-cells.strength[part].sum() for part in parts], kind="stable").tolist():

@@ -23,8 +23,7 @@ def without_outdone(pieces: Walls, wall_of: NDArray[np.int64], profiles: Profile
     """The pieces without the stretches that outliers of a stronger surface form, and the wall of each."""
     gone = outdone(profiles, pieces)
     rows, owners = [], []
-    table = np.column_stack((pieces.normal, pieces.offset, pieces.low, pieces.high, pieces.rms))
-    for piece, (row, first, stop) in enumerate(zip(table, profiles.starts, profiles.starts[1:], strict=False)):
+    for piece, (row, first, stop) in enumerate(zip(pieces.table, profiles.starts, profiles.starts[1:], strict=False)):
         edges = np.flatnonzero(np.diff(np.concatenate(([True], gone[first:stop], [True]))))
         for begin, end in edges.reshape(-1, 2).tolist():
             low, high = row[3] + begin * STRETCH, min(row[3] + end * STRETCH, row[4])

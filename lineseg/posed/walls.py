@@ -28,6 +28,11 @@ class Walls(NamedTuple):
         return len(self.offset)
 
     @property
+    def table(self) -> NDArray[np.float64]:
+        """(w, 6) the rows from which `of` makes these walls."""
+        return np.column_stack((self.normal, self.offset, self.low, self.high, self.rms))
+
+    @property
     def along(self) -> NDArray[np.float64]:
         return np.column_stack((-self.normal[:, 1], self.normal[:, 0]))
 

@@ -9,6 +9,7 @@ import re
 from collections import ChainMap
 from collections.abc import Iterable, Iterator, Mapping, MutableMapping
 from dataclasses import replace
+from itertools import chain
 from typing import Any
 
 import numpy as np
@@ -81,17 +82,18 @@ def recording_of_variables(source: Source, pairs: Iterable[tuple[str, Value]], f
     """The scans of variables with names, of which fields of structs are joined by points."""
     arrays: dict[str, NDArray[Any]] = {}
     names: dict[str, str] = {}
-    left: list[str] = []
+    left: dict[str, list[str]] = {}
     for name, value in pairs:
         last = name.split(".")[-1]
         meant = field_of(name_of(last)) or last
         if names.setdefault(meant, name) == name:
             arrays[meant] = _in_own_unit(source, name_of(last), np.squeeze(np.asarray(value)))
         else:
-            left.append(name)
-    if "ranges" in {field_of(name_of(name.split(".")[-1])) for name in left}:
-        source.notes.notice("left out", f"{names['ranges']} was read; {', '.join(left)} were not: save each laser in a "
-                            "file of its own to read them.")  # fmt: skip
+            left.setdefault(meant, []).append(name)
+    if "ranges" in left:
+        others = ", ".join(chain.from_iterable(left.values()))
+        text = f"{names['ranges']} was read; {others} were not: save each laser in a file of its own to read them."
+        source.notes.notice("left out", text)
     low = arrays.get("angle_min", np.empty(0))
     if low.size == 1 and not {"angle_increment", "angle_max", "bearings"} & arrays.keys():
         # The step is that of a common laser, or given.

@@ -103,9 +103,7 @@ def _most(labels: list[bytes]) -> bytes | None:
     return label if 2 * count > len(labels) else None
 
 
-def _only(
-    rows: Iterable[Row], list_: re.Pattern[bytes], is_kept: Callable[[bytes], bool]
-) -> Iterator[Row]:  # fmt: skip
+def _only(rows: Iterable[Row], list_: re.Pattern[bytes], is_kept: Callable[[bytes], bool]) -> Iterator[Row]:
     """The rows from words that are kept to those that are not."""
     inside = True
     for row in rows:
