@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import gc
 import json
 import os
 import socketserver
@@ -202,9 +203,14 @@ def test_of_a_foxglove_server_only_schemas_of_scans_are_kept_and_no_name_without
     tracemalloc.start()
     with lying(talk, foxglove=True) as (address, _), running(address, "/scan") as told:
         said(told, "subscribed to /scan; waiting for its first scan")
-        held, _ = tracemalloc.get_traced_memory()
+
+        def held() -> int:
+            gc.collect()
+            return tracemalloc.get_traced_memory()[0]
+
+        # The peer is in this process, too, and what it sends is let go of a moment later.
+        eventually(lambda: held() < 2 * MOST_BYTES, f"less than {2 * MOST_BYTES} bytes to be held", held)
     tracemalloc.stop()
-    assert held < 2 * MOST_BYTES
 
 
 @pytest.mark.parametrize("answer", [{"results": 3, "values": {}}, {"results": [3], "values": [[]]}])
