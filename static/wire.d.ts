@@ -411,8 +411,7 @@ export interface Drawn {
  * Sent as one binary frame: the length of the head (uint32); the head in JSON, padded with spaces to a multiple of
  * 4 bytes; and `values`: float32, score after score in the order of Welcome.scores, each with ⌈frames / stride⌉
  * frames. All little-endian. The last score, the differences from A, and the totals of every fate are present only
- * if there is an A and every frame is known. place, first, every: as in the state. weights: of the scores in the
- * suspicion.
+ * if there is an A and every frame is known. place, first, every: as in the state.
  */
 export interface Surveyed {
   type: "survey";
@@ -421,7 +420,6 @@ export interface Surveyed {
   place: string;
   method: string;
   params: Record<string, number>;
-  weights: Record<string, number>;
   frames: number;
   first: number;
   every: number;

@@ -301,7 +301,6 @@ def surveyed(
         place=subject.key.place,
         method=subject.key.method,
         params=subject.key.params.numbers(),
-        weights=all_weights(subject.key.weights),
         frames=len(subject.recording),
         first=first,
         every=every,

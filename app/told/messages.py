@@ -273,7 +273,7 @@ class Surveyed(BaseModel):
     Sent as one binary frame: the length of the head (uint32); the head in JSON, padded with spaces to a multiple of 4
     bytes; and `values`: float32, score after score in the order of Welcome.scores, each with ⌈frames / stride⌉ frames.
     All little-endian. The last score, the differences from A, and the totals of every fate are present only if there is
-    an A and every frame is known. place, first, every: as in the state. weights: of the scores in the suspicion.
+    an A and every frame is known. place, first, every: as in the state.
     """
 
     type: Literal["survey"] = "survey"
@@ -282,7 +282,6 @@ class Surveyed(BaseModel):
     place: str
     method: str
     params: dict[str, int | float]
-    weights: dict[str, float]
     frames: int
     first: int = 0
     every: int = 1

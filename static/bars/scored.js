@@ -64,13 +64,11 @@ export class ScoredFrames {
     return value === undefined ? "" : `frame ${frame}: ${format(value, score.unit)}`;
   }
 
-  /** Whether the values belong to other thresholds or weights than the drawn ones, or only to some frames. */
+  /** Whether the values belong to other thresholds than the drawn ones, or only to some frames. */
   get stale() {
     const [survey, state] = [this.survey, this.#state];
     if (!survey || !state) return false;
-    const same = samePlace(survey, state) && survey.method === state.method && isIn(survey.params, state.params);
-    const weighed = this.#score !== "suspicion" || isIn(survey.weights, state.weights);
-    return survey.stride !== 1 || !same || !weighed;
+    return survey.stride !== 1 || !samePlace(survey, state) || !isIn(survey.params, state.params);
   }
 
   /** The number in its file or source of the frame at a place in the survey, from 0. @param {number} place */
@@ -149,7 +147,6 @@ export class ScoredFrames {
       stride,
       message,
       complete,
-      stale: this.stale,
     });
   }
 

@@ -6,11 +6,11 @@ import { clamp } from "../widgets/scale.js";
 import { FrameList } from "./frame_list.js";
 
 /** @typedef {import("../wire.js").Score} Score */
-/** @typedef {{score: string, recording: string, values: Float32Array, complete: boolean, stale: boolean, message: string | null}} Scored */
+/** @typedef {{score: string, recording: string, values: Float32Array, complete: boolean, message: string | null}} Scored */
 /** @typedef {typeof import("../text/inspect.js").inspectText.frames} Text */
-/** @typedef {Pick<import("../page.js").Page, "goToFrame" | "answered">} Page */
 /**
  * @typedef {object} Handlers
+ * @property {(frame: number) => void} onFrame
  * @property {(score: string) => void} onScore
  * @property {(place: number) => number} number the number of the frame at a place
  * @property {(frame: number) => string} value its score, in words
@@ -22,9 +22,9 @@ import { FrameList } from "./frame_list.js";
  * @property {HTMLElement} filter below the range
  */
 
-/** @param {Text} text @param {Page} page @param {Handlers} handlers */
-export function createFrames(text, page, handlers) {
-  return new Frames(text, page, handlers);
+/** @param {Text} text @param {Handlers} handlers */
+export function createFrames(text, handlers) {
+  return new Frames(text, handlers);
 }
 
 class Frames {
@@ -32,13 +32,12 @@ class Frames {
   #passes;
   #number;
   #onFrame;
-  #answered;
   /** @type {Scored | null} */ #scored = null;
   /** @type {Score[]} */ #scores = [];
   #recording = "";
   #frame = 0;
   /** The last frame that was opened from the list. */ #led = -1;
-  #leads = false;
+  /** Whether the first frame of the list is to be opened once it is known. */ #leads = false;
   /** The score and the recording of the range. */ #ranged = "";
   /** Range of the listed scores. */ #low = -Infinity;
   #high = Infinity;
@@ -50,13 +49,12 @@ class Frames {
   #note = h("p", { class: "hint" });
   #list;
 
-  /** @param {Text} text @param {Page} page @param {Handlers} handlers */
-  constructor(text, { goToFrame, answered }, { onScore, number, value, words, said, passes, onRows, extra, filter }) {
+  /** @param {Text} text @param {Handlers} handlers */
+  constructor(text, { onFrame, onScore, number, value, words, said, passes, onRows, extra, filter }) {
     this.#text = text;
     this.#passes = passes;
     this.#number = number;
-    this.#onFrame = goToFrame;
-    this.#answered = answered;
+    this.#onFrame = onFrame;
     this.#extra = extra;
     const select = h("select", { class: "select", "aria-label": text.score, onchange: () => onScore(select.value) });
     this.#select = select;
@@ -155,20 +153,6 @@ class Frames {
     this.#leads = this.#frame === this.#number(0);
   }
 
-  /** Whether the first frame of the list is to be opened once it is known. */
-  get leads() {
-    return this.#leads;
-  }
-
-  #leadNow() {
-    const { complete, stale, score, recording } = this.#scored ?? {};
-    const known = complete && !stale && score === "suspicion" && recording === this.#recording;
-    if (!this.#leads || !known || !this.#answered()) return;
-    this.#leads = false;
-    const [first] = this.#list.order;
-    if (first !== undefined) this.#go(first);
-  }
-
   /** @param {Score[]} scores */
   setScores(scores) {
     this.#scores = scores;
@@ -185,7 +169,10 @@ class Frames {
     if (scored) this.#select.value = scored.score;
     this.#extra.hidden = scored?.score !== "suspicion";
     this.sort();
-    this.#leadNow();
+    if (this.#leads && scored?.complete && scored.score === "suspicion" && scored.recording === this.#recording) {
+      this.#leads = false;
+      this.next(1);
+    }
   }
 
   /** @param {Readonly<import("../wire.js").View>} view */

@@ -27,7 +27,8 @@ export function createInspect(page, text, { pointing, timeline, onTags, onMend }
   });
   const said = createSaid(text.said, pointing);
   const filter = createFilter(text.filter, { words: words.texts, onChange: listFrames, onTags });
-  const frames = createFrames(text.frames, page, {
+  const frames = createFrames(text.frames, {
+    onFrame: page.goToFrame,
     onScore: (score) => page.change({ score }),
     number: (place) => timeline().scored.number(place),
     value: (frame) => timeline().scored.words(frame),
@@ -49,9 +50,6 @@ export function createInspect(page, text, { pointing, timeline, onTags, onMend }
     onReference: (reference) => page.change({ reference }),
     onWalls: (made) => readWalls(page, onMend, made),
   });
-  const showScored = () => inspecting() && frames.setScored(timeline().scored.current);
-  // Fresh scores may have come before the state to which they belong.
-  const setState = () => (showSaid(), frames.leads && showScored());
 
   /** Tags, note and remarks of a frame. @param {number} frame */
   function inOneLine(frame) {
@@ -61,8 +59,9 @@ export function createInspect(page, text, { pointing, timeline, onTags, onMend }
   }
 
   function showSaid() {
-    const frame = inspecting() ? page.drawn?.frame : undefined;
-    said.set(frame === undefined ? "" : filter.line(frame), frame === undefined ? [] : words.of(frame));
+    const drawn = page.drawn;
+    if (drawn && inspecting()) said.set(filter.line(drawn.frame), words.of(drawn.frame));
+    else said.set("", []);
   }
 
   function listFrames() {
@@ -84,7 +83,7 @@ export function createInspect(page, text, { pointing, timeline, onTags, onMend }
   }
 
   return {
-    parts: [ab, frames, truth, words, filter, weights, { setState }],
+    parts: [ab, frames, truth, words, filter, weights, { setState: showSaid }],
     pages: {
       frames: { name: "frames", label: text.tabs.frames, content: frames.element },
       truth: { name: "truth", label: text.tabs.truth, content: truth.element },
@@ -94,7 +93,7 @@ export function createInspect(page, text, { pointing, timeline, onTags, onMend }
     togglePin,
     nextDifference,
     /** The values of the strip changed, or the mode was entered. */
-    showScored,
+    showScored: () => inspecting() && frames.setScored(timeline().scored.current),
   };
 }
 

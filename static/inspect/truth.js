@@ -8,7 +8,7 @@ import { TruthTable } from "./truth_table.js";
 
 /** @typedef {import("../wire.js").State} State */
 /** @typedef {typeof import("../text/inspect.js").inspectText.truth} Text */
-/** @typedef {Pick<import("../page.js").Page, "sessionId" | "answered">} Page */
+/** @typedef {{sessionId: () => string, answered: () => boolean}} Page */
 /** @typedef {{onShow: (shown: boolean) => void, onReference: (reference: "labels" | "wall") => void,
  *            onWalls: (made: boolean) => void}} Handlers  onWalls: makes the truth from poses, or forgets it */
 

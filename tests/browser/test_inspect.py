@@ -217,36 +217,6 @@ def test_the_most_suspicious_frame_says_what_looks_wrong_and_weights_change_the_
     assert named.state["frame"] == 0
 
 
-def test_a_link_to_inspect_leads_by_its_own_weights_also_where_the_scores_are_there(new_tab, hallway):
-    found = with_stability(hallway, with_disputes(hallway, survey(hallway)))
-    assert found.scores is not None
-    only_gap = dict.fromkeys(WEIGHTS, 0.0) | {"gap": 1.0}
-    worst, other = (int(worst_first(found.scores, weights)[0]) for weights in (WEIGHTS, only_gap))
-    assert worst != other
-    link = "#mode=inspect&recording=sample:hallway"
-    tab = new_tab(f"{link}&frame=7&score=unstable")
-    # This score comes last.
-    scored(tab)
-    row = tab.page.locator(".frames-row").first
-
-    def follow(hash: str) -> None:
-        tab.page.evaluate("(hash) => { location.hash = hash }", hash)
-
-    follow(f"{link}&frame=7&score=suspicion")
-    tab.eventually(lambda: row.get_attribute("data-frame") == str(worst), f"frame {worst} is not the first")
-    assert tab.until("s.score === 'suspicion'")["frame"] == 7
-    follow(link)
-    tab.until(f"s.frame === {worst}")
-    weights = ",".join(f"{name}:{weight}" for name, weight in only_gap.items())
-    follow(f"{link}&weights={weights}")
-    tab.until(f"s.frame === {other}")
-    # The scores by these weights are still there when the score changes.
-    follow(f"{link}&frame=7&score=unstable&weights={weights}")
-    tab.until("s.frame === 7 && s.score === 'unstable'")
-    follow(link)
-    assert tab.until("s.frame !== 0 && s.frame !== 7")["frame"] == worst
-
-
 def test_the_lines_that_a_sentence_says_are_missed_are_ghosts_in_the_scene(new_tab):
     boards = open_recording(data_folder("sample_scans") / "room_of_boards.npz")
     ghosts = lines_missed(boards, 5)

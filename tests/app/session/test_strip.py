@@ -23,7 +23,6 @@ from waiting import SECONDS
 
 from lineseg import Params, Recording, open_recording
 from lineseg.doubt import SCORES
-from lineseg.doubt.suspicion import WEIGHTS
 from lineseg.readers import save_npz
 from lineseg.survey import survey
 from lineseg.survey.committee import with_disputes
@@ -147,14 +146,6 @@ def test_another_frame_or_score_needs_no_new_strip(page: Page):
     assert whole(page)["rev"] == rev
 
 
-def test_a_survey_says_by_which_weights_it_ranks(page: Page):
-    page.hello()
-    assert whole(page)["weights"] == WEIGHTS
-    rev = page.ask(weights={"gap": 2.0})
-    told = whole(page)
-    assert (told["rev"], told["weights"]) == (rev, WEIGHTS | {"gap": 2.0})
-
-
 def test_an_unknown_score_is_refused(page: Page):
     page.hello()
     error = page.refused(score="beauty")
@@ -214,16 +205,7 @@ def test_a_coarse_survey_keeps_each_frame_with_its_neighbours(long: Recording):
 def test_a_binary_message_keeps_its_numbers():
     values = np.arange(2 * len(SCORES), dtype=np.float32)
     message = Surveyed(
-        rev=3,
-        recording="ä",
-        place="",
-        method="m",
-        params={},
-        weights={},
-        frames=2,
-        stride=1,
-        message=None,
-        values=values.tobytes(),
+        rev=3, recording="ä", place="", method="m", params={}, frames=2, stride=1, message=None, values=values.tobytes()
     )
     told = surveyed(message.as_bytes())
     assert (told["rev"], told["recording"]) == (3, "ä")
